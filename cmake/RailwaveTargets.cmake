@@ -1,0 +1,35 @@
+# railwave_options: what every target of ours is compiled with. railwave_library(): one folder, one library.
+
+add_library(railwave_options INTERFACE)
+target_compile_features(railwave_options INTERFACE cxx_std_17)
+target_include_directories(railwave_options INTERFACE "${CMAKE_SOURCE_DIR}" "${CMAKE_SOURCE_DIR}/src")
+target_compile_options(railwave_options INTERFACE -Wall -Wextra -Wshadow)
+if(RAILWAVE_NATIVE)
+  target_compile_options(railwave_options INTERFACE -march=native)
+endif()
+if(RAILWAVE_SANITIZE)
+  target_compile_options(railwave_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer)
+  target_link_options(railwave_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# Kokkos with our options. Up to 4.7.0 it does not know two calls of CUDA 13, which a header then supplies.
+add_library(railwave_kokkos INTERFACE)
+target_link_libraries(railwave_kokkos INTERFACE Kokkos::kokkos)
+if(Kokkos_ENABLE_CUDA AND Kokkos_VERSION VERSION_LESS_EQUAL 4.7.0)
+  target_compile_options(railwave_kokkos INTERFACE
+    "SHELL:-include ${CMAKE_SOURCE_DIR}/cmake/cuda13_overloads.hpp")
+endif()
+
+# railwave_library(NAME LINK...): library railwave_NAME of all sources in the current folder. A folder that has
+# headers only, or nothing yet, is an interface library.
+function(railwave_library name)
+  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
+  if(sources)
+    add_library(railwave_${name} STATIC ${sources})
+    target_link_libraries(railwave_${name} PUBLIC railwave_options ${ARGN})
+  else()
+    add_library(railwave_${name} INTERFACE)
+    target_link_libraries(railwave_${name} INTERFACE railwave_options ${ARGN})
+  endif()
+endfunction()

@@ -16,6 +16,10 @@ endif()
 # Kokkos with our options. Up to 4.7.0 it does not know two calls of CUDA 13, which a header then supplies.
 add_library(railwave_kokkos INTERFACE)
 target_link_libraries(railwave_kokkos INTERFACE Kokkos::kokkos)
+if(Kokkos_ENABLE_CUDA)
+  # Eigen works on the host only; without its device side nvcc has much less to warn of.
+  target_compile_definitions(railwave_kokkos INTERFACE EIGEN_NO_CUDA)
+endif()
 if(Kokkos_ENABLE_CUDA AND Kokkos_VERSION VERSION_LESS_EQUAL 4.7.0)
   target_compile_options(railwave_kokkos INTERFACE
     "SHELL:-include ${CMAKE_SOURCE_DIR}/cmake/cuda13_overloads.hpp")

@@ -2,6 +2,7 @@
 
 #include <Kokkos_Core.hpp>
 #include <catch2/catch_session.hpp>
+#include <cstdlib>
 
 int main(int argc, char* argv[]) {
   Catch::Session session;
@@ -13,6 +14,8 @@ int main(int argc, char* argv[]) {
   if (options.listTests || options.listTags || options.listReporters || options.listListeners || options.showHelp) {
     return session.run();
   }
+  // Kokkos 3 warns on every start when this is not said. Several tests run at once, so no binding.
+  setenv("OMP_PROC_BIND", "false", 0);
   const Kokkos::ScopeGuard kokkos;
   return session.run();
 }

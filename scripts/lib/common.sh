@@ -30,9 +30,29 @@ version_at_least() {
 # Number of compile jobs: one a core, but no more than memory allows at about 1.5 GB a job.
 build_jobs() {
     local cores kilobytes by_memory
+    if [ -n "${RAILWAVE_JOBS:-}" ]; then
+        echo "$RAILWAVE_JOBS"
+        return
+    fi
     cores=$(nproc)
     kilobytes=$(awk '/^MemAvailable:/ {print $2}' /proc/meminfo)
     by_memory=$((${kilobytes:-1500000} / 1500000))
     [ "$by_memory" -ge 1 ] || by_memory=1
     echo "$((cores < by_memory ? cores : by_memory))"
+}
+
+# build_preset PRESET TARGET: configures if that was never done, and builds. Quiet unless it takes work or fails.
+build_preset() {
+    local preset=$1 target=$2 folder="$project_root/build/$1" log="$project_root/build/$1.log"
+    cd "$project_root" || return
+    mkdir -p build
+    if [ ! -f "$folder/build.ninja" ]; then
+        say "configuring build/$preset"
+        if ! cmake --preset "$preset" >"$log" 2>&1; then
+            tail -n 40 "$log" >&2
+            fail "CMake did not get through; the whole log is build/$preset.log"
+        fi
+    fi
+    say "building build/$preset ($target)"
+    cmake --build --preset "$preset" -j "$(build_jobs)" --target "$target" >&2 || fail "the build failed"
 }

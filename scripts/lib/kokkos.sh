@@ -49,7 +49,7 @@ fetch_kokkos_source() {
     private_apt_open source deb-src ||
         fail "could not reach Debian's source packages. Name a Kokkos source tree with RAILWAVE_KOKKOS_SOURCE=FOLDER"
     say "downloading Debian's source package trilinos, 170 MB (Kokkos is a part of it)"
-    (cd "$work" && apt-get "${private_apt_options[@]}" source --download-only trilinos >&2) ||
+    (cd "$work" && apt-get "${private_apt_options[@]}" source --download-only trilinos >/dev/null) ||
         fail "the source package trilinos did not arrive. Name a Kokkos source tree with RAILWAVE_KOKKOS_SOURCE=FOLDER"
     tarball=$(find "$work" -name 'trilinos_*.orig.tar.*' ! -name '*.asc' | head -n 1)
     [ -n "$tarball" ] || fail "the source package trilinos came without its tarball"
@@ -63,19 +63,28 @@ kokkos_source_version() {
     awk 'tolower($0) ~ /^[ \t]*set *\( *kokkos_version_(major|minor|patch) / {gsub(/[^0-9]/, "", $2); v = v (v == "" ? "" : ".") $2} END {print v}' "$1/CMakeLists.txt"
 }
 
+# Prints the CMake arguments that this version of Kokkos needs.
+kokkos_version_options() {
+    # 4.6.99 came with a new View that crashes when default-constructed with g++ 12; the old one is still there.
+    if version_at_least "$1" 4.6.99 && ! version_at_least "$1" 4.7.1; then
+        echo -DKokkos_ENABLE_IMPL_VIEW_LEGACY=ON
+    fi
+}
+
 # build_kokkos SOURCE BUILD PREFIX [CMake arguments...]
 build_kokkos() {
     local source=$1 build=$2 prefix=$3
     shift 3
-    cmake -S "$source" -B "$build" -G Ninja \
-        -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=17 -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
-        -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib \
-        -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_SERIAL=ON "$@" >"$build.log" 2>&1 &&
-        cmake --build "$build" --target install -j "$(build_jobs)" >>"$build.log" 2>&1 ||
-        {
-            tail -n 40 "$build.log" >&2
-            fail "Kokkos did not build; the whole log is $build.log"
-        }
+    if ! {
+        cmake -S "$source" -B "$build" -G Ninja \
+            -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_STANDARD=17 -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+            -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR=lib \
+            -DKokkos_ENABLE_OPENMP=ON -DKokkos_ENABLE_SERIAL=ON "$@" &&
+            cmake --build "$build" --target install -j "$(build_jobs)"
+    } >"$build.log" 2>&1; then
+        tail -n 40 "$build.log" >&2
+        fail "Kokkos did not build; the whole log is $build.log"
+    fi
 }
 
 setup_kokkos() {
@@ -93,10 +102,7 @@ setup_kokkos() {
     fi
     version=$(kokkos_source_version "$source")
     version_at_least "$version" "$kokkos_minimum" || fail "Kokkos $version in $source is too old, $kokkos_minimum is needed"
-    # From 4.6 on, the new View crashes when default-constructed with g++ 12; the old one is still there.
-    if version_at_least "$version" 4.6 && ! version_at_least "$version" 4.8; then
-        options+=(-DKokkos_ENABLE_IMPL_VIEW_LEGACY=ON)
-    fi
+    mapfile -t options < <(kokkos_version_options "$version")
 
     prefix="$deps_dir/kokkos-$version"
     say "building Kokkos $version with OpenMP into ${prefix#"$project_root"/}"

@@ -3,7 +3,7 @@
 
 packages_to_build=(
     cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libtomlplusplus-dev
-    make ninja-build pkg-config
+    ninja-build pkg-config
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
 packages_to_test=(python3 python3-h5py python3-matplotlib python3-vtk9)
@@ -21,16 +21,26 @@ missing_packages() {
     done
 }
 
-# Installs the given packages without what they merely recommend; fetches apt's lists only if they lack one.
+# Installs the given packages without what they merely recommend; fetches apt's lists only if they lack one or are
+# older than the archive. apt's own words go to .deps/apt.log, and to the terminal when it fails.
 install_packages() {
-    say "installing Debian packages: $*"
-    if ! apt-get install --simulate --no-install-recommends "$@" >/dev/null 2>&1; then
-        as_root apt-get -q update >&2
+    local log="$deps_dir/apt.log"
+    mkdir -p "$deps_dir"
+    : >"$log"
+    say "installing Debian packages, and those they need: $*"
+    if ! apt-get install --simulate --no-install-recommends "$@" >>"$log" 2>&1; then
+        as_root apt-get -q update >>"$log" 2>&1 || true # the installation below tells whether it mattered
     fi
-    if ! as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends "$@" >&2; then
-        # The lists may be older than the archive, which then no longer has the files they name.
-        as_root apt-get -q update >&2
-        as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y install --no-install-recommends "$@" >&2 ||
+    if ! apt_install "$@" >>"$log" 2>&1; then
+        as_root apt-get -q update >>"$log" 2>&1 || true
+        if ! apt_install "$@" >>"$log" 2>&1; then
+            tail -n 30 "$log" >&2
             fail "apt-get could not install: $*"
+        fi
     fi
+}
+
+apt_install() {
+    as_root env DEBIAN_FRONTEND=noninteractive \
+        apt-get -q -y -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 install --no-install-recommends "$@"
 }

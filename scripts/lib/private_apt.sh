@@ -8,6 +8,7 @@ debian_archives() {
     local lists=$1 codename
     # shellcheck source=/dev/null
     codename=$(. /etc/os-release && echo "${VERSION_CODENAME:-}")
+    # shellcheck disable=SC2016 # apt fills these in, not the shell
     apt-get ${lists:+-o "Dir::State::Lists=$lists"} indextargets \
         --format '$(ORIGIN)|$(CODENAME)|$(COMPONENT)|$(TRUSTED)|$(REPO_URI) $(RELEASE)' 'Created-By: Packages' |
         awk -F'|' -v codename="$codename" '$1 == "Debian" && $2 == codename && $3 == "main" && $4 == "yes" {print $5}' |
@@ -17,14 +18,14 @@ debian_archives() {
 # private_apt_open NAME TYPE [SUITE_SUFFIX]: prepares private lists of the given type (deb or deb-src), for this
 # release's main suite or, with a suffix (-backports), the suite of that name beside it. Sets private_apt_options.
 private_apt_open() {
-    local name=$1 type=$2 suffix=${3:-} base="$deps_dir/apt/$1" keyring=/usr/share/keyrings/debian-archive-keyring.gpg
+    local type=$2 suffix=${3:-} base="$deps_dir/apt/$1" keyring=/usr/share/keyrings/debian-archive-keyring.gpg
     local archives uri suite signed=""
     mkdir -p "$base/lists/partial" "$base/cache/archives/partial" "$base/sources.d" "$deps_dir/apt/system/partial"
 
     archives=$(debian_archives "")
     if [ -z "$archives" ]; then
         # The system's lists were never fetched or have been emptied, as container images do.
-        apt-get -q -o "Dir::State::Lists=$deps_dir/apt/system" update >&2 || return 1
+        apt-get -qq -o "Dir::State::Lists=$deps_dir/apt/system" update >&2 || return 1
         archives=$(debian_archives "$deps_dir/apt/system")
     fi
     if [ -z "$archives" ]; then
@@ -39,7 +40,7 @@ private_apt_open() {
     done <<<"$archives" >"$base/sources.d/debian.list"
 
     private_apt_options=(
-        -q
+        -qq
         -o "Dir::Etc::sourcelist=/dev/null"
         -o "Dir::Etc::sourceparts=$base/sources.d"
         -o "Dir::State::Lists=$base/lists"

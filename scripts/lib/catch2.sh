@@ -4,6 +4,7 @@
 
 catch2_ready() {
     local config
+    [ -z "${Catch2_ROOT:-}" ] || return 0 # the user's own, which CMake looks at
     for config in "$deps_dir"/catch2/usr/lib/*/cmake/Catch2/Catch2Config.cmake \
         "$deps_dir"/catch2/usr/lib/cmake/Catch2/Catch2Config.cmake; do
         [ ! -f "$config" ] || return 0
@@ -25,9 +26,9 @@ setup_catch2() {
     fi
     rm -rf "$work" "$deps_dir/catch2"
     mkdir -p "$work"
-    private_apt_open backports deb -backports || fail "could not read Debian's backports, where Catch2 3 is"
+    private_apt_open backports deb -backports || fail "could not read Debian's backports, where Catch2 3 is. Name an installed one with Catch2_ROOT=FOLDER"
     say "downloading Catch2 3 from Debian's backports"
-    (cd "$work" && apt-get "${private_apt_options[@]}" download libcatch2-dev >/dev/null) || fail "Catch2 3 did not arrive"
+    (cd "$work" && apt-get "${private_apt_options[@]}" download libcatch2-dev >/dev/null) || fail "Catch2 3 did not arrive. Name an installed one with Catch2_ROOT=FOLDER"
     packages=("$work"/libcatch2-dev_*.deb)
     dpkg-deb -x "${packages[0]}" "$work/root"
     mv "$work/root" "$deps_dir/catch2"

@@ -7,7 +7,9 @@ kokkos_link="$deps_dir/kokkos" # what CMake looks at
 kokkos_system_mark="$deps_dir/kokkos-installed"
 
 kokkos_ready() {
-    if [ -n "${RAILWAVE_KOKKOS_SOURCE:-}" ]; then
+    if [ -n "${Kokkos_ROOT:-}" ]; then
+        return 0 # the user's own, which CMake looks at
+    elif [ -n "${RAILWAVE_KOKKOS_SOURCE:-}" ]; then
         [ -f "$kokkos_link/lib/cmake/Kokkos/KokkosConfig.cmake" ] &&
             [ "$(cat "$kokkos_link/built-from" 2>/dev/null)" = "$RAILWAVE_KOKKOS_SOURCE" ]
     elif [ -f "$kokkos_link/lib/cmake/Kokkos/KokkosConfig.cmake" ]; then

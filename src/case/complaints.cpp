@@ -1,0 +1,53 @@
+#include "case/complaints.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "case/error.hpp"
+
+namespace railwave::case_file {
+namespace {
+
+constexpr std::size_t most_shown = 50;
+
+int rank(const Where& where) {
+  if (where.command_line) return std::numeric_limits<int>::max();
+  return where.line > 0 ? where.line : std::numeric_limits<int>::max() - 1;
+}
+
+}  // namespace
+
+void Complaints::add(Where where, const std::string& text) { found_.push_back({where, text}); }
+
+void Complaints::throw_if_any() const {
+  if (found_.empty()) return;
+  auto sorted = found_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Complaint& a, const Complaint& b) { return rank(a.where) < rank(b.where); });
+  std::vector<std::string> lines;
+  for (const auto& complaint : sorted) {
+    if (lines.size() == most_shown) {
+      lines.push_back(file_ + ": and " + std::to_string(sorted.size() - most_shown) + " more mistakes");
+      break;
+    }
+    const auto& where = complaint.where;
+    const auto place = where.command_line ? "command line"
+                       : where.line > 0   ? file_ + ":" + std::to_string(where.line)
+                                          : file_;
+    lines.push_back(place + ": " + complaint.text);
+  }
+  throw InputError(lines);
+}
+
+std::string printable(const std::string& text) {
+  constexpr std::size_t longest = 80;
+  std::string result = text.substr(0, longest);
+  for (auto& letter : result) {
+    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
+  }
+  // A cut in the middle of a UTF-8 letter would leave half of it.
+  while (text.size() > longest && !result.empty() && (static_cast<unsigned char>(result.back()) & 0x80) != 0) result.pop_back();
+  return text.size() > longest ? result + "..." : result;
+}
+
+}  // namespace railwave::case_file

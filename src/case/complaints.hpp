@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace railwave::case_file {
+
+/// Where something stands: a line of the case file, or the command line (overrides). Line 0: the file as a whole.
+struct Where {
+  int line = 0;
+  bool command_line = false;
+};
+
+/// The mistakes found so far in one case file.
+class Complaints {
+ public:
+  explicit Complaints(std::string file) : file_(std::move(file)) {}
+
+  void add(Where where, const std::string& text);
+  bool empty() const { return found_.empty(); }
+
+  /// Throws InputError with one mistake a line, in the file's order, then those of the whole file, then those of the command line.
+  void throw_if_any() const;
+
+ private:
+  struct Complaint {
+    Where where;
+    std::string text;
+  };
+  std::string file_;
+  std::vector<Complaint> found_;
+};
+
+/// `text` fit to stand in one line of a message: control characters replaced, cut when very long.
+std::string printable(const std::string& text);
+
+}  // namespace railwave::case_file

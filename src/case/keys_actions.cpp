@@ -1,0 +1,102 @@
+#include "case/keys.hpp"
+#include "case/rules.hpp"
+
+// What acts on the bodies: connectors, constraints, contacts, loads, gravity, initial motion.
+namespace railwave::case_file {
+
+using scene::Scene;
+
+Section connector_section() {
+  using scene::Connector;
+  auto section = named_section("connectors", "connector", &Scene::connectors,
+                               "Linear springs and dashpots side by side, between the mean motions of two node sets or points.");
+  section.keys = {
+      key("from", &Connector::from, "one end").names(node_set | point | ground).needed(),
+      key("to", &Connector::to, "the other end").names(node_set | point | ground).needed(),
+      key("stiffness", &Connector::stiffness, "spring stiffness along each of the axes").in("N/m").within(at_least(0)),
+      key("damping", &Connector::damping, "dashpot coefficient along each of the axes").in("N s/m").within(at_least(0)),
+      key("preload", &Connector::preload, "force on `to` when nothing has moved yet, along the axes").in("N"),
+      key("axes", &Connector::axes, "the three directions, each a unit vector"),
+  };
+  section.rule = check_connector;
+  return section;
+}
+
+Section constraint_section() {
+  using scene::Constraint;
+  auto section = named_section("constraints", "constraint", &Scene::constraints, "Directions in which the nodes of a set don't move.");
+  section.keys = {
+      key("target", &Constraint::target, "what is held").names(node_set | point).needed(),
+      key("fixed", &Constraint::fixed, "held directions: along the first, second, third of the axes").needed(),
+      key("axes", &Constraint::axes, "what x, y and z mean here: three unit vectors"),
+  };
+  return section;
+}
+
+Section contact_section() {
+  using scene::Contact;
+  auto section = named_section("contacts", "contact", &Scene::contacts, "Pairs of surfaces that may touch: penalty contact with Coulomb friction.");
+  section.keys = {
+      key("slave", &Contact::slave, "surface whose nodes must not enter the other").names(surface).needed(),
+      key("master", &Contact::master, "surface whose faces the nodes meet").names(surface).needed(),
+      key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out").within(between(0, 2)),
+      key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
+      key("close_gap", &Contact::close_gap, "before the run, the slave's part is moved along this direction until it first touches").direction().otherwise("it stays where it is"),
+  };
+  section.rule = check_contact;
+  return section;
+}
+
+Section curve_section() {
+  using scene::Curve;
+  auto section = named_section("curves", "curve", &Scene::curves, "Factors that change with time, for loads.");
+  section.keys = {
+      key("type", &Curve::type, "its shape; `constant` is 1 at all times").one_of({"constant", "cosine_ramp", "table"}).needed(),
+      key("start", &Curve::start, "when the ramp begins: 0 before").in("s").only({"cosine_ramp"}),
+      key("duration", &Curve::duration, "how long it rises from 0 to 1, as half a cosine wave").in("s").within(above(0)).needed().only({"cosine_ramp"}),
+      key("points", &Curve::points, "pairs [time in s, factor] with increasing time; straight lines between, constant before and after").needed().only({"table"}),
+  };
+  section.rule = check_curve;
+  return section;
+}
+
+Section load_section() {
+  using scene::Load;
+  auto section = named_section("loads", "load", &Scene::loads, "Forces from outside, constant or following a curve.");
+  section.keys = {
+      key("type", &Load::type, "what acts").one_of({"nodal_force", "pressure", "traction", "torque"}).needed(),
+      key("target", &Load::target, "what it acts on").names(node_set | point).needed().only({"nodal_force"}),
+      key("target", &Load::target, "what it acts on").names(surface).needed().only({"pressure", "traction"}),
+      key("target", &Load::target, "what it acts on").names(node_set).needed().only({"torque"}),
+      key("force", &Load::force, "total force, shared among the nodes by their mass").in("N").needed().only({"nodal_force"}),
+      key("pressure", &Load::pressure, "positive pushes into the body; follows the surface as it moves").in("Pa").needed().only({"pressure"}),
+      key("traction", &Load::traction, "force per undeformed area, of fixed direction").in("Pa").needed().only({"traction"}),
+      key("moment", &Load::moment, "torque about the axis").in("N m").needed().only({"torque"}),
+      key("axis", &Load::axis, "its direction, through the set's moving centre of mass").direction().only({"torque"}),
+      key("curve", &Load::curve, "factor that changes with time").names(curve).otherwise("constant 1"),
+  };
+  return section;
+}
+
+Section gravity_section() {
+  auto section = single_section("gravity", &Scene::gravity, "Acceleration of gravity on all parts and point masses; without this section there is none.");
+  section.open = [](Scene& scene, const scene::Place&) -> void* { return &scene; };
+  section.keys = {key("acceleration", &Scene::gravity, "usually [0, 0, -9.81]").in("m/s2").needed()};
+  return section;
+}
+
+Section motion_section() {
+  using scene::InitialMotion;
+  auto section = named_section("initial_motion", "initial motion", &Scene::initial_motions,
+                               "Velocities at the beginning of the run: a translation and a rotation.");
+  section.keys = {
+      key("parts", &InitialMotion::parts, "what moves").names(whole_part | point).needed(),
+      key("velocity", &InitialMotion::velocity, "of the centre").in("m/s"),
+      key("angular_velocity", &InitialMotion::angular_velocity, "about the centre").in("rad/s"),
+      key("centre", &InitialMotion::centre, "centre of the rotation").in("m").otherwise("each part's centre of mass"),
+  };
+  section.rule = check_motion;
+  return section;
+}
+
+}  // namespace railwave::case_file

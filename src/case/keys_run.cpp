@@ -1,0 +1,63 @@
+#include "case/keys.hpp"
+#include "case/rules.hpp"
+
+// How it is run: title, settling, time, output.
+namespace railwave::case_file {
+
+using scene::Scene;
+
+Section title_keys() {
+  Section section;
+  section.help = "Above all sections.";
+  section.open = [](Scene& scene, const scene::Place&) -> void* { return &scene; };
+  section.keys = {key("title", &Scene::title, "what the case is, for people; stored with the results")};
+  return section;
+}
+
+Section settle_section() {
+  using scene::Settle;
+  auto section = single_section("settle", &Scene::settle,
+                                "With this section the scene comes to rest under its static loads before the run, by dynamic "
+                                "relaxation; without it the run starts from the undeformed meshes.");
+  section.open = [](Scene& scene, const scene::Place&) -> void* {
+    scene.settle.active = true;
+    return &scene.settle;
+  };
+  section.keys = {
+      key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
+      key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled").within(inside(0, 1)),
+      key("max_steps", &Settle::max_steps, "give up after so many steps").within(at_least(1)),
+  };
+  return section;
+}
+
+Section time_section() {
+  using scene::Time;
+  auto section = single_section("time", &Scene::time, "How long the run lasts and how it steps.");
+  section.required = true;
+  section.keys = {
+      key("end", &Time::end, "simulated time").in("s").within(above(0)).needed(),
+      key("step_scale", &Time::step_scale, "safety factor on the largest stable step").within(above_up_to(0, 1)),
+      key("step", &Time::step, "time step; 0 takes it from elements and contact").in("s").within(at_least(0)),
+  };
+  section.rule = check_time;
+  return section;
+}
+
+Section output_section() {
+  using scene::Output;
+  auto section = single_section("output", &Scene::output, "What is written, and how often.");
+  section.keys = {
+      key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs"),
+      key("history_interval", &Output::history_interval, "between samples of the histories; 0 is every step").in("s").within(at_least(0)),
+      key("field_interval", &Output::field_interval, "between outputs of the fields; 0 is only the beginning and the end").in("s").within(at_least(0)),
+      key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
+      key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress"}),
+      key("history_sets", &Output::history_sets, "whose mean displacement, velocity and acceleration are written").names(node_set | point),
+      key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall").in("s").within(above(0)),
+  };
+  section.rule = check_output;
+  return section;
+}
+
+}  // namespace railwave::case_file

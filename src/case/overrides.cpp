@@ -1,0 +1,95 @@
+#include "case/overrides.hpp"
+
+#include "case/keys.hpp"
+#include "case/suggest.hpp"
+
+namespace railwave::case_file {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+}
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  for (std::size_t dot; (dot = path.find('.', begin)) != std::string::npos; begin = dot + 1) words.push_back(path.substr(begin, dot - begin));
+  words.push_back(path.substr(begin));
+  return words;
+}
+
+std::vector<std::string> child_names(const Node& table) {
+  std::vector<std::string> names;
+  for (const auto& child : table.children) names.push_back(child.name);
+  return names;
+}
+
+Node& find_or_add(Node& table, const std::string& name) {
+  if (auto* found = table.find(name)) return *found;
+  Node child;
+  child.name = name;
+  child.where = {0, true};
+  table.children.push_back(std::move(child));
+  return table.children.back();
+}
+
+/// The table that holds the key, or null with a complaint in `mistake`.
+Node* holder(const std::vector<std::string>& words, Node& root, std::string& mistake) {
+  if (words.size() == 1) {
+    if (const auto* section = find_section(words[0]); section && !words[0].empty()) {
+      mistake = "names a section; write " + words[0] + (section->named() ? ".NAME.key=value" : ".key=value");
+      return nullptr;
+    }
+    return &root;
+  }
+  const auto* section = words[0].empty() ? nullptr : find_section(words[0]);
+  if (!section) {
+    mistake = "there is no section [" + printable(words[0]) + "]; " + suggestion(words[0], section_names());
+    return nullptr;
+  }
+  const std::size_t wanted = section->named() ? 3 : 2;
+  if (words.size() != wanted) {
+    mistake = std::string("must be ") + section->name + (section->named() ? ".NAME.key=value" : ".key=value");
+    return nullptr;
+  }
+  if (!section->named()) {
+    auto& table = find_or_add(root, section->name);
+    return table.type == Node::Type::table ? &table : nullptr;
+  }
+  auto* entries = root.find(section->name);
+  if (entries && entries->type != Node::Type::table) return nullptr;
+  auto* entry = entries ? entries->find(words[1]) : nullptr;
+  if (!entry) {
+    const auto known = entries ? child_names(*entries) : std::vector<std::string>{};
+    mistake = "the file has no " + section->singular + " '" + printable(words[1]) + "'" + (known.empty() ? "" : "; " + suggestion(words[1], known));
+    return nullptr;
+  }
+  return entry->type == Node::Type::table ? entry : nullptr;
+}
+
+}  // namespace
+
+void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints) {
+  for (const auto& text : overrides) {
+    const auto equals = text.find('=');
+    if (equals == std::string::npos) {
+      complaints.add({0, true}, "'" + printable(text) + "' must be section.key=value, such as time.end=1e-3");
+      continue;
+    }
+    const auto path = trimmed(text.substr(0, equals));
+    const auto words = split(path);
+    Node value;
+    if (!parse_override_value(trimmed(text.substr(equals + 1)), path, value, complaints)) continue;
+    std::string mistake;
+    auto* table = holder(words, root, mistake);
+    if (!mistake.empty()) complaints.add({0, true}, printable(path) + ": " + mistake);
+    if (!table) continue;
+    value.name = words.back();
+    auto& place = find_or_add(*table, value.name);
+    place = value;
+  }
+}
+
+}  // namespace railwave::case_file

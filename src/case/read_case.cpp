@@ -1,0 +1,107 @@
+#include "case/read_case.hpp"
+
+#include <filesystem>
+
+#include "case/document.hpp"
+#include "case/keys.hpp"
+#include "case/overrides.hpp"
+#include "case/read_entry.hpp"
+#include "case/suggest.hpp"
+
+namespace railwave {
+namespace {
+
+using namespace case_file;
+
+/// Names are parts of other names (`part.set`) and of paths in the results file.
+std::string name_mistake(const Section& section, const std::string& name) {
+  if (name.empty()) return "the name is empty";
+  const auto allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  if (name.find('.') != std::string::npos) return "the name '" + printable(name) + "' has a dot, which separates part and set in 'part.set'; use '_'";
+  if (name.find_first_not_of(allowed) != std::string::npos) return "the name '" + printable(name) + "' may only have letters a-z, digits, '_' and '-'";
+  const bool body = section.name == "parts" || section.name == "points";
+  if (body && name == "ground") return "'ground' is what connectors are held by; choose another name";
+  return "";
+}
+
+void read_named(const Section& section, const Node& entries, scene::Scene& scene, Reading& reading) {
+  auto& complaints = reading.complaints;
+  if (entries.type != Node::Type::table) {
+    const auto mend = entries.type == Node::Type::list ? "is a list; write [" + section.name + ".NAME] with single brackets for each " + section.singular
+                                                       : "is " + entries.described() + ", must be a section " + section.title() + " for each " + section.singular;
+    complaints.add(entries.where, "[" + section.name + "]: " + mend);
+    return;
+  }
+  for (const auto& node : entries.children) {
+    const auto subject = "[" + section.name + "." + printable(node.name) + "]";
+    if (node.type == Node::Type::table) {
+      const auto mistake = name_mistake(section, node.name);
+      if (!mistake.empty()) complaints.add(node.where, subject + ": " + mistake);
+      read_entry(section, node, section.open(scene, {node.name, node.where.line}), subject, reading);
+    } else if (node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table) {
+      complaints.add(node.where, subject + ": is written in double brackets; write " + subject + " once, with single brackets");
+    } else {
+      complaints.add(node.where, "[" + section.name + "] " + printable(node.name) + ": stands outside a named section; write " + section.title() +
+                                     " above it, with a name of your choice for the " + section.singular);
+    }
+  }
+}
+
+void read_single(const Section& section, const Node& node, scene::Scene& scene, Reading& reading) {
+  const auto subject = "[" + section.name + "]";
+  if (node.type == Node::Type::table) {
+    read_entry(section, node, section.open(scene, {section.name, node.where.line}), subject, reading);
+  } else if (node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table) {
+    reading.complaints.add(node.where, subject + ": is written in double brackets; write it once, with single brackets");
+  } else {
+    reading.complaints.add(node.where, subject + ": is " + node.described() + ", must be a section " + subject + " with keys");
+  }
+}
+
+void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
+  const auto& top = *find_section("");
+  read_entry(top, root, &scene, "", reading);
+  for (const auto& node : root.children) {
+    const auto* section = node.name.empty() ? nullptr : find_section(node.name);
+    if (!section) {
+      if (is_section(node)) {
+        reading.complaints.add(node.where, "[" + printable(node.name) + "]: unknown section; " + suggestion(node.name, section_names()));
+      }
+      continue;
+    }
+    section->named() ? read_named(*section, node, scene, reading) : read_single(*section, node, scene, reading);
+  }
+  for (const auto& section : sections()) {
+    if (!section.required || !reading.complete) continue;
+    const auto* node = root.find(section.name);
+    if (node && (!section.named() || !node->children.empty())) continue;
+    std::string needed;
+    for (const auto& key : section.keys) {
+      if (key.required) needed += (needed.empty() ? "" : " and ") + key.name;
+    }
+    reading.complaints.add({}, section.title() + " is missing; add it, with " + needed);
+  }
+}
+
+}  // namespace
+
+scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides) {
+  const auto text = load_text(path);
+  Complaints complaints(path);
+  auto document = parse_document(text, complaints);
+  if (!document.usable) complaints.throw_if_any();
+
+  scene::Scene scene;
+  scene.path = path;
+  apply_overrides(overrides, document.root, complaints);
+  Reading reading{complaints, std::filesystem::path(path).parent_path().string(), document.complete, {}};
+  read_sections(document.root, scene, reading);
+  if (document.complete) {
+    check_references(reading.names, scene, complaints);
+    check_scene(scene, complaints);
+  }
+  complaints.throw_if_any();
+  return scene;
+}
+
+}  // namespace railwave

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/complaints.hpp"
+#include "case/key.hpp"
+
+namespace railwave::case_file {
+
+/// A name somewhere in the file that must refer to something.
+struct NameUse {
+  Where where;
+  std::string subject;   ///< "[parts.wheel] material", for the message
+  unsigned refers_to = refers_to_nothing;
+  std::string name;
+};
+
+/// Complains about each name that refers to nothing in the scene, with the nearest that exists. Sets inside a mesh are not looked
+/// up: only that their part exists.
+void check_references(const std::vector<NameUse>& uses, const scene::Scene& scene, Complaints& complaints);
+
+/// "a node set 'part.set', a point mass or 'ground'".
+std::string reference_text(unsigned refers_to);
+
+/// Rules that bind entries of different sections: names that would be ambiguous, pairs of surfaces given twice.
+void check_scene(const scene::Scene& scene, Complaints& complaints);
+
+}  // namespace railwave::case_file

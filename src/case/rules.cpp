@@ -1,0 +1,134 @@
+#include "case/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace railwave::case_file {
+namespace {
+
+struct Named {
+  const char* key;
+  double value;
+};
+
+void ascending(EntryCheck& check, std::initializer_list<Named> values) {
+  const Named* last = nullptr;
+  for (const auto& value : values) {
+    if (last && check.sound({last->key, value.key}) && !(last->value < value.value)) {
+      check.complain(value.key, fmt::format("is {}, must be larger than {} ({})", value.value, last->key, last->value));
+    }
+    last = &value;
+  }
+}
+
+void at_most(EntryCheck& check, Named value, Named limit) {
+  if (check.sound({value.key, limit.key}) && value.value > limit.value) {
+    check.complain(value.key, fmt::format("is {}, must be at most {} ({})", value.value, limit.key, limit.value));
+  }
+}
+
+void check_wheel(const scene::WheelMesh& wheel, EntryCheck& check) {
+  ascending(check, {{"bore_radius", wheel.bore_radius},
+                    {"hub_radius", wheel.hub_radius},
+                    {"web_inner_radius", wheel.web_inner_radius},
+                    {"web_outer_radius", wheel.web_outer_radius},
+                    {"rim_inner_radius", wheel.rim_inner_radius},
+                    {"radius", wheel.radius}});
+  at_most(check, {"web_inner_thickness", wheel.web_inner_thickness}, {"hub_width", wheel.hub_width});
+  at_most(check, {"web_outer_thickness", wheel.web_outer_thickness}, {"rim_width", wheel.rim_width});
+  at_most(check, {"zone_width", wheel.zone_width}, {"rim_width", wheel.rim_width});
+  at_most(check, {"zone_size", wheel.zone_size}, {"zone_width", wheel.zone_width});
+  at_most(check, {"zone_size", wheel.zone_size}, {"zone_length", wheel.zone_length});
+  at_most(check, {"zone_size", wheel.zone_size}, {"coarse_size", wheel.coarse_size});
+  const double around = 2 * M_PI * wheel.radius;
+  if (check.sound({"zone_length", "radius"}) && wheel.zone_length > around) {
+    check.complain("zone_length", fmt::format("is {}, must be at most once around the wheel ({:.4g} m)", wheel.zone_length, around));
+  }
+}
+
+void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
+  ascending(check, {{"start", rail.start}, {"end", rail.end}});
+  ascending(check, {{"zone_start", rail.zone_start}, {"zone_end", rail.zone_end}});
+  at_most(check, {"zone_size", rail.zone_size}, {"zone_width", rail.zone_width});
+  at_most(check, {"zone_size", rail.zone_size}, {"coarse_size", rail.coarse_size});
+  if (!check.sound({"start", "end"})) return;
+  if (check.sound({"zone_start"}) && (rail.zone_start < rail.start || rail.zone_start > rail.end)) {
+    check.complain("zone_start", fmt::format("is {}, must be on the rail, from start = {} to end = {}", rail.zone_start, rail.start, rail.end));
+  }
+  if (check.sound({"zone_end"}) && (rail.zone_end < rail.start || rail.zone_end > rail.end)) {
+    check.complain("zone_end", fmt::format("is {}, must be on the rail, from start = {} to end = {}", rail.zone_end, rail.start, rail.end));
+  }
+}
+
+std::string part_of(const std::string& set) { return set.substr(0, set.find('.')); }
+
+}  // namespace
+
+void check_mesh(void* entry, EntryCheck& check) {
+  const auto& mesh = *static_cast<scene::MeshSource*>(entry);
+  if (!check.sound({"type"})) return;
+  if (mesh.type == scene::MeshType::wheel) check_wheel(mesh.wheel, check);
+  if (mesh.type == scene::MeshType::rail) check_rail(mesh.rail, check);
+}
+
+void check_part(void* entry, EntryCheck& check) {
+  auto& part = *static_cast<scene::Part*>(entry);
+  if (check.given("hourglass_coefficient")) return;
+  part.hourglass_coefficient = part.hourglass == scene::HourglassType::stiffness ? 0.05 : 0.1;
+}
+
+void check_connector(void* entry, EntryCheck& check) {
+  const auto& connector = *static_cast<scene::Connector*>(entry);
+  if (check.sound({"from", "to"}) && connector.from == connector.to) {
+    check.complain("to", fmt::format("is '{}' like `from`; the two ends must differ", connector.to));
+  }
+}
+
+void check_contact(void* entry, EntryCheck& check) {
+  const auto& contact = *static_cast<scene::Contact*>(entry);
+  if (!check.sound({"slave", "master"})) return;
+  if (contact.slave == contact.master) {
+    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces", contact.master));
+  } else if (contact.close_gap && part_of(contact.slave) == part_of(contact.master)) {
+    check.complain("close_gap", fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out",
+                                            part_of(contact.slave)));
+  }
+}
+
+void check_curve(void* entry, EntryCheck& check) {
+  const auto& curve = *static_cast<scene::Curve*>(entry);
+  if (!check.sound({"type", "points"})) return;
+  for (std::size_t i = 1; i < curve.points.size(); ++i) {
+    const double before = curve.points[i - 1][0], time = curve.points[i][0];
+    if (time > before) continue;
+    check.complain("points", fmt::format("time must increase from pair to pair, but pair {} has {} s after {} s", i + 1, time, before));
+    return;
+  }
+}
+
+void check_motion(void* entry, EntryCheck& check) {
+  const auto& motion = *static_cast<scene::InitialMotion*>(entry);
+  const scene::Vec3 zero{0, 0, 0};
+  if (motion.centre && motion.angular_velocity == zero && check.sound({"centre", "angular_velocity"})) {
+    check.complain("centre", "has no effect without angular_velocity; give that too, or leave centre out");
+  }
+}
+
+void check_time(void* entry, EntryCheck& check) {
+  const auto& time = *static_cast<scene::Time*>(entry);
+  at_most(check, {"step", time.step}, {"end", time.end});
+}
+
+void check_output(void* entry, EntryCheck& check) {
+  const auto& output = *static_cast<scene::Output*>(entry);
+  if (!check.sound({"field_sets", "fields"})) return;
+  if (!output.field_sets.empty() && !check.given("fields")) {
+    check.complain("fields", "is missing, so nothing would be written for field_sets; add for instance fields = [\"displacement\"]");
+  }
+  if (!output.fields.empty() && !check.given("field_sets")) {
+    check.complain("field_sets", "is missing, so none of the fields would be written; add for instance field_sets = [\"PART\"]");
+  }
+}
+
+}  // namespace railwave::case_file

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a case file says, read and checked: plain host structs in SI units, in the file's order.
+/// Names that refer to other entries have been checked to exist; names of sets inside a mesh (`part.set`) are resolved
+/// when the model is built, because a mesh may come from a file.
+namespace railwave::scene {
+
+using Vec3 = std::array<double, 3>;
+
+/// Where an entry stands, for errors found after reading.
+struct Place {
+  std::string name;  ///< the entry's own name, e.g. "wheel" of [parts.wheel]
+  int line = 0;
+};
+
+struct Material : Place {
+  double youngs_modulus = 0;  ///< Pa
+  double poissons_ratio = 0;
+  double density = 0;  ///< kg/m3
+};
+
+enum class MeshType { box, wheel, rail, file };
+
+struct BoxMesh {
+  Vec3 origin{0, 0, 0};  ///< lowest corner, m
+  Vec3 size{1, 1, 1};    ///< m
+  std::array<int, 3> divisions{1, 1, 1};
+};
+
+/// S1002 tread profile revolved; axle along y through (0, 0, 0) at the tape circle's plane y = 0; flange towards -y;
+/// the solution zone is centred on the lowest point, rolled towards +x.
+struct WheelMesh {
+  std::string profile = "S1002";
+  double radius = 0.46;            ///< nominal rolling radius at the tape circle
+  double bore_radius = 0.0925;
+  double hub_radius = 0.125;       ///< where the hub's full width ends
+  double hub_width = 0.18;
+  double web_inner_radius = 0.160; ///< where the hub's taper has become the web
+  double web_inner_thickness = 0.0256;
+  double web_outer_thickness = 0.0197;
+  double web_outer_radius = 0.3505;
+  double rim_inner_radius = 0.3855;  ///< where the rim has its full width
+  double rim_width = 0.135;
+  double zone_size = 0.002;        ///< element size in the solution zone
+  double zone_length = 0.16;       ///< rolled arc length that is fine
+  double zone_start = -0.02;       ///< arc position of the zone's beginning; 0 is the lowest point, positive is rolled later
+  double zone_centre = 0.0;        ///< lateral position of the contact band's middle (profile coordinate s)
+  double zone_width = 0.03;        ///< width of the contact band
+  double growth = 1.25;            ///< largest ratio of neighbouring element sizes
+  double coarse_size = 0.030;      ///< element size far from the zone, at the tread
+};
+
+/// 54E1 section extruded along x, foot centre at y = 0 and underside at z = 0, inclined towards -y (the track's centre).
+struct RailMesh {
+  std::string section = "54E1";
+  double inclination = 0.025;      ///< 1:40
+  double start = -0.3;             ///< x of the rail's beginning, m
+  double end = 0.5;                ///< x of its end
+  double zone_size = 0.002;
+  double zone_start = -0.02;       ///< x range of the solution zone
+  double zone_end = 0.14;
+  double zone_centre = -0.003;     ///< lateral (y) middle of the contact band
+  double zone_width = 0.03;
+  double growth = 1.25;
+  double coarse_size = 0.030;
+};
+
+struct FileMesh {
+  std::string path;                ///< absolute, or relative to the case file's folder (already joined)
+  double scale = 1.0;              ///< multiplies coordinates: 0.001 for a mesh in mm
+};
+
+struct MeshSource : Place {
+  MeshType type = MeshType::box;
+  BoxMesh box;
+  WheelMesh wheel;
+  RailMesh rail;
+  FileMesh file;
+};
+
+enum class HourglassType { viscous, stiffness };
+
+struct Part : Place {
+  std::string mesh;
+  std::string material;
+  std::string element_set;         ///< empty: the whole mesh
+  Vec3 position{0, 0, 0};          ///< translation of the mesh, m
+  HourglassType hourglass = HourglassType::viscous;
+  double hourglass_coefficient = 0.1;
+};
+
+enum class CurveType { constant, cosine_ramp, table };
+
+struct Curve : Place {
+  CurveType type = CurveType::constant;
+  double start = 0;                        ///< s, cosine_ramp: zero before
+  double duration = 0;                     ///< s, cosine_ramp: 1 after start + duration (thesis eq. 3.2)
+  std::vector<std::array<double, 2>> points;  ///< table: (time, value), linear between, constant beyond
+};
+
+struct PointMass : Place {
+  double mass = 0;                 ///< kg
+  Vec3 position{0, 0, 0};
+};
+
+enum class LoadType { nodal_force, pressure, traction, torque };
+
+struct Load : Place {
+  LoadType type = LoadType::nodal_force;
+  std::string target;              ///< `part.node_set` or a point mass (nodal_force, torque); `part.surface` (pressure, traction)
+  Vec3 force{0, 0, 0};             ///< nodal_force: total, shared by mass over the set, N
+  double pressure = 0;             ///< Pa, positive pushes into the body, follows the surface
+  Vec3 traction{0, 0, 0};          ///< Pa, fixed direction and reference area
+  double moment = 0;               ///< N m about axis through the set's moving centre of mass
+  Vec3 axis{0, 1, 0};
+  std::string curve;               ///< empty: constant 1
+};
+
+/// Linear spring and dashpot in parallel in each direction between the mean motions of two node sets (or point masses).
+struct Connector : Place {
+  std::string from;                ///< `part.node_set`, a point mass, or "ground"
+  std::string to;
+  Vec3 stiffness{0, 0, 0};         ///< N/m along the axes
+  Vec3 damping{0, 0, 0};           ///< N s/m
+  Vec3 preload{0, 0, 0};           ///< force on `to` at zero relative displacement, N
+  std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+
+struct Constraint : Place {
+  std::string target;              ///< `part.node_set` or a point mass
+  std::array<bool, 3> fixed{false, false, false};  ///< along axes[0], axes[1], axes[2]
+  std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+
+struct Contact : Place {
+  std::string slave;               ///< `part.surface`
+  std::string master;              ///< `part.surface`
+  double friction = 0;             ///< Coulomb coefficient
+  double penalty_scale = 1.0;      ///< f_SI of thesis eq. 2.26d
+  std::optional<Vec3> close_gap;   ///< the slave's part is moved along this direction until first touch, before the run
+};
+
+struct InitialMotion : Place {
+  std::vector<std::string> parts;  ///< parts and point masses
+  Vec3 velocity{0, 0, 0};
+  Vec3 angular_velocity{0, 0, 0};  ///< rad/s
+  std::optional<Vec3> centre;      ///< of rotation; absent: the centre of mass of each part
+};
+
+/// Static equilibrium by dynamic relaxation before the run; absent: the run starts from the undeformed mesh.
+struct Settle {
+  bool active = false;
+  double tolerance = 1e-3;         ///< residual force over applied force at which it counts as settled
+  int max_steps = 20000;
+};
+
+struct Time {
+  double end = 0;                  ///< s
+  double step_scale = 0.9;         ///< sf, thesis 3.3.6
+  double step = 0;                 ///< s; 0: from elements and contact
+};
+
+struct Output {
+  std::string file = "results.h5"; ///< relative to the folder the program runs in unless absolute
+  double history_interval = 0;     ///< s; 0: every step
+  double field_interval = 0;       ///< s; 0: only at the beginning and the end
+  std::vector<std::string> field_sets;   ///< `part` or `part.element_set` or `part.surface`: element and node fields on these
+  std::vector<std::string> fields;       ///< displacement, velocity, acceleration, stress
+  std::vector<std::string> history_sets; ///< `part.node_set` or point masses: mean displacement, velocity, acceleration
+  double progress_interval = 5;    ///< wall seconds between progress lines
+};
+
+struct Scene {
+  std::string title;
+  std::string path;                ///< of the case file
+  std::vector<Material> materials;
+  std::vector<MeshSource> meshes;
+  std::vector<Part> parts;
+  std::vector<Curve> curves;
+  std::vector<PointMass> points;
+  std::vector<Load> loads;
+  std::vector<Connector> connectors;
+  std::vector<Constraint> constraints;
+  std::vector<Contact> contacts;
+  std::vector<InitialMotion> initial_motions;
+  Vec3 gravity{0, 0, 0};           ///< m/s2
+  Settle settle;
+  Time time;
+  Output output;
+};
+
+}  // namespace railwave::scene

@@ -1,0 +1,96 @@
+#include "mesh/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "case/error.hpp"
+
+namespace railwave {
+
+std::string read_whole_file(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status))
+    throw InputError(fmt::format("{}: no such file; check the path", path));
+  if (!std::filesystem::is_regular_file(status))
+    throw InputError(fmt::format("{}: not a file; give the path of a mesh file", path));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
+  const auto size = std::filesystem::file_size(path, error);
+  if (error) throw InputError(fmt::format("{}: can't be read: {}", path, error.message()));
+  std::string bytes(size, '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(size));
+  // A file that another program is shortening meanwhile gives fewer bytes than it promised.
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  return bytes;
+}
+
+std::optional<std::int64_t> parse_integer(std::string_view text) {
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  std::int64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+std::optional<double> parse_real(std::string_view text) {
+  constexpr std::size_t longest = 63;
+  char buffer[longest + 1];
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  if (text.empty() || text.size() > longest) return std::nullopt;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    buffer[i] = (c == 'd' || c == 'D') ? 'e' : c;
+  }
+  buffer[text.size()] = '\0';
+
+  double value = 0;
+  const char* end = buffer + text.size();
+  const auto result = std::from_chars(buffer, end, value);
+  if (result.ptr != end || result.ec == std::errc::invalid_argument) return std::nullopt;
+  if (result.ec == std::errc::result_out_of_range) {
+    // from_chars doesn't tell too large from too small; strtod does.
+    value = std::strtod(buffer, nullptr);
+    if (std::fabs(value) > 1) return std::nullopt;
+  }
+  if (!std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
+std::string for_message(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string result;
+  for (std::size_t i = 0; i < text.size() && i < longest; ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte < 0x20 || byte >= 0x7f)
+      result += fmt::format("\\x{:02x}", byte);
+    else
+      result += text[i];
+  }
+  return text.size() > longest ? result + "..." : result;
+}
+
+}  // namespace railwave

@@ -6,13 +6,15 @@ packages_to_build=(
     ninja-build pkg-config
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
-packages_to_test=(python3 python3-h5py python3-matplotlib python3-vtk9)
+packages_to_test=(python3-vtk9)
 
 # Prints those of the given packages that are not installed. A package is also there if another provides it.
 missing_packages() {
     local installed package
     installed=" $(dpkg-query -W -f '${db:Status-Abbrev}|${Package} ${Provides}\n' |
         awk -F'|' '$1 ~ /^ii/ {gsub(/\([^)]*\)/, "", $2); gsub(/,/, " ", $2); print $2}' | tr -s ' \n' '  ') "
+    # ParaView's Python module brings VTK along and shuts out Debian's VTK by itself.
+    installed=${installed/ python3-paraview / python3-paraview python3-vtk9 }
     for package in "$@"; do
         case "$installed" in
         *" $package "*) ;;
@@ -22,7 +24,7 @@ missing_packages() {
 }
 
 # Installs the given packages without what they merely recommend; fetches apt's lists only if they lack one or are
-# older than the archive. apt's own words go to .deps/apt.log, and to the terminal when it fails.
+# older than the archive. Never removes a package. apt's own words go to .deps/apt.log, and to the terminal when it fails.
 install_packages() {
     local log="$deps_dir/apt.log"
     mkdir -p "$deps_dir"
@@ -42,5 +44,5 @@ install_packages() {
 
 apt_install() {
     as_root env DEBIAN_FRONTEND=noninteractive \
-        apt-get -q -y -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 install --no-install-recommends "$@"
+        apt-get -q -y -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 install --no-install-recommends --no-remove "$@"
 }

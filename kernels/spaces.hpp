@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <string>
+
+namespace railwave {
+
+using ExecutionSpace = Kokkos::DefaultExecutionSpace;
+using MemorySpace = ExecutionSpace::memory_space;
+
+/// A device array. The layout is Kokkos' own choice for the space: rows together on a host (a node's three components in
+/// one cache line), columns together on a GPU (coalesced).
+template <class T>
+using Array = Kokkos::View<T, MemorySpace>;
+
+using Range = Kokkos::RangePolicy<ExecutionSpace>;
+
+/// An uninitialised array; for arrays that a kernel or a copy fills whole.
+template <class T, class... Extents>
+Array<T> unset_array(const char* label, Extents... extents) {
+  return Array<T>(Kokkos::view_alloc(std::string(label), Kokkos::WithoutInitializing), extents...);
+}
+
+}  // namespace railwave

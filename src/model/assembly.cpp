@@ -1,0 +1,199 @@
+#include "model/assembly.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "case/error.hpp"
+#include "case/suggest.hpp"
+#include "mesh/build_mesh.hpp"
+
+namespace railwave {
+namespace {
+
+/// The part of a mesh that one element set covers, with a numbering of its own.
+Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
+  Mesh result;
+  std::vector<int> new_node(mesh.nodes.size(), -1), new_element(mesh.elements.size(), -1);
+  for (int e : kept) {
+    new_element[e] = static_cast<int>(result.elements.size());
+    auto corners = mesh.elements[e];
+    for (int& n : corners) {
+      if (new_node[n] < 0) {
+        new_node[n] = static_cast<int>(result.nodes.size());
+        result.nodes.push_back(mesh.nodes[n]);
+      }
+      n = new_node[n];
+    }
+    result.elements.push_back(corners);
+  }
+  for (const auto& [name, nodes] : mesh.node_sets)
+    for (int n : nodes)
+      if (new_node[n] >= 0) result.node_sets[name].push_back(new_node[n]);
+  for (const auto& [name, elements] : mesh.element_sets)
+    for (int e : elements)
+      if (new_element[e] >= 0) result.element_sets[name].push_back(new_element[e]);
+  for (const auto& [name, faces] : mesh.surfaces)
+    for (const Face& face : faces)
+      if (new_element[face.element] >= 0) result.surfaces[name].push_back({new_element[face.element], face.side});
+  return result;
+}
+
+Mesh mesh_of(const scene::Scene& scene, const scene::Part& part) {
+  const auto source = std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                                   [&](const auto& candidate) { return candidate.name == part.mesh; });
+  Mesh mesh = build_mesh(*source);
+  if (part.element_set.empty()) return mesh;
+  const auto set = mesh.element_sets.find(part.element_set);
+  if (set == mesh.element_sets.end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : mesh.element_sets) names.push_back(entry.first);
+    throw InputError(unknown_set(scene, part, "element_set", part.element_set, names));
+  }
+  return submesh(mesh, set->second);
+}
+
+void append(Assembly& assembly, const Mesh& mesh, const std::string& part) {
+  const int first_node = static_cast<int>(assembly.nodes.size());
+  const int first_element = static_cast<int>(assembly.elements.size());
+  for (const Vec3& node : mesh.nodes) assembly.nodes.push_back(node);
+  for (auto corners : mesh.elements) {
+    for (int& n : corners) n += first_node;
+    assembly.elements.push_back(corners);
+  }
+  auto& all_nodes = assembly.node_sets[part];
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) all_nodes.push_back(first_node + static_cast<int>(n));
+  auto& all_elements = assembly.element_sets[part];
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) all_elements.push_back(first_element + static_cast<int>(e));
+  for (const auto& [name, nodes] : mesh.node_sets)
+    for (int n : nodes) assembly.node_sets[part + "." + name].push_back(first_node + n);
+  for (const auto& [name, elements] : mesh.element_sets)
+    for (int e : elements) assembly.element_sets[part + "." + name].push_back(first_element + e);
+  for (const auto& [name, faces] : mesh.surfaces) {
+    auto& surface = assembly.surfaces[part + "." + name];
+    for (const Face& face : faces) surface.push_back({first_element + face.element, face.side});
+    // A surface's nodes are a node set too, unless the mesh has one of that name.
+    auto& nodes = assembly.node_sets[part + "." + name];
+    if (!nodes.empty()) continue;
+    for (const Face& face : surface)
+      for (int n : assembly.face_nodes(face)) nodes.push_back(n);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+}
+
+Vec3 subtract(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// How far from `origin` along `direction` the triangle is (Moeller & Trumbore 1997); infinity: missed.
+double distance_to_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 e1 = subtract(b, a), e2 = subtract(c, a), p = cross(direction, e2);
+  const double determinant = dot(e1, p);
+  const double missed = std::numeric_limits<double>::infinity();
+  if (std::fabs(determinant) < 1e-30) return missed;
+  const Vec3 t = subtract(origin, a), q = cross(t, e1);
+  const double u = dot(t, p) / determinant, v = dot(direction, q) / determinant;
+  if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) return missed;
+  return dot(e2, q) / determinant;
+}
+
+/// Moves the slave's part along the contact's direction until its first node touches the master.
+void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembly& assembly) {
+  Vec3 direction = *contact.close_gap;
+  const double length = std::sqrt(dot(direction, direction));
+  for (double& d : direction) d /= length;
+  double nearest = std::numeric_limits<double>::infinity();
+  const auto& slaves = surface_nodes(assembly, find_surface(scene, assembly, contact, "slave", contact.slave));
+  const auto& master = find_surface(scene, assembly, contact, "master", contact.master);
+  for (int n : slaves)
+    for (const Face& face : master) {
+      const auto corner = assembly.face_nodes(face);
+      for (int second : {1, 2})
+        nearest = std::min(nearest, distance_to_triangle(assembly.nodes[n], direction, assembly.nodes[corner[0]],
+                                                         assembly.nodes[corner[second]], assembly.nodes[corner[second + 1]]));
+    }
+  if (!std::isfinite(nearest))
+    throw InputError(fmt::format("{}:{}: [contacts.{}] close_gap: moved along [{}, {}, {}], no node of '{}' ever meets '{}'; "
+                                 "turn the direction, or place the part so that the surfaces face each other",
+                                 scene.path, contact.line, contact.name, direction[0], direction[1], direction[2],
+                                 contact.slave, contact.master));
+  const std::string part = contact.slave.substr(0, contact.slave.find('.'));
+  for (int n : assembly.node_sets.at(part))
+    for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
+}
+
+template <class Map>
+std::vector<std::string> names_of(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  return names;
+}
+
+}  // namespace
+
+std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
+                        const std::string& name, const std::vector<std::string>& known) {
+  const std::string hint = known.empty() ? "the mesh has none" : suggestion(name, known);
+  return fmt::format("{}:{}: {}: {}: there is no set '{}'; {}", scene.path, entry.line, entry.name, key, name, hint);
+}
+
+const std::vector<int>& find_node_set(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
+                                      const std::string& key, const std::string& name) {
+  const auto found = assembly.node_sets.find(name);
+  if (found == assembly.node_sets.end() || found->second.empty())
+    throw InputError(unknown_set(scene, entry, key, name, names_of(assembly.node_sets)));
+  return found->second;
+}
+
+const std::vector<Face>& find_surface(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
+                                      const std::string& key, const std::string& name) {
+  const auto found = assembly.surfaces.find(name);
+  if (found == assembly.surfaces.end() || found->second.empty())
+    throw InputError(unknown_set(scene, entry, key, name, names_of(assembly.surfaces)));
+  return found->second;
+}
+
+std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
+  std::vector<int> nodes;
+  for (const Face& face : surface)
+    for (int n : assembly.face_nodes(face)) nodes.push_back(n);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+Assembly assemble(const scene::Scene& scene) {
+  Assembly assembly;
+  for (const scene::Part& part : scene.parts) {
+    Mesh mesh = mesh_of(scene, part);
+    for (Vec3& node : mesh.nodes)
+      for (int i = 0; i < 3; ++i) node[i] += part.position[i];
+    Assembly::PartRange range;
+    range.name = part.name;
+    range.first_node = static_cast<int>(assembly.nodes.size());
+    range.node_count = static_cast<int>(mesh.nodes.size());
+    range.first_element = static_cast<int>(assembly.elements.size());
+    range.element_count = static_cast<int>(mesh.elements.size());
+    range.material = static_cast<int>(
+        std::find_if(scene.materials.begin(), scene.materials.end(),
+                     [&](const auto& material) { return material.name == part.material; }) -
+        scene.materials.begin());
+    assembly.parts.push_back(range);
+    append(assembly, mesh, part.name);
+  }
+  for (const scene::PointMass& point : scene.points) {
+    assembly.point_nodes.push_back(static_cast<int>(assembly.nodes.size()));
+    assembly.node_sets[point.name] = {assembly.point_nodes.back()};
+    assembly.nodes.push_back(point.position);
+  }
+  for (const scene::Contact& contact : scene.contacts)
+    if (contact.close_gap) close_gap(scene, contact, assembly);
+  return assembly;
+}
+
+}  // namespace railwave

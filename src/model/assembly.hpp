@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "mesh/mesh.hpp"
+
+namespace railwave {
+
+/// All parts of a scene put together on the host: one numbering of nodes and elements, sets under the names that a case
+/// file uses (`part.set`; a part's own name means all of it). Point masses are nodes after those of the meshes.
+struct Assembly {
+  struct PartRange {
+    std::string name;
+    int first_node = 0, node_count = 0;
+    int first_element = 0, element_count = 0;
+    int material = 0;  ///< position in scene.materials
+  };
+
+  std::vector<Vec3> nodes;                       ///< as placed, undeformed, m
+  std::vector<std::array<int, 8>> elements;
+  std::vector<PartRange> parts;
+  std::vector<int> point_nodes;                  ///< node of each of scene.points
+  std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, std::vector<int>> element_sets;
+  std::map<std::string, std::vector<Face>> surfaces;
+
+  std::array<int, 4> face_nodes(const Face& face) const {
+    std::array<int, 4> result{};
+    for (int i = 0; i < 4; ++i) result[i] = elements[face.element][hexahedron_face_corners[face.side][i]];
+    return result;
+  }
+};
+
+/// Meshes every part of the scene and puts them together. Throws InputError for a set that no mesh has, and for
+/// `close_gap` contacts that never meet.
+Assembly assemble(const scene::Scene& scene);
+
+/// The nodes of `part`, `part.node_set`, `part.surface` or a point mass. Throws InputError naming the entry and key of the
+/// case file, its line, and the nearest valid name.
+const std::vector<int>& find_node_set(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
+                                      const std::string& key, const std::string& name);
+const std::vector<Face>& find_surface(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
+                                      const std::string& key, const std::string& name);
+
+/// Nodes of a surface, ascending, each once.
+std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface);
+
+/// The complaint about a set that does not exist.
+std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
+                        const std::string& name, const std::vector<std::string>& known);
+
+}  // namespace railwave

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "model/model.hpp"
+
+/// The steps of build_model, each in a file of its own.
+namespace railwave {
+
+void build_elements(Model& model);     ///< element_sets.cpp: tiles, corner forces, hourglass scales, lengths, masses
+void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
+void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
+void build_contacts(Model& model);     ///< contact_pairs.cpp
+void build_stable_step(Model& model);  ///< stable_step.cpp
+std::vector<std::string> what_is_left_out(const scene::Scene& scene);  ///< left_out.cpp
+
+}  // namespace railwave

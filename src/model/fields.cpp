@@ -1,0 +1,151 @@
+#include "model/fields.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/contact_force.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/host_copy.hpp"
+#include "model/model.hpp"
+
+namespace railwave {
+namespace {
+
+struct FetchNodes {
+  NodalAcceleration acceleration;
+  double lag;
+  NodeField field;
+  Array<const int*> wanted;
+  Array<double* [3]> result;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const NodeArrays& nodes = acceleration.force.nodes;
+    const int n = wanted(i);
+    Vector3 value = row(nodes.position, n);
+    if (field == NodeField::displacement) value = value - row(nodes.reference, n);
+    if (field == NodeField::velocity) value = row(nodes.velocity, n) + lag * acceleration(n);
+    if (field == NodeField::acceleration) value = acceleration(n);
+    for (int k = 0; k < 3; ++k) result(i, k) = value[k];
+  }
+};
+
+using Rows = Array<double* [3]>::HostMirror;
+
+/// Areas and unit normals at the nodes of one side, from its facets as they lie now.
+void surface_geometry(ContactSide& side) {
+  const std::size_t count = side.nodes.size();
+  side.area.assign(count, 0);
+  side.normal.assign(3 * count, 0);
+  const auto point = [&](int k) { return Vec3{side.position[3 * k], side.position[3 * k + 1], side.position[3 * k + 2]}; };
+  for (const auto& facet : side.facets) {
+    const Vec3 a = point(facet[0]), b = point(facet[1]), c = point(facet[2]), d = point(facet[3]);
+    const double area = facet_area(a, b, c, d);
+    const Vec3 p{c[0] - a[0], c[1] - a[1], c[2] - a[2]}, q{d[0] - b[0], d[1] - b[1], d[2] - b[2]};
+    const Vec3 normal{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+    for (int k : facet) {
+      side.area[k] += 0.25 * area;
+      for (int i = 0; i < 3; ++i) side.normal[3 * k + i] += normal[i];
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    double* n = &side.normal[3 * k];
+    const double size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3; ++i) n[i] /= size;
+  }
+}
+
+ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const std::vector<std::array<int, 4>>& facets) {
+  ContactSide side;
+  side.nodes = nodes;
+  side.facets = facets;
+  side.position = node_field(model, NodeField::position, nodes).values;
+  side.velocity = node_field(model, NodeField::velocity, nodes).values;
+  side.normal_force.assign(3 * nodes.size(), 0);
+  side.tangential_force.assign(3 * nodes.size(), 0);
+  surface_geometry(side);
+  return side;
+}
+
+}  // namespace
+
+HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
+  const auto result = unset_array<double* [3]>("node field", nodes.size());
+  Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
+                       FetchNodes{model.acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
+  const auto host = to_host(result);
+  HostField values{3, std::vector<double>(3 * nodes.size())};
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int k = 0; k < 3; ++k) values.values[3 * i + k] = host(i, k);
+  return values;
+}
+
+HostField element_stress(const Model& model, const std::vector<int>& elements) {
+  HostField result{6, std::vector<double>(6 * elements.size())};
+  for (const ElementSet& set : model.elements) {
+    const long slots = static_cast<long>(set.arrays.tile_count) * tile_width;
+    const auto stress = unset_array<double*>("stress", 6 * slots);
+    const auto unused = unset_array<double*>("energy", slots);
+    Kokkos::parallel_for("element_state", Range(0, set.arrays.batch_count()),
+                         ElementState<ViscousHourglass>{set.constants, set.arrays, model.nodes.position,
+                                                        model.nodes.reference, stress, unused, unused});
+    const auto host = to_host(stress);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const long e = elements[i] - set.first_element;
+      if (e < 0 || e >= set.arrays.element_count) continue;
+      for (int c = 0; c < 6; ++c)
+        result.values[6 * i + c] = host(((e / tile_width) * 6 + c) * tile_width + e % tile_width);
+    }
+  }
+  return result;
+}
+
+ContactState contact_state(const Model& model, int contact) {
+  const ContactPair& pair = model.contacts[contact];
+  ContactState state;
+  state.name = pair.contact->name;
+  state.friction = pair.arrays.friction;
+  state.slave = bare_side(model, pair.slave_nodes, pair.slave_facets);
+  state.master = bare_side(model, pair.master_nodes, pair.master_segments);
+
+  const auto normal = to_host(pair.arrays.normal_force);
+  const auto tangential = to_host(pair.arrays.tangential_force);
+  const auto gap = to_host(pair.arrays.gap);
+  const auto status = to_host(pair.arrays.status);
+  const auto segment = to_host(pair.arrays.segment);
+  const auto place = to_host(pair.arrays.place);
+  const int count = pair.arrays.slave_count;
+  state.gap.assign(count, std::numeric_limits<double>::quiet_NaN());
+  state.slip_velocity.assign(3 * static_cast<std::size_t>(count), 0);
+  state.slipping.assign(count, 0);
+  for (int s = 0; s < count; ++s) {
+    if (gap(s) < 1e299) state.gap[s] = gap(s);
+    state.slipping[s] = status(s);
+    if (segment(s) < 0) continue;
+    Vec3 slip{}, n{};
+    double size = 0;
+    for (int i = 0; i < 3; ++i) {
+      state.slave.normal_force[3 * s + i] = normal(s, i);
+      state.slave.tangential_force[3 * s + i] = tangential(s, i);
+      slip[i] = state.slave.velocity[3 * s + i];
+      size += normal(s, i) * normal(s, i);
+    }
+    for (int k = 0; k < 4; ++k) {
+      const int m = pair.master_segments[segment(s)][k];
+      const double share = segment_shape(k, place(s, 0), place(s, 1));
+      for (int i = 0; i < 3; ++i) {
+        state.master.normal_force[3 * m + i] -= share * normal(s, i);
+        state.master.tangential_force[3 * m + i] -= share * tangential(s, i);
+        slip[i] -= share * state.master.velocity[3 * m + i];
+      }
+    }
+    double along = 0;
+    for (int i = 0; i < 3; ++i) {
+      n[i] = size > 0 ? normal(s, i) / std::sqrt(size) : 0;
+      along += slip[i] * n[i];
+    }
+    for (int i = 0; i < 3; ++i) state.slip_velocity[3 * s + i] = slip[i] - along * n[i];
+  }
+  return state;
+}
+
+}  // namespace railwave

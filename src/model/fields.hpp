@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace railwave {
+
+struct Model;
+
+/// A field brought to the host: `components` values per entry, entry by entry.
+struct HostField {
+  int components = 0;
+  std::vector<double> values;
+};
+
+enum class NodeField { position, displacement, velocity, acceleration };
+
+/// Motion of the model's nodes listed, at the present instant t_n: position and displacement at t_n, velocity and
+/// acceleration as (v(n-1/2) + v(n+1/2))/2 and a(n). Components: 3, m, m/s, m/s2.
+HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes);
+
+/// Cauchy stress at the present instant of the elements listed (model element numbers): xx, yy, zz, xy, yz, zx in Pa.
+HostField element_stress(const Model& model, const std::vector<int>& elements);
+
+/// What one contact pair does at the present instant: one entry for every node of the slave surface and of the master
+/// surface (not only those that touch). Vectors have three components, global axes.
+struct ContactSide {
+  std::vector<int> nodes;          ///< model node numbers
+  std::vector<double> area;        ///< m2, a quarter of every facet around the node, present geometry
+  std::vector<double> position;    ///< m
+  std::vector<double> velocity;    ///< m/s
+  std::vector<double> normal;      ///< unit outward normal of the surface at the node
+  std::vector<double> normal_force;      ///< N, on this side, vector
+  std::vector<double> tangential_force;  ///< N, on this side, vector
+  std::vector<std::array<int, 4>> facets;  ///< positions in `nodes`, turned outwards
+};
+struct ContactState {
+  std::string name;
+  double friction = 0;
+  ContactSide slave;
+  ContactSide master;
+  std::vector<double> gap;             ///< m, of each slave node; negative: penetration; NaN where far from the master
+  std::vector<double> slip_velocity;   ///< m/s, slave relative to master in the tangent plane at the contact point, 3 each
+  std::vector<int> slipping;           ///< of each slave node: 0 no contact, 1 sticks, 2 slips
+};
+ContactState contact_state(const Model& model, int contact);
+
+}  // namespace railwave

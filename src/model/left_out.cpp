@@ -1,0 +1,26 @@
+#include "model/build_steps.hpp"
+
+namespace railwave {
+
+std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
+  std::vector<std::string> left_out;
+  const auto note = [&](bool absent, const char* what) {
+    if (absent) left_out.emplace_back(what);
+  };
+  note(true, "plasticity: every part is elastic, no yield test and no stored stress");
+  note(scene.contacts.empty(), "contact: the scene has none");
+  bool any_frictionless = false;
+  for (const auto& contact : scene.contacts) any_frictionless = any_frictionless || contact.friction == 0;
+  note(any_frictionless, "friction: contacts with coefficient 0 use the frictionless kernel");
+  note(scene.gravity == Vec3{0, 0, 0}, "gravity");
+  note(scene.loads.empty(), "loads");
+  note(scene.connectors.empty(), "springs and dashpots");
+  note(scene.constraints.empty(), "constraints");
+  note(!scene.settle.active, "settling: the run starts from the undeformed mesh");
+  bool any_viscous = false;
+  for (const auto& part : scene.parts) any_viscous = any_viscous || part.hourglass == scene::HourglassType::viscous;
+  note(!any_viscous, "viscous hourglass control: element kernels read no velocities");
+  return left_out;
+}
+
+}  // namespace railwave

@@ -1,0 +1,212 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/hexahedron.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Collects sets and contributions on the host before they go to the device.
+struct Collector {
+  Model& model;
+  std::vector<std::vector<int>> sets;
+  std::vector<int> contribution_node;
+
+  std::vector<double> weights(const std::vector<int>& nodes) const {
+    double total = 0;
+    for (int n : nodes) total += model.mass[n];
+    std::vector<double> weight;
+    for (int n : nodes) weight.push_back(model.mass[n] / total);
+    return weight;
+  }
+
+  int set(const scene::Place& entry, const std::string& key, const std::string& name) {
+    if (name == "ground") return -1;
+    sets.push_back(find_node_set(model.scene, model.assembly, entry, key, name));
+    return static_cast<int>(sets.size()) - 1;
+  }
+
+  int contributions() const { return static_cast<int>(contribution_node.size()); }
+};
+
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Curve& curve : scene.curves)
+    if (curve.name == name) return &curve;
+  return nullptr;
+}
+
+Vec3 scaled(double s, const Vec3& v) { return {s * v[0], s * v[1], s * v[2]}; }
+
+/// Amplitudes of a load whose direction never turns.
+std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {
+  const Model& model = collector.model;
+  std::vector<Vec3> amplitude;
+  if (load.type == scene::LoadType::nodal_force) {
+    const auto& nodes = find_node_set(model.scene, model.assembly, load, "target", load.target);
+    const auto weight = collector.weights(nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      collector.contribution_node.push_back(nodes[k]);
+      amplitude.push_back(scaled(weight[k], load.force));
+    }
+  } else {
+    for (const Face& face : find_surface(model.scene, model.assembly, load, "target", load.target)) {
+      const auto corner = model.assembly.face_nodes(face);
+      const auto& x = model.assembly.nodes;
+      const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
+      for (int n : corner) {
+        collector.contribution_node.push_back(n);
+        amplitude.push_back(scaled(0.25 * area, load.traction));
+      }
+    }
+  }
+  return amplitude;
+}
+
+void build_load(Collector& collector, const scene::Load& load) {
+  Model& model = collector.model;
+  LoadArrays arrays;
+  arrays.load = &load;
+  arrays.curve = curve_of(model.scene, load.curve);
+  arrays.first = collector.contributions();
+  if (load.type == scene::LoadType::torque) {
+    arrays.set = collector.set(load, "target", load.target);
+    for (int n : collector.sets[arrays.set]) collector.contribution_node.push_back(n);
+    arrays.count = static_cast<int>(collector.sets[arrays.set].size());
+  } else if (load.type == scene::LoadType::pressure) {
+    std::vector<std::array<int, 4>> facets;
+    for (const Face& face : find_surface(model.scene, model.assembly, load, "target", load.target)) {
+      facets.push_back(model.assembly.face_nodes(face));
+      for (int n : facets.back()) collector.contribution_node.push_back(n);
+    }
+    arrays.count = static_cast<int>(facets.size());
+    arrays.facets = to_device("pressure facets", facets);
+  } else {
+    const auto amplitude = dead_load(collector, load);
+    arrays.count = static_cast<int>(amplitude.size());
+    arrays.amplitude = to_device("load amplitude", amplitude);
+  }
+  model.loads.push_back(arrays);
+}
+
+Vec3 mean_place(const Collector& collector, int set) {
+  Vec3 mean{0, 0, 0};
+  if (set < 0) return mean;
+  const auto& nodes = collector.sets[set];
+  const auto weight = collector.weights(nodes);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < 3; ++i) mean[i] += weight[k] * collector.model.assembly.nodes[nodes[k]][i];
+  return mean;
+}
+
+void build_connectors(Collector& collector) {
+  Model& model = collector.model;
+  const auto& connectors = model.scene.connectors;
+  ConnectorStage& stage = model.connectors;
+  const int count = static_cast<int>(connectors.size());
+  std::vector<std::array<int, 2>> ends;
+  std::vector<Vec3> rest, stiffness, damping, preload;
+  std::vector<int> connector;
+  std::vector<double> share;
+  stage.first = collector.contributions();
+  for (int c = 0; c < count; ++c) {
+    const int from = collector.set(connectors[c], "from", connectors[c].from);
+    const int to = collector.set(connectors[c], "to", connectors[c].to);
+    ends.push_back({from, to});
+    const Vec3 a = mean_place(collector, from), b = mean_place(collector, to);
+    rest.push_back({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    stiffness.push_back(connectors[c].stiffness);
+    damping.push_back(connectors[c].damping);
+    preload.push_back(connectors[c].preload);
+    for (const auto& [set, sign] : {std::pair{from, -1.0}, std::pair{to, 1.0}}) {
+      if (set < 0) continue;
+      const auto weight = collector.weights(collector.sets[set]);
+      for (std::size_t k = 0; k < weight.size(); ++k) {
+        collector.contribution_node.push_back(collector.sets[set][k]);
+        connector.push_back(c);
+        share.push_back(sign * weight[k]);
+      }
+    }
+  }
+  ConnectorArrays& arrays = stage.arrays;
+  arrays.count = count;
+  arrays.set = to_device("connector ends", ends);
+  arrays.rest = to_device("connector rest", rest);
+  arrays.stiffness = to_device("connector stiffness", stiffness);
+  arrays.damping = to_device("connector damping", damping);
+  arrays.preload = to_device("connector preload", preload);
+  arrays.axes = unset_array<double* [3][3]>("connector axes", count);
+  const auto axes = Kokkos::create_mirror_view(arrays.axes);
+  for (int c = 0; c < count; ++c)
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < 3; ++i) axes(c, a, i) = connectors[c].axes[a][i];
+  Kokkos::deep_copy(arrays.axes, axes);
+  arrays.force = Array<double* [3]>("connector force", count);
+  arrays.energy = Array<double* [2]>("connector energy", count);
+  stage.connector = to_device("connector of contribution", connector);
+  stage.share = to_device("share of contribution", share);
+}
+
+void build_sets(Collector& collector) {
+  std::vector<int> first{0}, nodes;
+  std::vector<double> weight;
+  for (const auto& set : collector.sets) {
+    const auto own = collector.weights(set);
+    nodes.insert(nodes.end(), set.begin(), set.end());
+    weight.insert(weight.end(), own.begin(), own.end());
+    first.push_back(static_cast<int>(nodes.size()));
+  }
+  NodeSets& sets = collector.model.sets;
+  sets.count = static_cast<int>(collector.sets.size());
+  sets.first = to_device("first of set", first);
+  sets.nodes = to_device("nodes of set", nodes);
+  sets.weight = to_device("weight in set", weight);
+  sets.motion = Array<double* [6]>("set motion", sets.count);
+}
+
+/// Numbers the nodes that can feel extra forces, and lists each one's contributions.
+void build_extra(const Collector& collector) {
+  Model& model = collector.model;
+  std::vector<int> concerned = collector.contribution_node;
+  for (const ContactPair& pair : model.contacts) {
+    concerned.insert(concerned.end(), pair.slave_nodes.begin(), pair.slave_nodes.end());
+    concerned.insert(concerned.end(), pair.master_nodes.begin(), pair.master_nodes.end());
+  }
+  std::sort(concerned.begin(), concerned.end());
+  concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
+  const int rows = static_cast<int>(concerned.size());
+  std::vector<int> row_of_node(model.assembly.nodes.size(), -1);
+  for (int r = 0; r < rows; ++r) row_of_node[concerned[r]] = r;
+
+  std::vector<int> first(rows + 1, 0);
+  for (int n : collector.contribution_node) ++first[row_of_node[n] + 1];
+  for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
+  std::vector<int> filled(first.begin(), first.end() - 1), of_row(collector.contribution_node.size());
+  for (int c = 0; c < collector.contributions(); ++c) of_row[filled[row_of_node[collector.contribution_node[c]]]++] = c;
+
+  ExtraForces& extra = model.extra;
+  extra.row_count = rows;
+  extra.contribution_count = collector.contributions();
+  extra.force = Array<double* [3]>("extra force", rows);
+  extra.first = to_device("first contribution", first);
+  extra.contribution_of_row = to_device("contribution of row", of_row);
+  extra.contribution = Array<double* [3]>("contribution", extra.contribution_count);
+  extra.contribution_node = to_device("node of contribution", collector.contribution_node);
+  extra.work = Array<double*>("work of contribution", extra.contribution_count);
+  model.nodes.extra = to_device("extra row", row_of_node);
+}
+
+}  // namespace
+
+void build_loads(Model& model) {
+  Collector collector{model, {}, {}};
+  for (const scene::Load& load : model.scene.loads) build_load(collector, load);
+  build_connectors(collector);
+  for (const std::string& name : model.scene.output.history_sets)
+    model.history_sets.push_back(collector.set({"history_sets", 0}, "output", name));
+  build_sets(collector);
+  build_extra(collector);
+}
+
+}  // namespace railwave

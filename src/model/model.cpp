@@ -1,0 +1,86 @@
+#include "model/model.hpp"
+
+#include <cmath>
+
+#include "model/build_steps.hpp"
+
+namespace railwave {
+
+void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
+
+void build_model(const scene::Scene& scene, const Assembly& assembly, Model& model) {
+  model.scene = scene;
+  model.assembly = assembly;
+  build_elements(model);
+  build_contacts(model);
+  build_loads(model);
+  build_node_arrays(model);
+  build_stable_step(model);
+  model.left_out = what_is_left_out(model.scene);
+  reset_to_start(model);
+}
+
+namespace {
+
+template <class View>
+void zero(const View& view) {
+  if (view.span() > 0) Kokkos::deep_copy(view, typename View::non_const_value_type(0));
+}
+
+}  // namespace
+
+void reset_to_start(Model& model) {
+  Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
+  zero(model.nodes.velocity);
+  zero(model.corner_force);
+  zero(model.extra.force);
+  zero(model.extra.contribution);
+  zero(model.extra.work);
+  for (auto& set : model.elements) zero(set.arrays.hourglass_energy);
+  zero(model.connectors.arrays.energy);
+  for (auto& pair : model.contacts) {
+    const ContactArrays& contact = pair.arrays;
+    Kokkos::deep_copy(contact.segment, -1);
+    Kokkos::deep_copy(contact.gap, 1e300);
+    zero(contact.closest);
+    zero(contact.place);
+    zero(contact.normal_force);
+    zero(contact.tangential_force);
+    zero(contact.master_force);
+    zero(contact.status);
+    zero(contact.friction_energy);
+    pair.window_until = -1;
+  }
+  model.time = 0;
+  model.step = 0;
+  model.velocity_lag = 0;
+}
+
+namespace {
+
+template <class... Views>
+std::size_t bytes(const Views&... views) {
+  return (std::size_t{0} + ... + (views.span() * sizeof(typename Views::value_type)));
+}
+
+}  // namespace
+
+std::size_t device_bytes(const Model& model) {
+  const NodeArrays& n = model.nodes;
+  const ExtraForces& x = model.extra;
+  std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_corner, n.corner, n.extra, n.constraint,
+                            model.constraints, model.corner_force, x.force, x.first, x.contribution_of_row, x.contribution,
+                            x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
+                            model.sets.motion);
+  for (const ElementSet& set : model.elements)
+    total += bytes(set.arrays.corners, set.arrays.hourglass_scale, set.arrays.hourglass_energy, set.settling_hourglass);
+  for (const ContactPair& pair : model.contacts) {
+    const ContactArrays& c = pair.arrays;
+    total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
+                   c.closest, c.segment, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
+                   c.master_force);
+  }
+  return total;
+}
+
+}  // namespace railwave

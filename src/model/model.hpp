@@ -1,0 +1,121 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "kernels/connector.hpp"
+#include "kernels/contact_arrays.hpp"
+#include "kernels/element_force.hpp"
+#include "kernels/extra_force.hpp"
+#include "kernels/nodes.hpp"
+#include "kernels/set_motion.hpp"
+#include "model/assembly.hpp"
+
+namespace railwave {
+
+/// The elements of one part.
+struct ElementSet {
+  std::string part;
+  int first_element = 0;              ///< in the assembly's numbering
+  ElasticConstants constants{};
+  scene::HourglassType hourglass = scene::HourglassType::viscous;
+  ElementArrays arrays;
+  Array<double*> settling_hourglass;  ///< tiled, N/m: stiffness control while settling, whatever the run's own control is
+};
+
+/// A load of fixed direction, a pressure or a torque: its contributions, and the curve it follows.
+struct LoadArrays {
+  const scene::Load* load = nullptr;
+  const scene::Curve* curve = nullptr;  ///< null: constant 1
+  int first = 0;                        ///< its first contribution
+  int count = 0;                        ///< contributions (dead loads), facets (pressure)
+  Array<double* [3]> amplitude;         ///< dead loads, N
+  Array<int* [4]> facets;               ///< pressure
+  int set = -1;                         ///< torque
+};
+
+/// Connectors of a scene, with the contributions by which their ends feel them.
+struct ConnectorStage {
+  ConnectorArrays arrays;
+  int first = 0;
+  Array<int*> connector;
+  Array<double*> share;
+};
+
+struct ContactPair {
+  const scene::Contact* contact = nullptr;
+  ContactArrays arrays;
+  ContactWindow window;
+  long window_until = -1;              ///< step before which the window must be laid out anew
+  std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
+  std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
+  std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes
+  std::vector<double> segment_stiffness;
+  double segment_size = 0;             ///< m, the largest segment's diagonal
+};
+
+/// The stable step and what sets it.
+struct StableStep {
+  double elements = 0;                 ///< s, min V / (A_max C_d), thesis eq. 2.14
+  int element = -1;                    ///< the element that sets it
+  double contact = 0;                  ///< s, of the contact springs with the elements under them; 0: no contact
+  double used = 0;                     ///< s, after the scale factor
+};
+
+/// Everything on the device, and the host data that describe it.
+struct Model {
+  scene::Scene scene;
+  Assembly assembly;
+  std::vector<double> mass;            ///< kg by node, host copy
+  std::vector<double> element_length;  ///< m, V / A_max by element
+  StableStep stable_step;
+  double step_size = 0;                ///< s
+  long step_count = 0;                 ///< steps from 0 to the end
+
+  NodeArrays nodes;
+  Array<double* [3][3]> constraints;
+  Array<double*> corner_force;
+  std::vector<ElementSet> elements;
+  ExtraForces extra;
+  NodeSets sets;
+  std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
+  std::vector<LoadArrays> loads;
+  ConnectorStage connectors;
+  std::vector<ContactPair> contacts;
+  std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute
+
+  /// The present instant: forces and positions at `time`; velocities `velocity_lag` seconds before it.
+  double time = 0;
+  long step = 0;
+  double velocity_lag = 0;
+
+  int node_count() const { return nodes.count; }
+  long element_count() const { return static_cast<long>(assembly.elements.size()); }
+
+  /// Force and acceleration of a node from what the last force phase left in the arrays.
+  NodalAcceleration acceleration() const {
+    return {{nodes, corner_force, extra.force, tile_width},
+            {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
+            constraints};
+  }
+};
+
+/// Builds the device arrays of a scene. Throws InputError for what only the mesh can show: unknown sets, inverted
+/// elements, contact surfaces that share nodes, a part without mass.
+/// A Model refers to itself; it is not to be copied or moved.
+void build_model(const scene::Scene& scene, Model& model);
+
+/// The same from an assembly made elsewhere, one part of it for each of the scene's.
+void build_model(const scene::Scene& scene, const Assembly& assembly, Model& model);
+
+/// Bytes of all device arrays.
+std::size_t device_bytes(const Model& model);
+
+/// Puts nodes and history variables back to the undeformed start, at rest.
+void reset_to_start(Model& model);
+
+/// Value of a load's curve at a time; 1 without a curve.
+double curve_value(const scene::Curve* curve, double time);
+
+}  // namespace railwave

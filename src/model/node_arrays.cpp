@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "case/error.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+using Directions = std::vector<Vec3>;
+
+/// Adds a direction to an orthonormal set, unless it lies in its span.
+void add_direction(Directions& directions, Vec3 d) {
+  for (const Vec3& known : directions) {
+    const double along = d[0] * known[0] + d[1] * known[1] + d[2] * known[2];
+    for (int i = 0; i < 3; ++i) d[i] -= along * known[i];
+  }
+  const double size = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  if (size < 1e-9) return;
+  for (double& component : d) component /= size;
+  directions.push_back(d);
+}
+
+/// Constraint row of each node, and the projections.
+void build_constraints(Model& model, std::vector<int>& row_of_node) {
+  std::map<int, Directions> constrained;
+  for (const scene::Constraint& constraint : model.scene.constraints)
+    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target))
+      for (int a = 0; a < 3; ++a)
+        if (constraint.fixed[a]) add_direction(constrained[n], constraint.axes[a]);
+
+  std::map<Directions, int> rows;
+  for (const auto& [node, directions] : constrained) {
+    const auto inserted = rows.try_emplace(directions, static_cast<int>(rows.size()));
+    row_of_node[node] = inserted.first->second;
+  }
+  model.constraints = unset_array<double* [3][3]>("constraints", rows.size());
+  const auto host = Kokkos::create_mirror_view(model.constraints);
+  for (const auto& [directions, row_number] : rows)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        // Three independent directions leave nothing; written out so that no rounding remains.
+        double p = directions.size() == 3 ? 0.0 : i == j ? 1.0 : 0.0;
+        if (directions.size() < 3)
+          for (const Vec3& d : directions) p -= d[i] * d[j];
+        host(row_number, i, j) = p;
+      }
+  Kokkos::deep_copy(model.constraints, host);
+}
+
+/// For each node the places of its corner forces, in the order of elements.
+void build_gather(Model& model) {
+  const int count = model.nodes.count;
+  std::vector<int> first(count + 1, 0);
+  for (const auto& corners : model.assembly.elements)
+    for (int n : corners) ++first[n + 1];
+  for (int n = 0; n < count; ++n) first[n + 1] += first[n];
+  std::vector<int> filled(first.begin(), first.end() - 1);
+  std::vector<long> corner(first.back());
+  for (const ElementSet& set : model.elements)
+    for (int e = 0; e < set.arrays.element_count; ++e)
+      for (int N = 0; N < 8; ++N) {
+        const int n = model.assembly.elements[set.first_element + e][N];
+        const long tile = e / tile_width, lane = e % tile_width;
+        corner[filled[n]++] = set.arrays.force_offset + (tile * 24 + 3 * N) * tile_width + lane;
+      }
+  model.nodes.first_corner = to_device("first corner", first);
+  model.nodes.corner = to_device("corner", corner);
+}
+
+}  // namespace
+
+void build_node_arrays(Model& model) {
+  const Assembly& assembly = model.assembly;
+  NodeArrays& nodes = model.nodes;
+  nodes.count = static_cast<int>(assembly.nodes.size());
+  for (int n = 0; n < nodes.count; ++n)
+    if (!(model.mass[n] > 0))
+      throw InputError(fmt::format("{}: node at ({:.6g}, {:.6g}, {:.6g}) m belongs to no element and has no mass; remove it from the mesh",
+                                   model.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
+  nodes.reference = to_device("reference", assembly.nodes);
+  nodes.position = unset_array<double* [3]>("position", nodes.count);
+  nodes.velocity = unset_array<double* [3]>("velocity", nodes.count);
+  nodes.mass = to_device("mass", model.mass);
+  std::vector<int> constraint(nodes.count, -1);
+  build_constraints(model, constraint);
+  nodes.constraint = to_device("constraint", constraint);
+  build_gather(model);
+}
+
+}  // namespace railwave

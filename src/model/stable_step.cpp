@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/build_steps.hpp"
+
+namespace railwave {
+namespace {
+
+double wave_speed(const Model& model, const Assembly::PartRange& part) {
+  const scene::Material& material = model.scene.materials[part.material];
+  const double E = material.youngs_modulus, nu = material.poissons_ratio;
+  return std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * material.density));
+}
+
+/// Stable step of each element, V / (A_max C_d).
+std::vector<double> element_steps(const Model& model) {
+  std::vector<double> steps(model.element_length.size());
+  for (const auto& part : model.assembly.parts) {
+    const double speed = wave_speed(model, part);
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      steps[e] = model.element_length[e] / speed;
+  }
+  return steps;
+}
+
+/// Smallest step of the elements around each node.
+std::vector<double> steps_at_nodes(const Model& model, const std::vector<double>& steps) {
+  std::vector<double> least(model.assembly.nodes.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t e = 0; e < steps.size(); ++e)
+    for (int n : model.assembly.elements[e]) least[n] = std::fmin(least[n], steps[e]);
+  return least;
+}
+
+/// How far a contact spring shortens the step of the elements under it. Two rows of elements (axial stiffness k_e, masses
+/// m with m/2 at the ends) joined by a spring k have as highest frequency that of a mode which dies out away from the
+/// contact: omega^2 = (2 + 2 sqrt(1 + 4 beta^2)) k_e / m with beta = k / k_e, against 4 k_e / m of the rows alone.
+double contact_factor(double beta) { return std::sqrt(2 / (1 + std::sqrt(1 + 4 * beta * beta))); }
+
+double contact_step(const Model& model, const ContactPair& pair, const std::vector<double>& node_steps) {
+  const Assembly& assembly = model.assembly;
+  double slave_area = std::numeric_limits<double>::infinity(), slave_step = slave_area;
+  for (const auto& facet : pair.slave_facets) {
+    const auto x = [&](int k) { return assembly.nodes[pair.slave_nodes[facet[k]]]; };
+    slave_area = std::fmin(slave_area, facet_area(x(0), x(1), x(2), x(3)));
+  }
+  for (int n : pair.slave_nodes) slave_step = std::fmin(slave_step, node_steps[n]);
+  double least = std::numeric_limits<double>::infinity();
+  const auto& faces = assembly.surfaces.at(pair.contact->master);
+  for (std::size_t s = 0; s < faces.size(); ++s) {
+    const auto corner = assembly.face_nodes(faces[s]);
+    const auto& x = assembly.nodes;
+    const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
+    const double volume = hexahedron_volume(corners_of(x, assembly.elements[faces[s].element]));
+    for (const auto& part : assembly.parts) {
+      if (faces[s].element < part.first_element || faces[s].element >= part.first_element + part.element_count) continue;
+      const double speed = wave_speed(model, part);
+      const double axial = model.scene.materials[part.material].density * speed * speed * area * area / volume;
+      // A finer slave surface puts several springs on each segment.
+      const double springs = std::fmax(1.0, area / slave_area);
+      const double beta = springs * pair.segment_stiffness[s] / axial;
+      double step = slave_step;
+      for (int n : corner) step = std::fmin(step, node_steps[n]);
+      least = std::fmin(least, step * contact_factor(beta));
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+void build_stable_step(Model& model) {
+  StableStep& stable = model.stable_step;
+  const auto steps = element_steps(model);
+  stable.elements = std::numeric_limits<double>::infinity();
+  for (std::size_t e = 0; e < steps.size(); ++e)
+    if (steps[e] < stable.elements) {
+      stable.elements = steps[e];
+      stable.element = static_cast<int>(e);
+    }
+  double limit = stable.elements;
+  if (!model.contacts.empty()) {
+    const auto node_steps = steps_at_nodes(model, steps);
+    stable.contact = std::numeric_limits<double>::infinity();
+    for (const ContactPair& pair : model.contacts)
+      stable.contact = std::fmin(stable.contact, contact_step(model, pair, node_steps));
+    limit = std::fmin(limit, stable.contact);
+  }
+  const scene::Time& time = model.scene.time;
+  stable.used = time.step > 0 ? time.step : time.step_scale * limit;
+  if (time.step > limit)
+    throw InputError(fmt::format("{}: [time] step = {:.4g} s is longer than the stable step {:.4g} s of this mesh and its contacts; "
+                                 "leave it out to have the program choose",
+                                 model.scene.path, time.step, limit));
+  // Whole steps, so that the run ends at the time asked for.
+  model.step_count = static_cast<long>(std::ceil(time.end / stable.used - 1e-9));
+  if (model.step_count < 1) model.step_count = 1;
+  model.step_size = time.end / static_cast<double>(model.step_count);
+}
+
+}  // namespace railwave

@@ -1,0 +1,159 @@
+#include "solve/account.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/block_sum.hpp"
+#include "model/fields.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2 = m (|v_n|^2 - |step a/2|^2)/2, and minus the work of gravity.
+struct NodalEnergy {
+  static constexpr int values = 2;
+  NodalAcceleration acceleration;
+  double lag, step;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
+    const NodeArrays& nodes = acceleration.force.nodes;
+    const Vector3 a = acceleration(n);
+    const Vector3 v = row(nodes.velocity, n) + lag * a;
+    sum[0] += 0.5 * nodes.mass(n) * (dot(v, v) - 0.25 * step * step * dot(a, a));
+    sum[1] += nodes.mass(n) * dot(acceleration.gravity, row(nodes.position, n) - row(nodes.reference, n));
+  }
+};
+
+/// Sums the real elements of two tiled arrays of one value each.
+struct ElementEnergy {
+  static constexpr int values = 2;
+  Array<const double*> elastic, hourglass;
+  KOKKOS_INLINE_FUNCTION void operator()(int e, double* sum) const {
+    sum[0] += elastic(e);
+    sum[1] += hourglass(e);
+  }
+};
+
+/// Stored in the penalty springs, and dissipated by friction.
+struct ContactEnergy {
+  static constexpr int values = 2;
+  ContactArrays contact;
+  KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
+    sum[1] += contact.friction_energy(s);
+    if (contact.segment(s) < 0) return;
+    const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
+    sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / contact.segment_stiffness(contact.segment(s));
+  }
+};
+
+struct Work {
+  static constexpr int values = 1;
+  Array<const double*> work;
+  KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const { sum[0] += work(c); }
+};
+
+template <class Hourglass>
+void element_energy(const Model& model, const ElementSet& set, EnergyAccount& energy) {
+  const std::size_t slots = static_cast<std::size_t>(set.arrays.tile_count) * tile_width;
+  const auto stress = unset_array<double*>("stress", 6 * slots);
+  const auto elastic = unset_array<double*>("elastic energy", slots);
+  const auto hourglass = unset_array<double*>("hourglass energy", slots);
+  Kokkos::parallel_for("element_state", Range(0, set.arrays.batch_count()),
+                       ElementState<Hourglass>{set.constants, set.arrays, model.nodes.position, model.nodes.reference, stress,
+                                               elastic, hourglass});
+  double sum[2];
+  block_sum(ElementEnergy{elastic, hourglass}, set.arrays.element_count, sum);
+  energy.internal += sum[0];
+  energy.hourglass += sum[1];
+}
+
+}  // namespace
+
+EnergyAccount account_energies(const Model& model, double step) {
+  EnergyAccount energy;
+  double sum[2];
+  block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum);
+  energy.kinetic = sum[0];
+  energy.external_work = sum[1];
+  for (const ElementSet& set : model.elements) {
+    if (set.hourglass == scene::HourglassType::viscous) element_energy<ViscousHourglass>(model, set, energy);
+    else element_energy<StiffnessHourglass>(model, set, energy);
+  }
+  for (const ContactPair& pair : model.contacts) {
+    block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum);
+    energy.contact += sum[0];
+    energy.friction += sum[1];
+  }
+  if (!model.loads.empty()) {
+    block_sum(Work{model.extra.work}, model.extra.contribution_count, sum);
+    energy.external_work += sum[0];
+  }
+  const auto connectors = to_host(model.connectors.arrays.energy);
+  for (int c = 0; c < model.connectors.arrays.count; ++c) {
+    energy.connector += connectors(c, 0);
+    energy.damping += connectors(c, 1);
+  }
+  return energy;
+}
+
+double balance_total(const EnergyAccount& energy) {
+  return energy.kinetic + energy.internal + energy.hourglass + energy.contact + energy.friction + energy.connector +
+         energy.damping - energy.external_work;
+}
+
+double largest_energy(const EnergyAccount& energy) {
+  return std::max({std::fabs(energy.kinetic), std::fabs(energy.internal), std::fabs(energy.hourglass),
+                   std::fabs(energy.contact), std::fabs(energy.friction), std::fabs(energy.connector),
+                   std::fabs(energy.damping), std::fabs(energy.external_work)});
+}
+
+ContactTotals contact_totals(const ContactPair& pair) {
+  ContactTotals totals;
+  const auto normal = to_host(pair.arrays.normal_force);
+  const auto tangential = to_host(pair.arrays.tangential_force);
+  const auto master = to_host(pair.arrays.master_force);
+  const auto status = to_host(pair.arrays.status);
+  for (int s = 0; s < pair.arrays.slave_count; ++s) {
+    if (status(s) == status_apart) continue;
+    ++totals.nodes_in_contact;
+    if (status(s) == status_slips) ++totals.nodes_slipping;
+    for (int i = 0; i < 3; ++i) {
+      totals.normal_force[i] += normal(s, i);
+      totals.tangential_force[i] += tangential(s, i);
+    }
+  }
+  for (int m = 0; m < pair.arrays.master_count; ++m)
+    for (int i = 0; i < 3; ++i) totals.master_force[i] += master(m, i);
+  return totals;
+}
+
+MeanMotion mean_motion(const Model& model, int set) {
+  const auto first = to_host(model.sets.first);
+  const auto members = to_host(model.sets.nodes);
+  const auto weight = to_host(model.sets.weight);
+  std::vector<int> nodes;
+  for (int k = first(set); k < first(set + 1); ++k) nodes.push_back(members(k));
+  MeanMotion mean;
+  const auto add = [&](NodeField field, Vec3& sum) {
+    const HostField values = node_field(model, field, nodes);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (int i = 0; i < 3; ++i) sum[i] += weight(first(set) + k) * values.values[3 * k + i];
+  };
+  add(NodeField::displacement, mean.displacement);
+  add(NodeField::velocity, mean.velocity);
+  add(NodeField::acceleration, mean.acceleration);
+  return mean;
+}
+
+HistorySample take_sample(const Model& model, double step) {
+  HistorySample sample;
+  sample.time = model.time;
+  sample.step = model.step;
+  sample.energy = account_energies(model, step);
+  for (const ContactPair& pair : model.contacts) sample.contacts.push_back(contact_totals(pair));
+  for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
+  return sample;
+}
+
+}  // namespace railwave

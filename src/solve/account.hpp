@@ -1,0 +1,26 @@
+#pragma once
+
+#include "model/model.hpp"
+#include "solve/observer.hpp"
+
+namespace railwave {
+
+/// Energies at the present instant, whose forces have been computed. Stored energies are functions of the state,
+/// independent of the forces that move the nodes, so the balance tests the time integration:
+/// kinetic v(n-1/2) M v(n+1/2) / 2, elastic stress and strain, penalty and connector springs.
+/// `balance_error` is left zero: the time loop knows the start.
+EnergyAccount account_energies(const Model& model, double step);
+
+/// kinetic + stored + dissipated - external work: constant in an exact run.
+double balance_total(const EnergyAccount& energy);
+
+/// The largest of the account's entries.
+double largest_energy(const EnergyAccount& energy);
+
+ContactTotals contact_totals(const ContactPair& pair);
+MeanMotion mean_motion(const Model& model, int set);
+
+/// Everything that a history row holds, at the present instant.
+HistorySample take_sample(const Model& model, double step);
+
+}  // namespace railwave

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/mesh.hpp"
+
+namespace railwave {
+
+struct Model;
+struct SettleReport;
+
+/// Energies at one instant, J. `balance_error` = total now - total at the run's start - external work since; it is what
+/// the time integration failed to account for.
+struct EnergyAccount {
+  double kinetic = 0;
+  double internal = 0;       ///< elastic
+  double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
+  double contact = 0;        ///< stored in the penalty springs, normal and tangential
+  double friction = 0;       ///< dissipated
+  double connector = 0;      ///< stored in springs
+  double damping = 0;        ///< dissipated in dashpots
+  double external_work = 0;  ///< by loads and gravity
+  double balance_error = 0;
+};
+
+/// Sums over one contact pair, on the slave, N, global axes.
+struct ContactTotals {
+  Vec3 normal_force{};
+  Vec3 tangential_force{};
+  Vec3 master_force{};       ///< sum gathered on the master's nodes; minus the slave's to rounding
+  int nodes_in_contact = 0;
+  int nodes_slipping = 0;
+};
+
+/// Mean motion of a history set, mass weighted.
+struct MeanMotion {
+  Vec3 displacement{};
+  Vec3 velocity{};
+  Vec3 acceleration{};
+};
+
+struct HistorySample {
+  double time = 0;
+  long step = 0;
+  EnergyAccount energy;
+  std::vector<ContactTotals> contacts;   ///< one for each contact of the scene
+  std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets
+};
+
+/// How a run ended.
+struct RunSummary {
+  bool completed = false;
+  std::string reason;                    ///< when not completed: interrupted, or what went wrong
+  double time = 0;
+  long steps = 0;
+  double step_size = 0;
+  double wall_seconds = 0;
+  double element_steps_per_second = 0;
+  std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute
+};
+
+/// What the time loop tells the outside. Called on the host thread, between two steps.
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  virtual void begin(const Model& /*model*/) {}
+  /// After a dynamic relaxation, before the first step.
+  virtual void settled(const Model& /*model*/, const SettleReport& /*report*/) {}
+  virtual void history(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  /// The model stands at `sample.time`; fields are fetched by the functions of model/fields.hpp.
+  virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  /// At every history sample, and every few hundred steps where histories are rarer.
+  virtual void progress(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  virtual void end(const Model& /*model*/, const RunSummary& /*summary*/) {}
+};
+
+}  // namespace railwave

@@ -1,0 +1,141 @@
+#include "solve/settle.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "kernels/block_sum.hpp"
+#include "kernels/relaxation.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/host_copy.hpp"
+#include "solve/stages.hpp"
+
+namespace railwave {
+namespace {
+
+/// Share of the unbalanced force that damps: Cundall's usual value, near critical for the slowest mode.
+constexpr double local_damping = 0.8;
+/// Share of each element's stable step that one unit of pseudo-time stands for.
+constexpr double safety = 0.8;
+constexpr int steps_between_checks = 50;
+
+/// Masses with which a unit step is stable everywhere: an element's mass over its own stable step squared, and for springs
+/// the bound m >= sum_j |K_ij| / 4 of the central difference.
+std::vector<double> relaxation_masses(const Model& model) {
+  const Assembly& assembly = model.assembly;
+  std::vector<double> mass(assembly.nodes.size(), 0);
+  for (const auto& part : assembly.parts) {
+    const scene::Material& material = model.scene.materials[part.material];
+    const double E = material.youngs_modulus, nu = material.poissons_ratio;
+    const double modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
+      const auto integrals = hexahedron_shape_integrals(corners_of(assembly.nodes, assembly.elements[e]));
+      const double length = safety * model.element_length[e];
+      for (int N = 0; N < 8; ++N) mass[assembly.elements[e][N]] += integrals[N] * modulus / (length * length);
+    }
+  }
+  const double spring_share = 0.5 / (safety * safety);
+  for (const ContactPair& pair : model.contacts) {
+    double stiffest = 0;
+    for (double k : pair.segment_stiffness) stiffest = std::max(stiffest, k);
+    for (int n : pair.slave_nodes) mass[n] += spring_share * stiffest;
+    // Several slave nodes can press on one master node where the slave is the finer one.
+    const double crowd = std::max(1.0, static_cast<double>(pair.slave_nodes.size()) / pair.master_nodes.size());
+    for (int n : pair.master_nodes) mass[n] += spring_share * stiffest * crowd;
+  }
+  const auto connector = to_host(model.connectors.connector);
+  const auto share = to_host(model.connectors.share);
+  const auto contribution_node = to_host(model.extra.contribution_node);
+  for (std::size_t i = 0; i < connector.extent(0); ++i) {
+    const Vec3& k = model.scene.connectors[connector(i)].stiffness;
+    mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share(i)) * (k[0] + k[1] + k[2]);
+  }
+  for (int n : assembly.point_nodes) mass[n] = 1e300;  // held
+  return mass;
+}
+
+/// - omega x (omega x (X - c)) on the bodies that will rotate.
+std::vector<Vec3> centrifugal_field(const Model& model) {
+  std::vector<Vec3> field(model.assembly.nodes.size(), Vec3{0, 0, 0});
+  for (const scene::InitialMotion& motion : model.scene.initial_motions) {
+    const Vec3& w = motion.angular_velocity;
+    for (const std::string& name : motion.parts) {
+      const auto& nodes = model.assembly.node_sets.at(name);
+      Vec3 centre{};
+      double mass = 0;
+      for (int n : nodes) {
+        mass += model.mass[n];
+        for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * model.assembly.nodes[n][i];
+      }
+      for (int i = 0; i < 3; ++i) centre[i] = motion.centre ? (*motion.centre)[i] : centre[i] / mass;
+      for (int n : nodes) {
+        Vec3 r{};
+        double along = 0, squared = 0;
+        for (int i = 0; i < 3; ++i) {
+          r[i] = model.assembly.nodes[n][i] - centre[i];
+          along += w[i] * r[i];
+          squared += w[i] * w[i];
+        }
+        for (int i = 0; i < 3; ++i) field[n][i] += squared * r[i] - along * w[i];
+      }
+    }
+  }
+  return field;
+}
+
+struct Unbalance {
+  static constexpr int values = 2;
+  RelaxationUpdate update;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
+    const NodeArrays& nodes = update.acceleration.force.nodes;
+    if (update.relaxation_mass(n) > 1e299) return;  // held
+    sum[0] += norm(row(update.unbalanced, n));
+    Vector3 applied = nodes.mass(n) * (update.acceleration.gravity + row(update.body_acceleration, n));
+    sum[1] += norm(applied);
+    if (nodes.extra(n) >= 0) sum[1] += norm(row(update.acceleration.force.extra_force, nodes.extra(n)));
+  }
+};
+
+/// The run's account begins at zero after settling.
+void forget_history(Model& model) {
+  Kokkos::deep_copy(model.nodes.velocity, 0.0);
+  Kokkos::deep_copy(model.extra.work, 0.0);
+  for (ContactPair& pair : model.contacts) {
+    Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
+    pair.window_until = -1;
+  }
+  for (ElementSet& set : model.elements) Kokkos::deep_copy(set.arrays.hourglass_energy, 0.0);
+  Kokkos::deep_copy(model.connectors.arrays.energy, 0.0);
+  model.step = 0;
+  model.time = 0;
+}
+
+}  // namespace
+
+SettleReport settle(Model& model, const std::function<bool()>& stop) {
+  const auto began = std::chrono::steady_clock::now();
+  SettleReport report;
+  const auto stages = force_stages(model);
+  const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
+                                to_device("centrifugal field", centrifugal_field(model)),
+                                Array<double* [3]>("unbalanced", model.nodes.count), local_damping};
+  Instant instant;
+  instant.settling = true;
+  instant.step = 1;
+  const scene::Settle& wish = model.scene.settle;
+  for (report.steps = 0; report.steps < wish.max_steps; ++report.steps) {
+    model.step = report.steps;
+    for (const Stage& stage : stages) stage.run(instant);
+    Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
+    if (report.steps % steps_between_checks != 0 || report.steps == 0) continue;
+    double sum[2];
+    block_sum(Unbalance{update}, model.nodes.count, sum);
+    report.unbalance = sum[1] > 0 ? sum[0] / sum[1] : sum[0];
+    report.settled = report.unbalance < wish.tolerance;
+    if (report.settled || !std::isfinite(report.unbalance) || stop()) break;
+  }
+  forget_history(model);
+  report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return report;
+}
+
+}  // namespace railwave

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// How a dynamic relaxation went.
+struct SettleReport {
+  bool settled = false;
+  int steps = 0;
+  double unbalance = 0;   ///< sum of |unbalanced nodal force| over sum of |applied and contact force|
+  double wall_seconds = 0;
+};
+
+/// Static equilibrium under the loads of t = 0 by dynamic relaxation: the state from which the run starts. Bodies that
+/// will rotate (initial_motion) are loaded by the centrifugal field of that rotation, so that the start of rolling does
+/// not ring. Point masses stay where they are: preload their connectors. Velocities are zero afterwards.
+/// @param stop asked now and then; true ends the relaxation early
+SettleReport settle(Model& model, const std::function<bool()>& stop);
+
+/// Adds the scene's initial motions to the velocities, v = V + omega x (x - centre), in the present configuration.
+void set_initial_motion(Model& model);
+
+}  // namespace railwave

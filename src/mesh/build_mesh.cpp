@@ -1,0 +1,26 @@
+#include "mesh/build_mesh.hpp"
+
+#include <stdexcept>
+
+#include "mesh/box.hpp"
+#include "mesh/mesh_file.hpp"
+#include "mesh/rail.hpp"
+#include "mesh/wheel.hpp"
+
+namespace railwave {
+
+Mesh build_mesh(const scene::MeshSource& source) {
+  switch (source.type) {
+    case scene::MeshType::box:
+      return box_mesh(source);
+    case scene::MeshType::wheel:
+      return wheel_mesh(source);
+    case scene::MeshType::rail:
+      return rail_mesh(source);
+    case scene::MeshType::file:
+      return read_mesh_file(source);
+  }
+  throw std::logic_error("unknown mesh type");
+}
+
+}  // namespace railwave

@@ -1,0 +1,188 @@
+#include "mesh/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace railwave {
+
+namespace {
+
+double graded_length(int cells, double first, double growth, double largest) {
+  double total = 0, size = first;
+  for (int i = 0; i < cells; ++i) total += size = std::min(size * growth, std::max(first, largest));
+  return total;
+}
+
+double sum(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
+}
+
+}  // namespace
+
+std::vector<double> graded_cells(double length, double first, double growth, double largest, int multiple) {
+  if (length < 1e-3 * first) return {};
+  int cells = 1;
+  while (graded_length(cells, first, growth, largest) < length * (1 - 1e-9)) ++cells;
+  const int rounded = (cells + multiple - 1) / multiple * multiple;
+  if (rounded * first <= length) cells = rounded;
+  if (cells * first >= length) return std::vector<double>(cells, length / cells);
+  double low = 1, high = growth;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = (low + high) / 2;
+    (graded_length(cells, first, middle, largest) < length ? low : high) = middle;
+  }
+  std::vector<double> sizes;
+  double size = first;
+  for (int i = 0; i < cells; ++i) sizes.push_back(size = std::min(size * high, std::max(first, largest)));
+  const double scale = length / sum(sizes, 0, sizes.size());
+  for (double& value : sizes) value *= scale;
+  return sizes;
+}
+
+namespace {
+
+/// Groups of sizes[begin, end) from `begin` on; the rest stays single.
+std::vector<int> groups_onwards(const std::vector<double>& sizes, std::size_t begin, std::size_t end, double limit) {
+  std::vector<int> groups;
+  while (begin + 3 <= end && sum(sizes, begin, begin + 3) <= limit * (1 + 1e-9)) {
+    groups.push_back(3);
+    begin += 3;
+  }
+  groups.insert(groups.end(), end - begin, 1);
+  return groups;
+}
+
+}  // namespace
+
+std::vector<int> merge_groups(const std::vector<double>& sizes, int middle, double limit) {
+  std::vector<double> before(sizes.begin(), sizes.begin() + middle);
+  std::reverse(before.begin(), before.end());
+  std::vector<int> groups = groups_onwards(before, 0, before.size(), limit);
+  std::reverse(groups.begin(), groups.end());
+  const auto after = groups_onwards(sizes, middle, sizes.size(), limit);
+  groups.insert(groups.end(), after.begin(), after.end());
+  return groups;
+}
+
+std::vector<double> merged_sizes(const std::vector<double>& sizes, const std::vector<int>& groups) {
+  std::vector<double> result;
+  std::size_t begin = 0;
+  for (int group : groups) {
+    result.push_back(sum(sizes, begin, begin + group));
+    begin += group;
+  }
+  return result;
+}
+
+namespace {
+
+struct ZoneCells {
+  double first;  // coordinate of the zone's first layer
+  int cells;
+  int origin;    // layer from which cells are merged
+};
+
+ZoneCells zone_cells(const StationPlan& plan) {
+  const double size = plan.zone_size, slack = 1e-6;
+  if (plan.zone_start <= 0 && plan.zone_end >= 0) {
+    const int before = static_cast<int>(std::ceil(-plan.zone_start / size - slack));
+    const int after = static_cast<int>(std::ceil(plan.zone_end / size - slack));
+    return {-before * size, before + after, before};
+  }
+  const int cells = static_cast<int>(std::ceil((plan.zone_end - plan.zone_start) / size - slack));
+  return {plan.zone_start, std::max(1, cells), std::max(1, cells) / 2};
+}
+
+/// Levels above 0: sizes and layer numbers of each level from those of the one before.
+void add_levels(Stations& stations, std::vector<double> sizes, int origin, const StationPlan& plan) {
+  const std::size_t layers = stations.position.size();
+  std::vector<int> kept(layers);
+  std::iota(kept.begin(), kept.end(), 0);
+  stations.levels.assign(1, kept);
+  stations.origin = origin;
+  int middle = origin;
+  for (int level = 1; level < plan.levels; ++level) {
+    const auto groups = merge_groups(sizes, middle, plan.merge_limit);
+    std::vector<int> next;
+    int cell = 0, next_middle = 0;
+    for (int group : groups) {
+      if (cell == middle) next_middle = static_cast<int>(next.size());
+      next.push_back(kept[cell]);
+      cell += group;
+    }
+    if (cell == middle) next_middle = static_cast<int>(next.size());
+    if (!stations.periodic) next.push_back(kept[cell]);
+    sizes = merged_sizes(sizes, groups);
+    kept = next;
+    middle = next_middle;
+    stations.levels.push_back(kept);
+  }
+}
+
+Stations assemble(const StationPlan& plan, const ZoneCells& zone, std::vector<double> before, double start,
+                  const std::vector<double>& after) {
+  std::reverse(before.begin(), before.end());
+  std::vector<double> sizes = before;
+  sizes.insert(sizes.end(), zone.cells, plan.zone_size);
+  sizes.insert(sizes.end(), after.begin(), after.end());
+  Stations stations;
+  stations.position.push_back(start);
+  for (double size : sizes) stations.position.push_back(stations.position.back() + size);
+  for (int i = 0; i <= zone.cells; ++i)  // exact, free of the sum's rounding
+    stations.position[before.size() + i] = zone.first + i * plan.zone_size;
+  stations.zone_first = static_cast<int>(before.size());
+  stations.zone_last = stations.zone_first + zone.cells;
+  add_levels(stations, sizes, stations.zone_first + zone.origin, plan);
+  return stations;
+}
+
+}  // namespace
+
+Stations open_stations(const StationPlan& plan, double start, double end) {
+  const ZoneCells zone = zone_cells(plan);
+  const double last = zone.first + zone.cells * plan.zone_size;
+  const auto before = graded_cells(zone.first - start, plan.zone_size, plan.growth, plan.coarse_size);
+  const auto after = graded_cells(end - last, plan.zone_size, plan.growth, plan.coarse_size);
+  Stations stations = assemble(plan, zone, before, start, after);
+  if (!after.empty()) stations.position.back() = end;
+  return stations;
+}
+
+Stations periodic_stations(const StationPlan& plan, double period) {
+  StationPlan fitted = plan;
+  ZoneCells zone = zone_cells(plan);
+  double rest = period - zone.cells * plan.zone_size;
+  std::vector<double> before, after;
+  if (rest < 6 * plan.zone_size) {  // the whole circle is zone
+    zone.cells = static_cast<int>(std::ceil(period / plan.zone_size / 3 - 1e-6)) * 3;
+    fitted.zone_size = period / zone.cells;
+    zone.first = -zone.origin * fitted.zone_size;
+  } else {
+    // Both sides meet opposite the zone; whole groups of three from the origin leave no odd cell there.
+    const int side_before = zone.origin, side_after = zone.cells - zone.origin;
+    const auto grade = [&](int zone_side) {
+      auto cells = graded_cells(rest / 2, plan.zone_size, plan.growth, plan.coarse_size);
+      for (int extra = 1; (zone_side + static_cast<int>(cells.size())) % 3 != 0 && extra < 3; ++extra) {
+        const int wanted = static_cast<int>(cells.size()) + 1;
+        const auto more = graded_cells(rest / 2, plan.zone_size, plan.growth, plan.coarse_size, wanted);
+        if (static_cast<int>(more.size()) != wanted) break;
+        cells = more;
+      }
+      return cells;
+    };
+    before = grade(side_before);
+    after = grade(side_after);
+  }
+  Stations stations = assemble(fitted, zone, before, zone.first - (before.empty() ? 0 : rest / 2), after);
+  stations.position.pop_back();
+  stations.periodic = true;
+  stations.period = period;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < stations.position.size(); ++i)
+    sizes.push_back(stations.next_position(static_cast<int>(i)) - stations.position[i]);
+  add_levels(stations, sizes, stations.origin, fitted);
+  return stations;
+}
+
+}  // namespace railwave

@@ -1,0 +1,90 @@
+#include "mesh/quality.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh/hexahedron.hpp"
+
+namespace railwave {
+
+namespace {
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
+double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
+
+constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+// Neighbours of each corner, ordered so that their triple product is positive.
+constexpr int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+
+Vec3 centroid(const Mesh& mesh, int element) {
+  Vec3 sum{0, 0, 0};
+  for (int node : mesh.elements[element])
+    for (int i = 0; i < 3; ++i) sum[i] += mesh.nodes[node][i] / 8;
+  return sum;
+}
+
+}  // namespace
+
+MeshQuality mesh_quality(const Mesh& mesh, double dilatational_wave_speed) {
+  MeshQuality quality;
+  quality.elements = static_cast<int>(mesh.elements.size());
+  quality.nodes = static_cast<int>(mesh.nodes.size());
+  quality.aspect_ratio.value = 0;
+  quality.jacobian_ratio.value = quality.step.value = std::numeric_limits<double>::infinity();
+  const auto note = [&](QualityExtreme& extreme, bool worse, double value, int element) {
+    if (worse) extreme = {value, element, centroid(mesh, element)};
+  };
+  for (int e = 0; e < quality.elements; ++e) {
+    const HexahedronCorners x = corners_of(mesh.nodes, mesh.elements[e]);
+    const auto at = [&](int corner) { return x[corner]; };
+    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    for (const auto& edge : edges) {
+      const double size = length(minus(at(edge[1]), at(edge[0])));
+      shortest = std::min(shortest, size);
+      longest = std::max(longest, size);
+    }
+    double least = std::numeric_limits<double>::infinity(), greatest = -least;
+    for (int c = 0; c < 8; ++c) {
+      const double jacobian = triple(minus(at(neighbours[c][0]), at(c)), minus(at(neighbours[c][1]), at(c)),
+                                     minus(at(neighbours[c][2]), at(c)));
+      least = std::min(least, jacobian);
+      greatest = std::max(greatest, jacobian);
+    }
+    const double volume = hexahedron_volume(x);
+    const double aspect = shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity();
+    const double ratio = greatest > 0 ? least / greatest : -1;
+    const double step = hexahedron_length(x) / dilatational_wave_speed;
+    if (!(least > 0 && volume > 0)) ++quality.inverted;
+    quality.volume += volume;
+    note(quality.aspect_ratio, aspect > quality.aspect_ratio.value, aspect, e);
+    note(quality.jacobian_ratio, ratio < quality.jacobian_ratio.value, ratio, e);
+    note(quality.step, step < quality.step.value, step, e);
+  }
+  return quality;
+}
+
+std::string describe(const MeshQuality& quality) {
+  const auto where = [](const QualityExtreme& extreme) {
+    return fmt::format("element {} at ({:.4f}, {:.4f}, {:.4f}) m", extreme.element, extreme.centroid[0], extreme.centroid[1],
+                       extreme.centroid[2]);
+  };
+  std::string text = fmt::format("{} elements, {} nodes, volume {:.6g} m3", quality.elements, quality.nodes, quality.volume);
+  if (quality.elements == 0) return text;
+  text += fmt::format("\nsmallest stable step {:.4g} s: {}", quality.step.value, where(quality.step));
+  text += fmt::format("\nworst aspect ratio {:.3g}: {}", quality.aspect_ratio.value, where(quality.aspect_ratio));
+  text += fmt::format("\nworst Jacobian ratio {:.3g}: {}", quality.jacobian_ratio.value, where(quality.jacobian_ratio));
+  if (quality.inverted > 0) text += fmt::format("\n{} inverted elements: the mesh can't be used", quality.inverted);
+  return text;
+}
+
+}  // namespace railwave

@@ -1,0 +1,90 @@
+#include "mesh/rail.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "case/error.hpp"
+#include "mesh/extrusion.hpp"
+#include "mesh/grading.hpp"
+#include "mesh/mesh_checks.hpp"
+#include "mesh/rail_section.hpp"
+
+namespace railwave {
+
+namespace {
+
+void check(const scene::MeshSource& source) {
+  const scene::RailMesh& r = source.rail;
+  MeshChecks checks(source);
+  checks.expect(r.section == "54E1" || r.section == "60E1", "section", r.section, "\"54E1\" or \"60E1\"");
+  checks.expect(std::abs(r.inclination) <= 0.2, "inclination", r.inclination, "-0.2 to 0.2");
+  checks.expect(r.end > r.start, "end", r.end, fmt::format("more than start = {:g} m", r.start));
+  checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end, fmt::format("more than zone_start = {:g} m", r.zone_start));
+  checks.expect(r.zone_start >= r.start, "zone_start", r.zone_start, fmt::format("start = {:g} m or more", r.start));
+  checks.expect(r.zone_end <= r.end, "zone_end", r.zone_end, fmt::format("end = {:g} m or less", r.end));
+  checks.grading(r.zone_size, r.growth, r.coarse_size, r.core_size, r.section_size, r.zone_layers, r.web_columns);
+  checks.expect(r.zone_width >= r.zone_size && r.zone_width <= 0.09, "zone_width", r.zone_width,
+                "zone_size to 0.09 m");
+  checks.expect(r.zone_size * (r.zone_layers + transition_height) <= 0.024, "zone_layers", r.zone_layers,
+                fmt::format("up to {:.0f} layers of {:g} m: the head is not deeper", std::floor(0.024 / r.zone_size - transition_height),
+                            r.zone_size));
+  checks.report();
+}
+
+}  // namespace
+
+Mesh rail_mesh(const scene::MeshSource& source) {
+  check(source);
+  const scene::RailMesh& r = source.rail;
+
+  RailSectionPlan plan;
+  plan.section = r.section;
+  plan.inclination = r.inclination;
+  plan.zone_centre = r.zone_centre;
+  plan.zone_width = r.zone_width;
+  plan.zone_size = r.zone_size;
+  plan.growth = r.growth;
+  plan.section_size = r.section_size;
+  plan.zone_layers = r.zone_layers;
+  plan.web_columns = r.web_columns;
+  plan.lower_transition = 9 * r.zone_size <= r.core_size;
+
+  SectionMesh section;
+  try {
+    section = rail_section(plan);
+  } catch (const std::invalid_argument& problem) {
+    throw InputError(place_of(source) + problem.what());
+  }
+  const StationPlan along{r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size, r.core_size,
+                          plan.lower_transition ? 3 : 2};
+  const Stations stations = open_stations(along, r.start, r.end);
+
+  const double angle = std::atan(r.inclination), c = std::cos(angle), s = std::sin(angle);
+  const auto place = [=](Point2 p, double x) { return Vec3{x, p.y * c - p.z * s, p.y * s + p.z * c}; };
+  Extrusion extrusion = extrude(section, stations, place, false);
+  Mesh& mesh = extrusion.mesh;
+
+  const int last = static_cast<int>(stations.position.size()) - 1;
+  mesh.surfaces["running_surface"] = faces_on_edges(extrusion, section.edges["running_surface"], 0, last);
+  mesh.surfaces["head"] = faces_on_edges(extrusion, section.edges["head"], stations.zone_first - 2, stations.zone_last + 2);
+  mesh.element_sets["zone"] = zone_elements(extrusion, section, stations.zone_first, stations.zone_last);
+  mesh.node_sets["foot"] = nodes_on_section_nodes(extrusion, section.node_sets["foot"]);
+  auto& start = mesh.node_sets["start"];
+  auto& end = mesh.node_sets["end"];
+  for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n) {
+    if (extrusion.station[n] == 0) start.push_back(n);
+    if (extrusion.station[n] == last) end.push_back(n);
+  }
+  auto& start_face = mesh.surfaces["start_face"];
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    for (int side = 0; side < 6; ++side) {
+      bool on = true;
+      for (int node : mesh.face_nodes({e, side})) on = on && extrusion.section_node[node] >= 0 && extrusion.station[node] == 0;
+      if (on) start_face.push_back({e, side});
+    }
+  return std::move(extrusion.mesh);
+}
+
+}  // namespace railwave

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mesh/curve.hpp"
+
+namespace railwave {
+
+/// A node of a section. Nodes on a boundary curve may slide along it while the section is smoothed.
+struct SectionNode {
+  Point2 position;
+  int level = 0;         ///< level of longitudinal coarsening: present in every layer that this level keeps
+  int curve = -1;        ///< boundary curve, -1: none
+  double parameter = 0;  ///< arc length on that curve
+  bool fixed = false;
+};
+
+/// A quadrilateral of a section, corners counter-clockwise with the running surface upwards and y to the right.
+/// In a transition quad, corners 0, 1 belong to level + 1 and 3, 2 (above them) to `level`: its extrusion holds the
+/// 3:1 transition.
+struct SectionQuad {
+  std::array<int, 4> nodes;
+  int level = 0;
+  bool transition = false;
+  bool zone = false;
+  std::array<Point2, 4> ideal{};  ///< the shape and size that smoothing aims at
+};
+
+/// Edge `edge` (corner to next corner) of a quad, for surfaces.
+struct SectionEdge {
+  int quad;
+  int edge;
+};
+
+/// A section in quadrilaterals, with the names that its extrusion gives to sets.
+struct SectionMesh {
+  std::vector<SectionNode> nodes;
+  std::vector<SectionQuad> quads;
+  std::vector<Curve> curves;
+  std::map<std::string, std::vector<SectionEdge>> edges;
+  std::map<std::string, std::vector<int>> node_sets;
+
+  int add_node(Point2 position);
+  int add_fixed_node(Point2 position);
+  int add_curve(Curve curve);
+  int add_curve_node(int curve, double parameter);
+  /// `parts + 1` nodes along a curve, evenly spaced by arc length, between two nodes that exist.
+  std::vector<int> add_curve_line(int first, int curve, int parts, int last);
+  Point2 position(int node) const { return nodes[node].position; }
+};
+
+/// What a row of quads does on the way down from the running surface.
+enum class RowKind {
+  plain,
+  longitudinal,  ///< 3:1 along the extrusion
+  lateral        ///< 3:1 in the section
+};
+
+struct Row {
+  RowKind kind = RowKind::plain;
+  double height = 0;  ///< relative to the block's other rows
+};
+
+/// The quads of one row, by column of the line above, and its position: what a caller needs to name sets.
+struct BlockRow {
+  std::vector<int> top_line;     ///< nodes above the row
+  std::vector<int> first_quads;  ///< of each column of a plain or longitudinal row
+};
+
+/// Fills a four-sided block with rows from `top` (left to right) down to `bottom`. `left` and `right` hold one node for
+/// each row line, top and bottom corners included. A lateral row merges the columns in the next of `merges`
+/// (group sizes, left to right), so `bottom` has as many nodes as then remain. New nodes are placed by transfinite
+/// interpolation. `level` is the longitudinal level at the top; returns the rows, top row first.
+std::vector<BlockRow> fill_block(SectionMesh& section, const std::vector<int>& top, const std::vector<Row>& rows,
+                                 const std::vector<std::vector<int>>& merges, const std::vector<int>& left,
+                                 const std::vector<int>& right, const std::vector<int>& bottom, int level);
+
+/// Sets each quad's ideal shape from the present positions: a rectangle with the mean lengths of opposite edges; quads
+/// of a lateral transition keep the template's shape, which fill_block has stored, scaled.
+void set_ideal_shapes(SectionMesh& section);
+
+/// Fractions of a transition row's height and of a cell's width at which the template's inner nodes lie, from the
+/// merged side; with a row 2.4 cells high every hexahedron keeps a stable step of 0.8 of the fine cell's.
+inline constexpr double transition_depth = 0.54;
+inline constexpr double transition_inset = 0.1;
+inline constexpr double transition_height = 2.4;
+
+}  // namespace railwave

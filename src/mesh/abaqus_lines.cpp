@@ -77,7 +77,7 @@ void AbaqusLines::open(const std::string& path, const FilePlace* from) {
   try {
     source->text = read_whole_file(path);
   } catch (const InputError& problem) {
-    throw InputError(here + problem.what());
+    throw InputError(here + (from ? "includes " : "") + problem.what());
   }
   source->real_path = real_path;
   source->file = static_cast<int>(files_.size());

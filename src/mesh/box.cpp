@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "case/error.hpp"
+#include "mesh/mesh_checks.hpp"
 
 namespace railwave {
 namespace {
@@ -18,22 +19,22 @@ constexpr int upper_side[3] = {3, 4, 1};
 
 void check(const scene::MeshSource& source) {
   const scene::BoxMesh& box = source.box;
-  const auto where = fmt::format("line {}: meshes.{}", source.line, source.name);
+  const auto where = place_of(source);
   double node_count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(box.origin[axis]))
-      throw InputError(fmt::format("{}: origin along {} is {}; give a finite number in m", where, axis_names[axis],
+      throw InputError(fmt::format("{}origin along {} is {}; give a finite number in m", where, axis_names[axis],
                                    box.origin[axis]));
     if (!(box.size[axis] > 0) || !std::isfinite(box.size[axis]))
-      throw InputError(fmt::format("{}: size along {} is {}; give a length above 0 in m", where, axis_names[axis],
+      throw InputError(fmt::format("{}size along {} is {}; give a length above 0 in m", where, axis_names[axis],
                                    box.size[axis]));
     if (box.divisions[axis] < 1)
-      throw InputError(fmt::format("{}: divisions along {} is {}; give a whole number of 1 or more", where,
+      throw InputError(fmt::format("{}divisions along {} is {}; give a whole number of 1 or more", where,
                                    axis_names[axis], box.divisions[axis]));
     node_count *= box.divisions[axis] + 1.0;
   }
   if (node_count > std::numeric_limits<int>::max())
-    throw InputError(fmt::format("{}: divisions {} x {} x {} make {:.3g} nodes, more than {} can be numbered; use fewer",
+    throw InputError(fmt::format("{}divisions {} x {} x {} make {:.3g} nodes, more than {} can be numbered; use fewer",
                                  where, box.divisions[0], box.divisions[1], box.divisions[2], node_count,
                                  std::numeric_limits<int>::max()));
 }

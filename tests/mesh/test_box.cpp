@@ -69,7 +69,7 @@ TEST_CASE("a box that can't be made is refused by name and line") {
   auto source = block();
   SECTION("no thickness") {
     source.box.size[2] = 0;
-    CHECK_THROWS_WITH(box_mesh(source), ContainsSubstring("line 7: meshes.block: size along z is 0"));
+    CHECK_THROWS_WITH(box_mesh(source), ContainsSubstring("[meshes.block] (line 7): size along z is 0"));
   }
   SECTION("no divisions") {
     source.box.divisions[1] = 0;

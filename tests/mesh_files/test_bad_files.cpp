@@ -1,0 +1,44 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+
+#include <algorithm>
+#include <vector>
+
+#include "case/error.hpp"
+#include "mesh/mesh_file.hpp"
+#include "tests/mesh_files/mesh_checks.hpp"
+
+using namespace railwave;
+
+// Each file of bad/ has one mistake. What its message must say stands in its first line (`** expect: ...`) or, for .msh,
+// in a file of the same name with .expect after it: from the file's name and line on, " ... " standing for any text.
+TEST_CASE("each broken mesh file is refused with its message") {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/bad"))
+    if (const auto ending = entry.path().extension(); ending == ".inp" || ending == ".msh") paths.push_back(entry.path());
+  std::sort(paths.begin(), paths.end());
+  REQUIRE(paths.size() >= 40);
+
+  for (const auto& path : paths) {
+    const bool abaqus = path.extension() == ".inp";
+    const auto text = bytes_of(abaqus ? path.string() : path.string() + ".expect");
+    const std::string prefix = abaqus ? "** expect: " : "";
+    CAPTURE(path.filename());
+    REQUIRE(text.compare(0, prefix.size(), prefix) == 0);
+    const auto expected = text.substr(prefix.size(), text.find('\n') - prefix.size());
+    REQUIRE(expected.size() > 20);
+
+    scene::MeshSource source;
+    source.file.path = path.string();
+    std::string message = "(none: the file was read)";
+    try {
+      read_mesh_file(source);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    std::string rest = path.filename().string() + expected;
+    for (std::size_t gap; (gap = rest.find(" ... ")) != std::string::npos; rest.erase(0, gap + 5))
+      CHECK_THAT(message, Catch::Matchers::ContainsSubstring(rest.substr(0, gap)));
+    CHECK_THAT(message, Catch::Matchers::ContainsSubstring(rest));
+  }
+}

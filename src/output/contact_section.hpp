@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/field_source.hpp"
+#include "output/hdf5.hpp"
+
+namespace railwave {
+
+/// Group /contact/NAME of a results file: both surfaces of one contact pair at each output time. Made from the pair's
+/// first state, whose nodes and facets hold for the whole run.
+class ContactSection {
+ public:
+  ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact);
+
+  void add(const FieldSource& source, double time, long step);
+
+  std::size_t node_count(bool slave) const { return side(slave).nodes.size(); }
+  std::size_t facet_count(bool slave) const { return side(slave).facet_count; }
+
+ private:
+  struct Side {
+    std::vector<int> nodes;
+    std::size_t facet_count = 0;
+    hdf5::Dataset area, displacement, position, velocity, normal, normal_force, tangential_force, pressure, shear;
+    Side() = default;
+    Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source);
+    void add(const ContactSide& state, const FieldSource& source);
+  };
+  const Side& side(bool slave) const { return slave ? slave_ : master_; }
+
+  int contact_;
+  Side slave_, master_;
+  hdf5::Dataset times_, steps_, gap_, slip_velocity_, slipping_;
+};
+
+/// Of each node of one side: the contact force along the inward normal over the node's area, Pa, pressure positive.
+std::vector<double> nodal_pressure(const ContactSide& side);
+
+/// Of each node of one side: tangential contact force over the node's area, Pa, three components, global axes.
+std::vector<double> nodal_shear(const ContactSide& side);
+
+}  // namespace railwave

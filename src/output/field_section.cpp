@@ -1,0 +1,50 @@
+#include "output/field_section.hpp"
+
+#include <stdexcept>
+
+namespace railwave {
+namespace {
+
+constexpr hdf5::Storage each_time{1, true};
+constexpr hdf5::Storage times_in_block{1024, false};
+
+void append(hdf5::Dataset& dataset, const HostField& field, std::size_t entries, int components, const std::string& name) {
+  if (field.components != components || field.values.size() != entries * components)
+    throw std::logic_error("the fields of " + name + " have not the length of the set");
+  dataset.append(field.values.data(), 1);
+}
+
+}  // namespace
+
+FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields) : set_(set) {
+  const hdf5::Group group = fields_group.create_group(set.name);
+  const hsize_t nodes = set.nodes.size(), elements = set.elements.size();
+  group.set_attribute("kind", set.is_surface() ? "surface" : "volume");
+  group.write("nodes", set.nodes, {nodes});
+  group.write("elements", set.elements, {elements});
+  group.write("connectivity", set.corners, {elements, static_cast<hsize_t>(set.corner_count)});
+  group.write("coordinates", set.coordinates, {nodes, 3});
+  times_ = group.create_growing<double>("time", {}, times_in_block);
+  steps_ = group.create_growing<long>("step", {}, times_in_block);
+  for (const std::string& name : fields) {
+    if (name == "stress") {
+      stress_ = group.create_growing<double>(name, {elements, 6}, each_time);
+      has_stress_ = true;
+    } else {
+      const NodeField field = name == "displacement" ? NodeField::displacement
+                              : name == "velocity"   ? NodeField::velocity
+                              : name == "acceleration" ? NodeField::acceleration
+                                                       : throw std::logic_error("there is no field " + name);
+      node_columns_.push_back({field, group.create_growing<double>(name, {nodes, 3}, each_time)});
+    }
+  }
+}
+
+void FieldSection::add(const FieldSource& source, double time, long step) {
+  for (NodeColumn& column : node_columns_) append(column.dataset, source.nodes(column.field, set_.nodes), set_.nodes.size(), 3, set_.name);
+  if (has_stress_) append(stress_, source.stress(set_.elements), set_.elements.size(), 6, set_.name);
+  steps_.append(&step, 1);
+  times_.append(&time, 1);
+}
+
+}  // namespace railwave

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/field_source.hpp"
+#include "output/hdf5.hpp"
+#include "output/output_sets.hpp"
+
+namespace railwave {
+
+/// Group /fields/NAME of a results file: one output set, its mesh once and its fields at each output time.
+class FieldSection {
+ public:
+  /// `fields`: of displacement, velocity, acceleration, stress.
+  FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
+
+  void add(const FieldSource& source, double time, long step);
+
+ private:
+  struct NodeColumn {
+    NodeField field;
+    hdf5::Dataset dataset;
+  };
+  OutputSet set_;
+  hdf5::Dataset times_, steps_, stress_;
+  std::vector<NodeColumn> node_columns_;
+  bool has_stress_ = false;
+};
+
+}  // namespace railwave

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "model/fields.hpp"
+
+namespace railwave {
+
+/// Where the results file gets its fields from: the running model, or in a test a made-up one. All at one instant.
+class FieldSource {
+ public:
+  virtual ~FieldSource() = default;
+  virtual HostField nodes(NodeField field, const std::vector<int>& node_numbers) const = 0;
+  virtual HostField stress(const std::vector<int>& element_numbers) const = 0;
+  virtual ContactState contact(int number) const = 0;
+};
+
+}  // namespace railwave

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The little of HDF5's C interface that Railwave needs, with identifiers that close themselves. Every failing call
+/// throws std::runtime_error saying what was tried and HDF5's own reason.
+namespace railwave::hdf5 {
+
+/// An HDF5 identifier together with the function that closes it.
+class Handle {
+ public:
+  using Closer = herr_t (*)(hid_t);
+  Handle() = default;
+  Handle(hid_t id, Closer closer) : id_(id), closer_(closer) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), closer_(other.closer_) {}
+  Handle& operator=(Handle&& other) noexcept;
+  ~Handle() { close(); }
+  hid_t get() const { return id_; }
+  void close() noexcept;
+
+ private:
+  hid_t id_ = -1;
+  Closer closer_ = nullptr;
+};
+
+using Shape = std::vector<hsize_t>;
+
+/// Array in a file. Element types are double, int, long and signed char.
+class Dataset {
+ public:
+  Dataset() = default;
+  Dataset(Handle id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
+
+  Shape shape() const;
+
+  /// Adds `count` rows (entries along the first dimension) at the end.
+  template <class T>
+  void append(const T* rows, hsize_t count);
+
+  template <class T>
+  std::vector<T> read() const;
+
+  /// Reads one entry along the first dimension. Throws if there is none of that number.
+  template <class T>
+  std::vector<T> read_row(hsize_t row) const;
+
+ private:
+  Handle id_;
+  std::string name_;
+};
+
+/// How a growing dataset is stored. Compressed chunks are written once and whole: a chunk that is rewritten in another
+/// size moves, and would not survive a kill between two flushes.
+struct Storage {
+  hsize_t rows_in_chunk = 1;
+  bool compressed = false;
+};
+
+/// A group, or a file's root.
+class Group {
+ public:
+  Group() = default;
+  Group(Handle id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
+
+  Group create_group(const std::string& name) const;
+  Group group(const std::string& name) const;
+  Dataset dataset(const std::string& name) const;
+  bool has(const std::string& name) const;
+  std::vector<std::string> names() const;  ///< of everything in this group, by alphabet
+
+  /// Dataset that grows along its first dimension; `row` is the shape of one entry.
+  template <class T>
+  Dataset create_growing(const std::string& name, const Shape& row, const Storage& storage) const;
+
+  /// Dataset of fixed shape, written at once.
+  template <class T>
+  void write(const std::string& name, const std::vector<T>& values, const Shape& shape) const;
+
+  void set_attribute(const std::string& name, double value) const;
+  void set_attribute(const std::string& name, long value) const;
+  void set_attribute(const std::string& name, const std::string& value) const;
+  void set_attribute(const std::string& name, const char* value) const { set_attribute(name, std::string(value)); }
+  void set_attribute(const std::string& name, const std::vector<std::string>& values) const;
+
+  bool has_attribute(const std::string& name) const;
+  double number_attribute(const std::string& name) const;
+  std::string text_attribute(const std::string& name) const;
+
+ private:
+  Handle new_attribute(const std::string& name, hid_t type, hid_t space) const;
+  Handle id_;
+  std::string name_;
+};
+
+class File {
+ public:
+  File() = default;
+
+  /// Makes a new file, replacing an existing one. Between two calls of flush() only array data reach the disk, never
+  /// half of the file's structure, so what was flushed stays readable when the program is killed.
+  static File create(const std::string& path);
+  static File open(const std::string& path);  ///< for reading
+
+  bool is_open() const { return id_.get() >= 0; }
+  Group root() const;
+  void flush() const;
+
+  /// Writes everything and closes; throws if that fails, unlike the destructor.
+  void close();
+
+ private:
+  File(Handle id, std::string path) : id_(std::move(id)), path_(std::move(path)) {}
+  Handle id_;
+  std::string path_;
+};
+
+}  // namespace railwave::hdf5

@@ -1,0 +1,89 @@
+#include "output/history_section.hpp"
+
+#include <iterator>
+#include <stdexcept>
+
+#include "output/energy_terms.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr hdf5::Storage blocks{1024, false};
+
+void push(std::vector<double>& values, const Vec3& vector) { values.insert(values.end(), vector.begin(), vector.end()); }
+
+}  // namespace
+
+template <class T>
+void HistorySection::Column<T>::write(hsize_t rows) {
+  dataset.append(values.data(), rows);
+  values.clear();
+}
+
+HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
+                               const std::vector<std::string>& sets) {
+  const hdf5::Group history = root.create_group("history");
+  times_.dataset = history.create_growing<double>("time", {}, blocks);
+  steps_.dataset = history.create_growing<long>("step", {}, blocks);
+
+  const hdf5::Group energy = history.create_group("energy");
+  for (const EnergyTerm& term : energy_terms) energies_.push_back({energy.create_growing<double>(term.name, {}, blocks), {}});
+
+  const auto vector_in = [](const hdf5::Group& group, const char* name) { return group.create_growing<double>(name, {3}, blocks); };
+  const auto count_in = [](const hdf5::Group& group, const char* name) { return group.create_growing<long>(name, {}, blocks); };
+  const hdf5::Group contact_groups = history.create_group("contact");
+  for (const std::string& name : contacts) {
+    const hdf5::Group group = contact_groups.create_group(name);
+    contacts_.push_back({{vector_in(group, "normal_force"), {}},
+                         {vector_in(group, "tangential_force"), {}},
+                         {vector_in(group, "master_force"), {}},
+                         {count_in(group, "nodes_in_contact"), {}},
+                         {count_in(group, "nodes_slipping"), {}}});
+  }
+  const hdf5::Group set_groups = history.create_group("set");
+  for (const std::string& name : sets) {
+    const hdf5::Group group = set_groups.create_group(name);
+    sets_.push_back({{vector_in(group, "displacement"), {}}, {vector_in(group, "velocity"), {}}, {vector_in(group, "acceleration"), {}}});
+  }
+}
+
+void HistorySection::add(const HistorySample& sample) {
+  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size())
+    throw std::logic_error("a history sample has other contacts or sets than the results file was made for");
+  times_.values.push_back(sample.time);
+  steps_.values.push_back(sample.step);
+  for (std::size_t i = 0; i < std::size(energy_terms); ++i) energies_[i].values.push_back(sample.energy.*energy_terms[i].value);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    push(contacts_[i].normal_force.values, sample.contacts[i].normal_force);
+    push(contacts_[i].tangential_force.values, sample.contacts[i].tangential_force);
+    push(contacts_[i].master_force.values, sample.contacts[i].master_force);
+    contacts_[i].nodes_in_contact.values.push_back(sample.contacts[i].nodes_in_contact);
+    contacts_[i].nodes_slipping.values.push_back(sample.contacts[i].nodes_slipping);
+  }
+  for (std::size_t i = 0; i < sets_.size(); ++i) {
+    push(sets_[i].displacement.values, sample.sets[i].displacement);
+    push(sets_[i].velocity.values, sample.sets[i].velocity);
+    push(sets_[i].acceleration.values, sample.sets[i].acceleration);
+  }
+}
+
+void HistorySection::write() {
+  const hsize_t rows = waiting();
+  for (auto& energy : energies_) energy.write(rows);
+  for (auto& contact : contacts_) {
+    contact.normal_force.write(rows);
+    contact.tangential_force.write(rows);
+    contact.master_force.write(rows);
+    contact.nodes_in_contact.write(rows);
+    contact.nodes_slipping.write(rows);
+  }
+  for (auto& set : sets_) {
+    set.displacement.write(rows);
+    set.velocity.write(rows);
+    set.acceleration.write(rows);
+  }
+  steps_.write(rows);
+  times_.write(rows);
+}
+
+}  // namespace railwave

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <iosfwd>
+#include <memory>
+
+#include "output/progress_table.hpp"
+
+namespace railwave {
+
+/// Shows on `out` how a run goes: a line every scene.output.progress_interval wall seconds, and a summary.
+class Progress : public RunObserver {
+ public:
+  explicit Progress(std::ostream& out) : out_(out) {}
+
+  void begin(const Model& model) override;
+  void history(const Model& model, const HistorySample& sample) override;
+  void end(const Model& model, const RunSummary& summary) override;
+
+ private:
+  std::ostream& out_;
+  std::unique_ptr<ProgressTable> table_;
+};
+
+}  // namespace railwave

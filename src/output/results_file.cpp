@@ -1,0 +1,63 @@
+#include "output/results_file.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "model/model.hpp"
+
+namespace railwave {
+namespace {
+
+class ModelFields : public FieldSource {
+ public:
+  explicit ModelFields(const Model& model) : model_(model) {}
+  HostField nodes(NodeField field, const std::vector<int>& numbers) const override { return node_field(model_, field, numbers); }
+  HostField stress(const std::vector<int>& numbers) const override { return element_stress(model_, numbers); }
+  ContactState contact(int number) const override { return contact_state(model_, number); }
+
+ private:
+  const Model& model_;
+};
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version)
+    : path_(scene.output.file) {
+  description_.program_version = program_version;
+  description_.title = scene.title;
+  description_.case_path = scene.path;
+  description_.case_text = text_of(scene.path);
+  description_.end_time = scene.time.end;
+  description_.node_count = static_cast<long>(assembly.nodes.size());
+  description_.element_count = static_cast<long>(assembly.elements.size());
+  for (const auto& contact : scene.contacts) description_.contacts.push_back(contact.name);
+  description_.history_sets = scene.output.history_sets;
+  description_.fields = scene.output.fields;
+  description_.sets = resolve_output_sets(scene, assembly);
+  check_results_place(path_);
+}
+
+void ResultsFile::begin(const Model& model) {
+  description_.step_size = model.step_size;
+  writer_ = std::make_unique<ResultsWriter>(path_, description_);
+}
+
+void ResultsFile::history(const Model&, const HistorySample& sample) { writer_->history(sample); }
+
+void ResultsFile::fields(const Model& model, const HistorySample& sample) {
+  writer_->fields(ModelFields(model), sample.time, sample.step);
+}
+
+void ResultsFile::end(const Model&, const RunSummary& summary) {
+  writer_->end(summary);
+  writer_.reset();
+}
+
+}  // namespace railwave

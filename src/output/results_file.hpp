@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "output/results_writer.hpp"
+#include "solve/observer.hpp"
+
+namespace railwave {
+
+/// Writes what the time loop tells into scene.output.file and its XDMF companion.
+class ResultsFile : public RunObserver {
+ public:
+  /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
+  /// file can be made: to be made before the run's long preparations.
+  ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
+
+  void begin(const Model& model) override;
+  void history(const Model& model, const HistorySample& sample) override;
+  void fields(const Model& model, const HistorySample& sample) override;
+  void end(const Model& model, const RunSummary& summary) override;
+
+ private:
+  std::string path_;
+  RunDescription description_;
+  std::unique_ptr<ResultsWriter> writer_;
+};
+
+}  // namespace railwave

@@ -1,0 +1,146 @@
+#include "output/results_writer.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <filesystem>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "case/error.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr std::size_t largest_history_block = 4096;
+constexpr std::chrono::seconds flush_interval{3};
+
+std::string now_in_utc() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+/// HDF5 locks a file that it writes; two runs with one results file would overwrite each other.
+bool another_run_writes(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(file);
+  return locked;
+}
+
+}  // namespace
+
+void check_results_place(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw InputError(fmt::format("output.file: results go to {}, but there is no folder {}; make it, or name another file", path, folder.string()));
+  if (std::filesystem::is_directory(path, ignored))
+    throw InputError(fmt::format("output.file: {} is a folder; name a file, such as results.h5", path));
+  if (access(folder.c_str(), W_OK) != 0)
+    throw InputError(fmt::format("output.file: results go to {}, but the folder {} may not be written: {}", path, folder.string(), std::strerror(errno)));
+  for (const std::string& name : {path, path + ".new"})
+    if (another_run_writes(name))
+      throw InputError(fmt::format("output.file: another run is writing {} now; wait for its end, or name another file", name));
+}
+
+std::string xdmf_path(const std::string& results_path) {
+  return std::filesystem::path(results_path).replace_extension(".xdmf").string();
+}
+
+ResultsWriter::ResultsWriter(std::string path, RunDescription description)
+    : path_(std::move(path)),
+      description_(std::move(description)),
+      xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields),
+      last_flush_(std::chrono::steady_clock::now()) {
+  check_results_place(path_);
+  file_ = hdf5::File::create(path_ + ".new");
+  const hdf5::Group root = file_.root();
+  root.set_attribute("format", "Railwave results");
+  root.set_attribute("format_version", 1L);
+  root.set_attribute("program", "railwave " + description_.program_version);
+  root.set_attribute("title", description_.title);
+  root.set_attribute("case_file", description_.case_path);
+  root.set_attribute("case_text", description_.case_text);
+  root.set_attribute("start_time", now_in_utc());
+  root.set_attribute("node_count", description_.node_count);
+  root.set_attribute("element_count", description_.element_count);
+  root.set_attribute("step_size", description_.step_size);
+  root.set_attribute("end_time", description_.end_time);
+  root.set_attribute("completed", 0L);
+  root.set_attribute("reason", "the run has not ended, or was killed");
+  history_ = std::make_unique<HistorySection>(root, description_.contacts, description_.history_sets);
+  root.create_group("fields");
+  root.create_group("contact");
+}
+
+ResultsWriter::~ResultsWriter() {
+  if (!holds_data_) std::remove((path_ + ".new").c_str());
+}
+
+void ResultsWriter::history(const HistorySample& sample) {
+  history_->add(sample);
+  if (history_->waiting() >= largest_history_block || std::chrono::steady_clock::now() - last_flush_ > flush_interval) flush();
+}
+
+void ResultsWriter::create_sections(const FieldSource& source) {
+  const hdf5::Group fields_group = file_.root().group("fields"), contacts_group = file_.root().group("contact");
+  for (const OutputSet& set : description_.sets) field_sections_.emplace_back(fields_group, set, description_.fields);
+  for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
+    const ContactSection& section = contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i));
+    for (const bool slave : {true, false})
+      contact_sides_.push_back({description_.contacts[i], slave, section.node_count(slave), section.facet_count(slave)});
+  }
+}
+
+void ResultsWriter::fields(const FieldSource& source, double time, long step) {
+  if (outputs_ == 0) create_sections(source);
+  for (FieldSection& section : field_sections_) section.add(source, time, step);
+  for (ContactSection& section : contact_sections_) section.add(source, time, step);
+  flush();
+  if (!description_.sets.empty() || !contact_sides_.empty()) xdmf_.add(time, outputs_, description_.sets, contact_sides_);
+  ++outputs_;
+}
+
+void ResultsWriter::flush() {
+  holds_data_ = true;
+  history_->write();
+  file_.flush();
+  if (!in_place_) {
+    if (std::rename((path_ + ".new").c_str(), path_.c_str()) != 0)
+      throw std::runtime_error("cannot give the results file its name " + path_ + ": " + std::strerror(errno) + "; the results are in " + path_ + ".new");
+    std::remove(xdmf_path(path_).c_str());  // an older run's, which would name arrays that are no longer there
+    in_place_ = true;
+  }
+  last_flush_ = std::chrono::steady_clock::now();
+}
+
+void ResultsWriter::end(const RunSummary& summary) {
+  flush();
+  const hdf5::Group root = file_.root();
+  root.set_attribute("completed", summary.completed ? 1L : 0L);
+  root.set_attribute("reason", summary.completed ? std::string("completed") : summary.reason);
+  root.set_attribute("time_reached", summary.time);
+  root.set_attribute("steps", summary.steps);
+  root.set_attribute("step_size", summary.step_size);
+  root.set_attribute("wall_seconds", summary.wall_seconds);
+  root.set_attribute("element_steps_per_second", summary.element_steps_per_second);
+  root.set_attribute("left_out", summary.left_out);
+  history_.reset();
+  field_sections_.clear();
+  contact_sections_.clear();
+  file_.close();
+}
+
+}  // namespace railwave

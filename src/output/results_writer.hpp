@@ -1,0 +1,73 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "output/contact_section.hpp"
+#include "output/field_section.hpp"
+#include "output/history_section.hpp"
+#include "output/xdmf.hpp"
+
+namespace railwave {
+
+/// What a results file says of the run as a whole.
+struct RunDescription {
+  std::string program_version;
+  std::string title;
+  std::string case_path;
+  std::string case_text;                   ///< the case file as it was read
+  double step_size = 0;                    ///< s
+  double end_time = 0;                     ///< s, asked for
+  long node_count = 0;
+  long element_count = 0;
+  std::vector<std::string> contacts;
+  std::vector<std::string> history_sets;
+  std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress
+  std::vector<OutputSet> sets;
+};
+
+/// Writes results.h5 and its companion results.xdmf (docs/results-file.md says what is in them). Knows plain data only,
+/// no model.
+///
+/// Nothing computed gets lost: the file is made as PATH.new and takes the place of an older PATH only when the run has
+/// brought its first data; it is flushed after each output of fields and every few seconds, so a killed run leaves a
+/// readable file. Throws std::runtime_error when the disk refuses.
+class ResultsWriter {
+ public:
+  /// Throws InputError where check_results_place() does.
+  ResultsWriter(std::string path, RunDescription description);
+  ResultsWriter(const ResultsWriter&) = delete;
+  ResultsWriter& operator=(const ResultsWriter&) = delete;
+  ~ResultsWriter();  ///< removes PATH.new if it never held any data
+
+  void history(const HistorySample& sample);
+  void fields(const FieldSource& source, double time, long step);
+  void end(const RunSummary& summary);
+
+ private:
+  void create_sections(const FieldSource& source);
+  void flush();
+
+  std::string path_;
+  RunDescription description_;
+  hdf5::File file_;
+  std::unique_ptr<HistorySection> history_;
+  std::vector<FieldSection> field_sections_;
+  std::vector<ContactSection> contact_sections_;
+  std::vector<XdmfContactSide> contact_sides_;
+  XdmfFile xdmf_;
+  std::size_t outputs_ = 0;
+  bool holds_data_ = false;
+  bool in_place_ = false;  ///< whether the file has taken its own name
+  std::chrono::steady_clock::time_point last_flush_;
+};
+
+/// Throws InputError unless a results file can be made there: no such folder, not writable, or another run writes it now.
+void check_results_place(const std::string& path);
+
+/// Path of the XDMF companion: results.h5 -> results.xdmf.
+std::string xdmf_path(const std::string& results_path);
+
+}  // namespace railwave

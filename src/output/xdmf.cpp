@@ -1,0 +1,141 @@
+#include "output/xdmf.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "output/atomic_file.hpp"
+
+namespace railwave {
+namespace {
+
+const std::string header =
+    "<?xml version=\"1.0\" ?>\n"
+    "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+    "<Xdmf Version=\"2.0\">\n"
+    " <Domain>\n"
+    "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+const std::string footer = "  </Grid>\n </Domain>\n</Xdmf>\n";
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '&') result += "&amp;";
+    else if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else if (c == '"') result += "&quot;";
+    else result += c;
+  }
+  return result;
+}
+
+/// Writes the grids of one output time.
+class TimeText {
+ public:
+  TimeText(const std::string& results_file_name, double time, std::size_t index) : file_(escaped(results_file_name)), index_(index) {
+    text_ = fmt::format("   <Grid Name=\"time {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n    <Time Value=\"{:.17g}\" />\n",
+                        index, time);
+  }
+
+  void open_grid(const std::string& name, int corner_count, std::size_t cells, const std::string& cells_path) {
+    text_ += fmt::format(
+        "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
+        "     <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n"
+        "      <DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"4\" Dimensions=\"{} {}\">{}:{}</DataItem>\n"
+        "     </Topology>\n",
+        escaped(name), corner_count == 4 ? "Quadrilateral" : "Hexahedron", cells, cells, corner_count, file_, escaped(cells_path));
+  }
+  void geometry(std::size_t nodes, const std::string& path) {
+    text_ += fmt::format(
+        "     <Geometry GeometryType=\"XYZ\">\n"
+        "      <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"{} 3\">{}:{}</DataItem>\n"
+        "     </Geometry>\n",
+        nodes, file_, escaped(path));
+  }
+  void attribute(const std::string& name, const char* centre, std::size_t entries, int components, const std::string& path,
+                 const char* number = "Float", int bytes = 8) {
+    const char* type = components == 1 ? "Scalar" : components == 3 ? "Vector" : "Matrix";
+    text_ += fmt::format("     <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n", escaped(name), type, centre) +
+             slab(entries, components, path, number, bytes) + "     </Attribute>\n";
+  }
+  void close_grid() { text_ += "    </Grid>\n"; }
+  std::string finished() const { return text_ + "   </Grid>\n"; }
+
+ private:
+  /// The entry of this time of a dataset that grows along its first dimension.
+  std::string slab(std::size_t entries, int components, const std::string& path, const char* number, int bytes) const {
+    const bool scalar = components == 1;
+    const std::string shape = scalar ? fmt::format("{}", entries) : fmt::format("{} {}", entries, components);
+    return fmt::format(
+        "      <DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\">\n"
+        "       <DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 {}\">{}</DataItem>\n"
+        "       <DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"{}\" Dimensions=\"{} {}\">{}:{}</DataItem>\n"
+        "      </DataItem>\n",
+        shape, number, bytes, scalar ? 2 : 3,
+        scalar ? fmt::format("{} 0 1 1 1 {}", index_, entries) : fmt::format("{} 0 0 1 1 1 1 {} {}", index_, entries, components), number,
+        bytes, index_ + 1, shape, file_, escaped(path));
+  }
+
+  std::string file_;
+  std::size_t index_;
+  std::string text_;
+};
+
+void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string>& fields) {
+  const std::string group = "/fields/" + set.name + "/";
+  text.open_grid(set.name, set.corner_count, set.elements.size(), group + "connectivity");
+  text.geometry(set.nodes.size(), group + "coordinates");
+  for (const std::string& field : fields) {
+    if (field == "stress") text.attribute(field, "Cell", set.elements.size(), 6, group + field);
+    else text.attribute(field, "Node", set.nodes.size(), 3, group + field);
+  }
+  text.close_grid();
+}
+
+void add_side(TimeText& text, const XdmfContactSide& side) {
+  const char* name = side.slave ? "slave" : "master";
+  const std::string group = "/contact/" + side.contact + "/" + name + "/";
+  text.open_grid("contact " + side.contact + " " + name, 4, side.facet_count, group + "facets");
+  text.geometry(side.node_count, group + "coordinates");
+  text.attribute("displacement", "Node", side.node_count, 3, group + "displacement");
+  text.attribute("pressure", "Node", side.node_count, 1, group + "pressure");
+  text.attribute("shear", "Node", side.node_count, 3, group + "shear");
+  text.attribute("velocity", "Node", side.node_count, 3, group + "velocity");
+  if (side.slave) {
+    text.attribute("slip_velocity", "Node", side.node_count, 3, group + "slip_velocity");
+    text.attribute("slipping", "Node", side.node_count, 1, group + "slipping", "Char", 1);
+  }
+  text.close_grid();
+}
+
+}  // namespace
+
+XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields)
+    : path_(std::move(path)), results_file_name_(std::move(results_file_name)), fields_(std::move(fields)) {}
+
+void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides) {
+  TimeText text(results_file_name_, time, index);
+  for (const OutputSet& set : sets)
+    if (!set.elements.empty()) add_set(text, set, fields_);
+  for (const XdmfContactSide& side : sides)
+    if (side.facet_count > 0) add_side(text, side);
+  const std::string grids = text.finished();
+
+  if (end_of_times_ == 0) {
+    write_whole_file(path_, header + grids + footer);
+    end_of_times_ = static_cast<long>(header.size() + grids.size());
+    return;
+  }
+  const auto fail = [&] { throw std::runtime_error("cannot extend " + path_ + ": " + std::strerror(errno)); };
+  const std::string tail = grids + footer;
+  std::FILE* file = std::fopen(path_.c_str(), "r+b");
+  if (!file) fail();
+  const bool written = std::fseek(file, end_of_times_, SEEK_SET) == 0 && std::fwrite(tail.data(), 1, tail.size(), file) == tail.size();
+  if (std::fclose(file) != 0 || !written) fail();
+  end_of_times_ += static_cast<long>(grids.size());
+}
+
+}  // namespace railwave

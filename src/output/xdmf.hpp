@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/output_sets.hpp"
+
+namespace railwave {
+
+/// What the XDMF file must know of one contact surface.
+struct XdmfContactSide {
+  std::string contact;
+  bool slave = true;
+  std::size_t node_count = 0;
+  std::size_t facet_count = 0;
+};
+
+/// Companion of a results file, for ParaView: an XML text that names, for every output time, the arrays in the HDF5 file.
+/// One temporal collection; each time is a spatial collection of one grid for every output set and one for each side of
+/// every contact, all undeformed, with the displacement as an attribute. The arrays that grow with time are named as
+/// XDMF's HyperSlab, which vtkXdmfReader (ParaView's "XDMF Reader") knows and vtkXdmf3Reader does not.
+class XdmfFile {
+ public:
+  /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress.
+  XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields);
+
+  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place.
+  void add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides);
+
+ private:
+  std::string path_;
+  std::string results_file_name_;
+  std::vector<std::string> fields_;
+  long end_of_times_ = 0;  ///< where the next time goes; the closing tags stand there now
+};
+
+}  // namespace railwave

@@ -1,0 +1,119 @@
+#include "post/patch_area.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+namespace railwave {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+class Surface {
+ public:
+  Surface(const ContactSide& side, const std::vector<double>& pressure) : side_(side), pressure_(pressure), first_(side.nodes.size() + 1, 0) {
+    for (const auto& facet : side.facets)
+      for (const int corner : facet) ++first_[corner + 1];
+    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+    facets_.resize(first_.back());
+    std::vector<int> next(first_.begin(), first_.end() - 1);
+    for (std::size_t f = 0; f < side.facets.size(); ++f)
+      for (const int corner : side.facets[f]) facets_[next[corner]++] = static_cast<int>(f);
+  }
+
+  bool inside(int node) const { return pressure_[node] > 0; }
+  Vector position(int node) const { return Vector(side_.position.data() + 3 * node); }
+
+  /// Where the zero line crosses the edge from `in` to `out`.
+  Vector crossing(int in, int out) const {
+    const Vector start = position(in), edge = position(out) - start;
+    const double length = edge.norm();
+    return length > 0 ? Vector(start + zero_distance(in, out, length) / length * edge) : start;
+  }
+
+ private:
+  bool has(int facet, int node) const {
+    const auto& corners = side_.facets[facet];
+    return std::find(corners.begin(), corners.end(), node) != corners.end();
+  }
+
+  /// The next node after `to` on the mesh line that comes from `from`, or -1: joined to `to` by an edge, but with no facet
+  /// in common with the edge from-to, and straight ahead within 45 degrees.
+  int straight_on(int from, int to) const {
+    const Vector ahead = (position(to) - position(from)).normalized();
+    int best = -1;
+    double best_cosine = std::sqrt(0.5);
+    for (int i = first_[to]; i < first_[to + 1]; ++i) {
+      if (has(facets_[i], from)) continue;
+      const auto& corners = side_.facets[facets_[i]];
+      const auto here = std::find(corners.begin(), corners.end(), to) - corners.begin();
+      for (const int candidate : {corners[(here + 1) % 4], corners[(here + 3) % 4]}) {
+        const double cosine = ahead.dot((position(candidate) - position(to)).normalized());
+        if (cosine > best_cosine && !beside(candidate, from, to)) {
+          best = candidate;
+          best_cosine = cosine;
+        }
+      }
+    }
+    return best;
+  }
+
+  bool beside(int candidate, int from, int to) const {
+    for (int i = first_[to]; i < first_[to + 1]; ++i)
+      if (has(facets_[i], from) && has(facets_[i], candidate)) return true;
+    return false;
+  }
+
+  double zero_distance(int in, int out, double length) const {
+    const int second = straight_on(out, in);
+    if (second < 0 || !inside(second)) return 0.5 * length;
+    const auto square = [&](int node) { return pressure_[node] * pressure_[node]; };
+    const double s1 = (position(second) - position(in)).norm();
+    const double value = square(in), slope = (value - square(second)) / s1;
+    const int third = straight_on(in, second);
+    double bend = 0;  // second divided difference
+    if (third >= 0 && inside(third)) {
+      const double s2 = (position(third) - position(second)).norm();
+      bend = (slope - (square(second) - square(third)) / s2) / (s1 + s2);
+    }
+    // value + (slope + bend s1) s + bend s^2 = 0, in the form that is stable for small bend
+    const double linear = slope + bend * s1;
+    const double discriminant = linear * linear - 4 * bend * value;
+    if (discriminant < 0) return length;
+    const double denominator = -linear + std::sqrt(discriminant);
+    const double root = denominator > 0 ? 2 * value / denominator : length;
+    return std::clamp(root, 0.0, length);
+  }
+
+  const ContactSide& side_;
+  const std::vector<double>& pressure_;
+  std::vector<int> first_, facets_;  // facets around each node
+};
+
+double polygon_area(const std::vector<Vector>& corners) {
+  Vector twice = Vector::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) twice += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  return 0.5 * twice.norm();
+}
+
+}  // namespace
+
+double patch_area(const ContactSide& side, const std::vector<double>& pressure) {
+  const Surface surface(side, pressure);
+  double area = 0;
+  std::vector<Vector> polygon;
+  for (const auto& facet : side.facets) {
+    polygon.clear();
+    for (int i = 0; i < 4; ++i) {
+      const int here = facet[i], next = facet[(i + 1) % 4];
+      if (surface.inside(here)) polygon.push_back(surface.position(here));
+      if (surface.inside(here) && !surface.inside(next)) polygon.push_back(surface.crossing(here, next));
+      if (!surface.inside(here) && surface.inside(next)) polygon.push_back(surface.crossing(next, here));
+    }
+    if (polygon.size() > 2) area += polygon_area(polygon);
+  }
+  return area;
+}
+
+}  // namespace railwave

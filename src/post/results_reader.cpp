@@ -1,0 +1,130 @@
+#include "post/results_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "case/error.hpp"
+#include "case/suggest.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr double known_version = 1;
+const std::vector<std::string> side_arrays = {"area", "position", "velocity", "normal", "normal_force", "tangential_force"};
+const std::vector<std::string> slave_arrays = {"gap", "slip_velocity", "slipping"};
+
+void check_readable(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw InputError(fmt::format("{} is a folder, not a results file", path));
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) throw InputError(fmt::format("cannot open results file {}: {}", path, std::strerror(errno)));
+  char mark[8] = {};
+  const std::size_t length = std::fread(mark, 1, sizeof mark, file);
+  std::fclose(file);
+  if (length < sizeof mark || std::memcmp(mark, "\211HDF\r\n\032\n", sizeof mark) != 0)
+    throw InputError(fmt::format("{} is no HDF5 file, so no results file of Railwave; 'railwave run' writes one under the name that the case gives as output.file", path));
+}
+
+ContactSide read_side(const hdf5::Group& group, std::size_t index) {
+  ContactSide side;
+  side.nodes = group.dataset("nodes").read<int>();
+  const std::vector<int> corners = group.dataset("facets").read<int>();
+  side.facets.resize(corners.size() / 4);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] < 0 || corners[i] >= static_cast<int>(side.nodes.size())) throw std::runtime_error("a facet has a corner that is no node");
+    side.facets[i / 4][i % 4] = corners[i];
+  }
+  side.area = group.dataset("area").read_row<double>(index);
+  side.position = group.dataset("position").read_row<double>(index);
+  side.velocity = group.dataset("velocity").read_row<double>(index);
+  side.normal = group.dataset("normal").read_row<double>(index);
+  side.normal_force = group.dataset("normal_force").read_row<double>(index);
+  side.tangential_force = group.dataset("tangential_force").read_row<double>(index);
+  const std::size_t count = side.nodes.size();
+  if (side.area.size() != count) throw std::runtime_error("an array has another length than the nodes");
+  for (const auto* vectors : {&side.position, &side.velocity, &side.normal, &side.normal_force, &side.tangential_force})
+    if (vectors->size() != 3 * count) throw std::runtime_error("an array has another length than the nodes");
+  return side;
+}
+
+}  // namespace
+
+ResultsReader::ResultsReader(const std::string& path) : path_(path) {
+  check_readable(path);
+  try {
+    file_ = hdf5::File::open(path);
+    const hdf5::Group root = file_.root();
+    if (!root.has_attribute("format") || root.text_attribute("format") != "Railwave results")
+      throw InputError(fmt::format("{} is an HDF5 file, but no results file of Railwave", path));
+    if (root.number_attribute("format_version") > known_version)
+      throw InputError(fmt::format("{} was written by a newer program ({}), in a format that this one does not know", path, root.text_attribute("program")));
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    const std::string reason = error.what();
+    if (reason.find("truncated") != std::string::npos)
+      throw InputError(fmt::format("results file {} is cut short: copy it again, or repeat the run ({})", path, reason));
+    throw InputError(fmt::format("results file {} cannot be read: {}", path, reason));
+  }
+}
+
+std::string ResultsReader::title() const { return file_.root().text_attribute("title"); }
+bool ResultsReader::completed() const { return file_.root().number_attribute("completed") != 0; }
+std::string ResultsReader::reason() const { return file_.root().text_attribute("reason"); }
+
+std::vector<std::string> ResultsReader::contacts() const {
+  try {
+    return file_.root().group("contact").names();
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
+  }
+}
+
+std::vector<double> ResultsReader::contact_times(const std::string& contact) const {
+  const std::vector<std::string> known = contacts();
+  if (std::find(known.begin(), known.end(), contact) == known.end())
+    throw InputError(fmt::format("results file {} has no contact '{}'; {}", path_, contact, suggestion(contact, known)));
+  try {
+    const hdf5::Group group = file_.root().group("contact").group(contact);
+    std::vector<double> times = group.dataset("time").read<double>();
+    // A kill in the middle of a flush may leave the arrays with different lengths.
+    std::size_t complete = times.size();
+    for (const char* side : {"slave", "master"})
+      for (const std::string& name : side_arrays) complete = std::min<std::size_t>(complete, group.group(side).dataset(name).shape().at(0));
+    for (const std::string& name : slave_arrays) complete = std::min<std::size_t>(complete, group.group("slave").dataset(name).shape().at(0));
+    times.resize(complete);
+    return times;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
+  }
+}
+
+ContactState ResultsReader::contact_state(const std::string& contact, std::size_t index) const {
+  try {
+    const hdf5::Group group = file_.root().group("contact").group(contact);
+    ContactState state;
+    state.name = contact;
+    state.friction = group.number_attribute("friction");
+    const hdf5::Group slave = group.group("slave");
+    state.slave = read_side(slave, index);
+    state.master = read_side(group.group("master"), index);
+    state.gap = slave.dataset("gap").read_row<double>(index);
+    state.slip_velocity = slave.dataset("slip_velocity").read_row<double>(index);
+    const auto slipping = slave.dataset("slipping").read_row<signed char>(index);
+    state.slipping.assign(slipping.begin(), slipping.end());
+    const std::size_t count = state.slave.nodes.size();
+    if (state.gap.size() != count || state.slip_velocity.size() != 3 * count || state.slipping.size() != count)
+      throw std::runtime_error("an array has another length than the nodes");
+    return state;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: contact '{}', output time {}: {}", path_, contact, index, error.what()));
+  }
+}
+
+}  // namespace railwave

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/fields.hpp"
+#include "output/hdf5.hpp"
+
+namespace railwave {
+
+/// Reads what the contacts did from a results file, also from one whose run was killed.
+class ResultsReader {
+ public:
+  /// Throws InputError saying what is wrong: no such file, no HDF5 file, cut short, not Railwave's, of a newer Railwave.
+  explicit ResultsReader(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  std::string title() const;
+  bool completed() const;
+  std::string reason() const;  ///< why not completed
+
+  std::vector<std::string> contacts() const;
+
+  /// Output times that are there in full, s.
+  std::vector<double> contact_times(const std::string& contact) const;
+
+  /// State number `index` of contact_times(). Throws InputError if the file lacks a part of it.
+  ContactState contact_state(const std::string& contact, std::size_t index) const;
+
+ private:
+  std::string path_;
+  hdf5::File file_;
+};
+
+}  // namespace railwave

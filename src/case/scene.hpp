@@ -35,7 +35,7 @@ struct BoxMesh {
 /// S1002 tread profile revolved; axle along y through (0, 0, 0) at the tape circle's plane y = 0; flange towards -y;
 /// the solution zone is centred on the lowest point, rolled towards +x.
 struct WheelMesh {
-  std::string profile = "S1002";
+  std::string profile = "S1002";   ///< or "cone": a straight tread of slope `conicity` without flange
   double radius = 0.46;            ///< nominal rolling radius at the tape circle
   double bore_radius = 0.0925;
   double hub_radius = 0.125;       ///< where the hub's full width ends
@@ -52,12 +52,18 @@ struct WheelMesh {
   double zone_centre = 0.0;        ///< lateral position of the contact band's middle (profile coordinate s)
   double zone_width = 0.03;        ///< width of the contact band
   double growth = 1.25;            ///< largest ratio of neighbouring element sizes
-  double coarse_size = 0.030;      ///< element size far from the zone, at the tread
+  double coarse_size = 0.030;      ///< largest element size along the tread
+  double core_size = 0.090;        ///< largest element size below the tread, as an arc at the tread
+  double section_size = 0.006;     ///< largest element size across the tread
+  int zone_layers = 3;             ///< layers of zone_size below the running surface
+  int web_columns = 3;             ///< elements through the web's thickness
+  double web_centre = -0.0025;     ///< lateral middle of web and hub: the rim's middle
+  double conicity = 0.025;         ///< slope of the tread of profile "cone"
 };
 
 /// 54E1 section extruded along x, foot centre at y = 0 and underside at z = 0, inclined towards -y (the track's centre).
 struct RailMesh {
-  std::string section = "54E1";
+  std::string section = "54E1";    ///< or "60E1"
   double inclination = 0.025;      ///< 1:40
   double start = -0.3;             ///< x of the rail's beginning, m
   double end = 0.5;                ///< x of its end
@@ -67,7 +73,11 @@ struct RailMesh {
   double zone_centre = -0.003;     ///< lateral (y) middle of the contact band
   double zone_width = 0.03;
   double growth = 1.25;
-  double coarse_size = 0.030;
+  double coarse_size = 0.030;      ///< largest element size along the head's surface
+  double core_size = 0.030;        ///< largest element size along the rail below it
+  double section_size = 0.006;     ///< largest element size across the head's surface
+  int zone_layers = 3;             ///< layers of zone_size below the running surface
+  int web_columns = 3;             ///< elements through the web's thickness
 };
 
 struct FileMesh {

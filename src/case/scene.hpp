@@ -54,7 +54,7 @@ struct WheelMesh {
   double growth = 1.25;            ///< largest ratio of neighbouring element sizes
   double coarse_size = 0.030;      ///< largest element size along the tread
   double core_size = 0.090;        ///< largest element size below the tread, as an arc at the tread
-  double section_size = 0.006;     ///< largest element size across the tread
+  double section_size = 0.008;     ///< largest element size across the tread
   int zone_layers = 3;             ///< layers of zone_size below the running surface
   int web_columns = 3;             ///< elements through the web's thickness
   double web_centre = -0.0025;     ///< lateral middle of web and hub: the rim's middle

@@ -54,27 +54,13 @@ class WheelSectionBuilder {
     }
     const int zone = zone_columns(wheel_.zone_width, size());
     const double first = low - zone * size() / 2, last = low + zone * size() / 2;
-    const double tread_end = std::min(s1002_last, field_side(wheel_));
-    if (first < 0 || last > surface_.length || surface_.at(last).y > tread_end + 1e-9)
+    if (first < -1e-9 || last > surface_.length + 1e-9)
       throw std::invalid_argument(fmt::format(
           "the contact band of zone_width = {:g} m about zone_centre = {:g} m does not lie on the running surface; allowed: "
           "lateral positions {:.4f} to {:.4f} m",
-          wheel_.zone_width, wheel_.zone_centre, surface_.begin().y, tread_end));
+          wheel_.zone_width, wheel_.zone_centre, surface_.begin().y, surface_.end().y));
     columns_ = surface_columns(0, first, last, surface_.length, zone, size(), wheel_.growth, wheel_.section_size, 3);
-    snap_chamfer();
     merges_ = plan_merges(columns_, 1.6 * wheel_.section_size, 3.3 * wheel_.section_size);
-  }
-
-  /// The nearest column outside the band moves onto the chamfer's edge.
-  void snap_chamfer() {
-    if (!has_flange(wheel_) || field_side(wheel_) <= s1002_last) return;
-    const double edge = surface_.length - std::sqrt(2.0) * (field_side(wheel_) - s1002_last);
-    int nearest = -1;
-    for (int i = columns_.zone_last; i + 1 < static_cast<int>(columns_.boundaries.size()); ++i)
-      if (nearest < 0 || std::abs(columns_.boundaries[i] - edge) < std::abs(columns_.boundaries[nearest] - edge)) nearest = i;
-    if (nearest <= columns_.zone_last) return;
-    columns_.boundaries[nearest] = edge;
-    for (int i : {nearest - 1, nearest}) columns_.sizes[i] = columns_.boundaries[i + 1] - columns_.boundaries[i];
   }
 
   Point2 base_point(double y) const {
@@ -93,17 +79,17 @@ class WheelSectionBuilder {
       inner = joined({arc(surface_.begin(), side, s1002_flange_back_radius), line(side, foot)});
     }
     inner_curve_ = section_.add_curve(inner);
-    field_curve_ = section_.add_curve(line(surface_.end(), {field_side(wheel_), wheel_.rim_inner_radius}));
+    field_curve_ = section_.add_curve(field_side_curve());
 
     std::vector<int> top;
     for (double arc_length : columns_.boundaries) top.push_back(section_.add_fixed_node(surface_.at(arc_length)));
     const double inner_depth = inner.length - (base_point(inner_side).z - foot.z);
-    const double field_depth = surface_.end().z - base_point(field_side(wheel_)).z;
     std::vector<int> left{top.front()}, right{top.back()};
     for (std::size_t i = 1; i < fractions.size(); ++i) {
       left.push_back(section_.add_curve_node(inner_curve_, inner_depth * fractions[i]));
-      right.push_back(section_.add_curve_node(field_curve_, field_depth * fractions[i]));
+      right.push_back(section_.add_curve_node(field_curve_, field_depth(static_cast<int>(i), fractions)));
     }
+    if (chamfer_ > 0) section_.nodes[right[wheel_.zone_layers]].fixed = true;
     // Base line: below the tread straight down, below the flange drawn together to its foot's width.
     std::vector<int> base{left.back()};
     const double root_arc = arc_at(tread_from);
@@ -121,6 +107,25 @@ class WheelSectionBuilder {
     for (int quad : layers_[0].first_quads) section_.edges["running_surface"].push_back({quad, 2});
     for (int c = std::max(0, columns_.zone_first - 2); c < std::min(count, columns_.zone_last + 2); ++c)
       section_.edges["tread"].push_back({layers_[0].first_quads[c], 2});
+  }
+
+  /// The rim's outer side: chamfer, if the rim is wider than the profile, and field face.
+  Curve field_side_curve() {
+    const Point2 top = surface_.end(), foot{field_side(wheel_), wheel_.rim_inner_radius};
+    const double width = foot.y - top.y;
+    if (width < 1e-6) return line(top, foot);
+    const Point2 edge{foot.y, top.z - width};
+    chamfer_ = norm(edge - top);
+    return joined({line(top, edge), line(edge, foot)});
+  }
+
+  /// Arc length on the rim's outer side of the i-th line of layers; the zone's layers end at the chamfer's edge.
+  double field_depth(int i, const std::vector<double>& fractions) const {
+    const double level = surface_.end().z - base_point(field_side(wheel_)).z;
+    if (chamfer_ == 0) return level * fractions[i];
+    const int layers = wheel_.zone_layers;
+    if (i <= layers) return chamfer_ * i / layers;
+    return chamfer_ + std::max(level - chamfer_ / std::sqrt(2.0), size());
   }
 
   double arc_at(double y) const {
@@ -263,6 +268,7 @@ class WheelSectionBuilder {
   std::vector<BlockRow> layers_;
   std::vector<int> rim_line_, web_line_;
   int inner_curve_ = -1, field_curve_ = -1;
+  double chamfer_ = 0;  ///< its length along the outline
 };
 
 }  // namespace
@@ -276,11 +282,7 @@ Curve wheel_running_surface(const scene::WheelMesh& wheel) {
   if (!has_flange(wheel))
     return line({inner_side, wheel_surface_radius(wheel, inner_side)}, {field, wheel_surface_radius(wheel, field)});
   const double radius = wheel.radius, tread_end = std::min(s1002_last, field);
-  const Curve profile =
-      graph(s1002_flange_back_joint, tread_end, [radius](double s) { return radius + s1002_height(s); }, s1002_slope);
-  if (field <= s1002_last) return profile;
-  const Point2 end = profile.end();
-  return joined({profile, line(end, {field, end.z - (field - s1002_last)})});
+  return graph(s1002_flange_back_joint, tread_end, [radius](double s) { return radius + s1002_height(s); }, s1002_slope);
 }
 
 SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition) {

@@ -11,7 +11,7 @@ namespace railwave {
 /// with the second transition in the web. Throws std::invalid_argument with a sentence when the band doesn't fit.
 SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition);
 
-/// The running surface from the flange's back (or the inner side of a cone) to the field side's end, radius over y.
+/// The running surface from the flange's back (or the inner side of a cone) to the end of the profile, radius over y.
 Curve wheel_running_surface(const scene::WheelMesh& wheel);
 
 /// Radius of the running surface at a lateral position.

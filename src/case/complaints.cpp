@@ -39,14 +39,14 @@ void Complaints::throw_if_any() const {
   throw InputError(lines);
 }
 
-std::string printable(const std::string& text) {
-  constexpr std::size_t longest = 80;
+std::string printable(const std::string& text, std::size_t longest) {
   std::string result = text.substr(0, longest);
   for (auto& letter : result) {
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = '?';
   }
   // A cut in the middle of a UTF-8 letter would leave half of it.
-  while (text.size() > longest && !result.empty() && (static_cast<unsigned char>(result.back()) & 0x80) != 0) result.pop_back();
+  while (text.size() > longest && !result.empty() && (static_cast<unsigned char>(result.back()) & 0x80) != 0)
+    result.pop_back();
   return text.size() > longest ? result + "..." : result;
 }
 

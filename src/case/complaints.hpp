@@ -19,7 +19,8 @@ class Complaints {
   void add(Where where, const std::string& text);
   bool empty() const { return found_.empty(); }
 
-  /// Throws InputError with one mistake a line, in the file's order, then those of the whole file, then those of the command line.
+  /// Throws InputError with one mistake a line, in the file's order, then those of the whole file, then those of the
+  /// command line.
   void throw_if_any() const;
 
  private:
@@ -32,6 +33,6 @@ class Complaints {
 };
 
 /// `text` fit to stand in one line of a message: control characters replaced, cut when very long.
-std::string printable(const std::string& text);
+std::string printable(const std::string& text, std::size_t longest = 80);
 
 }  // namespace railwave::case_file

@@ -1,11 +1,20 @@
 #include "case/document.hpp"
 
-#include <fmt/format.h>
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cctype>
 #include <optional>
+
+// toml++ 3.3 asserts what a wrong text such as "[ ]" or "a = [}" breaks: make that an error like any other, in every
+// kind of build.
+namespace railwave::case_file {
+struct BrokenAssumption {};
+}  // namespace railwave::case_file
+#undef NDEBUG
+#define TOML_ASSERT(expression) ((expression) ? static_cast<void>(0) : throw railwave::case_file::BrokenAssumption{})
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wterminate"
+#include <toml++/toml.h>
+#pragma GCC diagnostic pop
 
 namespace railwave::case_file {
 namespace {
@@ -63,15 +72,6 @@ struct SyntaxError {
   std::string text;
 };
 
-std::optional<SyntaxError> try_parse(const std::string& text, toml::table& table) {
-  try {
-    table = toml::parse(text);
-    return std::nullopt;
-  } catch (const toml::parse_error& error) {
-    return SyntaxError{static_cast<int>(error.source().begin.line), std::string(error.description())};
-  }
-}
-
 /// Position and length of a line (from 1) in the text, without its end.
 std::pair<std::size_t, std::size_t> line_extent(const std::string& text, int line) {
   std::size_t begin = 0;
@@ -83,20 +83,71 @@ std::pair<std::size_t, std::size_t> line_extent(const std::string& text, int lin
   return {begin, std::min(text.find('\n', begin), text.size()) - begin};
 }
 
+bool breaks_assumption(const std::string& text) {
+  try {
+    static_cast<void>(toml::parse(text));
+  } catch (const BrokenAssumption&) {
+    return true;
+  } catch (const toml::parse_error&) {
+  }
+  return false;
+}
+
+/// The first line after which the text cannot be parsed any more.
+int line_that_breaks(const std::string& text) {
+  int good = 0, bad = static_cast<int>(std::count(text.begin(), text.end(), '\n')) + 1;
+  while (bad - good > 1) {
+    const int middle = good + (bad - good) / 2;
+    const auto [begin, length] = line_extent(text, middle);
+    (breaks_assumption(text.substr(0, std::min(begin + length + 1, text.size()))) ? bad : good) = middle;
+  }
+  return bad;
+}
+
+std::optional<SyntaxError> try_parse(const std::string& text, toml::table& table) {
+  try {
+    table = toml::parse(text);
+    return std::nullopt;
+  } catch (const toml::parse_error& error) {
+    return SyntaxError{static_cast<int>(error.source().begin.line), std::string(error.description())};
+  } catch (const BrokenAssumption&) {
+    return SyntaxError{line_that_breaks(text), "a name or a value is missing, or a bracket is misplaced"};
+  }
+}
+
+/// Line of the last '[' before `line` that opens a value and is not closed; 0 without one.
+int open_bracket(const std::string& text, int line) {
+  for (int at = line; at > 0; --at) {
+    const auto [begin, length] = line_extent(text, at);
+    const auto one = text.substr(begin, length);
+    const auto equals = one.find('=');
+    if (equals == std::string::npos || one.find('[', equals) == std::string::npos) continue;
+    return std::count(one.begin(), one.end(), '[') > std::count(one.begin(), one.end(), ']') ? at : 0;
+  }
+  return 0;
+}
+
 /// What to write instead, for the slips that people make.
-std::string hint(const std::string& line, const std::string& error) {
+std::string hint(const std::string& line, const std::string& error, int open_at) {
   const auto equals = line.find('=');
   std::string value = equals == std::string::npos ? "" : line.substr(equals + 1);
   value.erase(0, value.find_first_not_of(" \t"));
   const auto has = [&](const char* piece) { return error.find(piece) != std::string::npos; };
-  if (has("expected a comment or whitespace, saw ','")) return "decimals have a point, and lists stand in brackets: [x, y, z]";
+  if (has("expected a comment or whitespace, saw ','"))
+    return "decimals have a point, and lists stand in brackets: [x, y, z]";
   if (has("expected a comment or whitespace") && !value.empty() && std::isdigit(static_cast<unsigned char>(value[0]))) {
     return "a value is one plain number in SI units, without its unit; each key has its own line";
   }
   if (has("expected value, saw")) return "the value after '=' is missing";
   if (has("could not determine value type")) return "text stands in quotes";
-  if (has("expected 'true'") || has("expected 'false'")) return "text stands in quotes; true and false are written small";
+  if (has("expected 'true'") || has("expected 'false'"))
+    return "text stands in quotes; true and false are written small";
+  if (has("parsing array") && open_at > 0)
+    return "the '[' of line " + std::to_string(open_at) + " may not be closed, or a comma may be missing";
   if (has("parsing array")) return "a '[' may not be closed, or a comma may be missing";
+  if (has("control characters")) return "the text's closing quote is missing";
+  if (has("string: encountered end-of-file")) return "a text's closing quotes are missing, perhaps far above";
+  if (has("blank bare keys")) return "a section has a name: [time] or [parts.NAME]";
   if (has("table header") && has("expected ']'")) return "a section is written [name] or [name.NAME]";
   if (has("leading zeroes")) return "write it without the zeroes in front";
   if (has("floating-point: expected decimal digit")) return "write 0.5 or 1.0, not .5 or 1.";
@@ -106,11 +157,17 @@ std::string hint(const std::string& line, const std::string& error) {
 std::string friendly(const std::string& error) {
   std::string text = error;
   const std::string prefix = "Error while parsing ";
-  if (text.rfind(prefix, 0) == 0) text = "in a " + text.substr(prefix.size());
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\\n", "the end of the line"}}) {
-    const auto at = text.find("'" + from + "'");
-    if (at != std::string::npos) text.replace(at, from.size() + 2, to);
+  if (text.rfind(prefix, 0) == 0) {
+    const char first = text[prefix.size()];
+    text = (first == 'a' || first == 'i' ? "in an " : "in a ") + text.substr(prefix.size());
   }
+  const std::string line_end = "'\\n'";
+  if (const auto at = text.find(line_end); at != std::string::npos)
+    text.replace(at, line_end.size(), "the end of the line");
+  if (const auto at = text.find("unescaped control characters"); at != std::string::npos)
+    text = text.substr(0, at) + "the line ends inside it";
+  if (const auto at = text.find("control characters other"); at != std::string::npos)
+    text = text.substr(0, at) + "the line ends inside it";
   const std::string repeated = "cannot redefine existing ";
   if (const auto at = text.find(repeated); at != std::string::npos) {
     const auto quote = text.find('\'', at);
@@ -119,7 +176,8 @@ std::string friendly(const std::string& error) {
   return "not valid TOML: " + text;
 }
 
-/// True when leaving the line out mends the text: it is a key with a value all on one line, and wrong for itself or a repetition.
+/// True when leaving the line out mends the text: it is a key with a value all on one line, and wrong for itself or a
+/// repetition.
 bool line_is_to_blame(const std::string& line, const SyntaxError& error) {
   const auto first = line.find_first_not_of(" \t");
   if (first == std::string::npos || line[first] == '[' || line.find('=') == std::string::npos) return false;
@@ -142,13 +200,19 @@ Node* Node::find(const std::string& child) { return const_cast<Node*>(static_cas
 
 std::string Node::described() const {
   switch (type) {
-    case Type::text: return "text";
+    case Type::text:
+      return "text";
     case Type::integer:
-    case Type::number: return "a number";
-    case Type::boolean: return "true or false";
-    case Type::date: return "a date or time";
-    case Type::list: return "a list";
-    case Type::table: return "a table";
+    case Type::number:
+      return "a number";
+    case Type::boolean:
+      return "true or false";
+    case Type::date:
+      return "a date or time";
+    case Type::list:
+      return "a list";
+    case Type::table:
+      return "a table";
   }
   return "";
 }
@@ -167,8 +231,8 @@ Document parse_document(std::string text, Complaints& complaints) {
     }
     const auto [begin, length] = line_extent(text, error->line);
     const auto line = text.substr(begin, length);
-    const auto advice = hint(line, error->text);
-    complaints.add({error->line}, printable(friendly(error->text)) + (advice.empty() ? "" : " (" + advice + ")"));
+    const auto advice = hint(line, error->text, open_bracket(text, error->line));
+    complaints.add({error->line}, printable(friendly(error->text), 300) + (advice.empty() ? "" : " (" + advice + ")"));
     if (!line_is_to_blame(line, *error)) return document;
     text.replace(begin, length, "");
   }
@@ -182,11 +246,14 @@ bool parse_override_value(const std::string& text, const std::string& whole, Nod
     value = converted(*table.get("value"));
   } else {
     const auto first = text.find_first_not_of(" \t");
-    const bool meant_as_toml = first != std::string::npos && std::string("[{\"'").find(text[first]) != std::string::npos;
+    const bool meant_as_toml =
+        first != std::string::npos && std::string("[{\"'").find(text[first]) != std::string::npos;
     if (meant_as_toml || first == std::string::npos || text.find('\n') != std::string::npos) {
-      complaints.add({0, true}, printable(whole) + ": " +
-                                    (first == std::string::npos ? "the value after '=' is missing"
-                                                                : "the value is not valid TOML; lists stand in brackets, [x, y, z], and text in quotes"));
+      complaints.add({0, true},
+                     printable(whole) + ": " +
+                         (first == std::string::npos
+                              ? "the value after '=' is missing"
+                              : "the value is not valid TOML; lists stand in brackets, [x, y, z], and text in quotes"));
       return false;
     }
     value = Node{};

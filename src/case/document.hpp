@@ -12,11 +12,11 @@ namespace railwave::case_file {
 struct Node {
   enum class Type { text, integer, number, boolean, date, list, table };
   Type type = Type::table;
-  std::string name;           ///< as a child of a table
-  Where where;                ///< of the name in a table, of the value in a list
+  std::string name;  ///< as a child of a table
+  Where where;       ///< of the name in a table, of the value in a list
   std::string text;
   std::int64_t integer = 0;
-  double number = 0;          ///< also of an integer
+  double number = 0;  ///< also of an integer
   bool boolean = false;
   std::vector<Node> children;  ///< of a list or a table
 
@@ -30,18 +30,20 @@ struct Node {
 
 struct Document {
   Node root;
-  bool usable = false;   ///< false: only the syntax errors are worth telling
-  bool complete = false;  ///< false: some lines were left out for their syntax, so that something may only seem to be missing
+  bool usable = false;  ///< false: only the syntax errors are worth telling
+  bool complete =
+      false;  ///< false: some lines were left out for their syntax, so that something may only seem to be missing
 };
 
 /// The text of a case file. Throws InputError when it is not there, a folder, cannot be read or is not text.
 std::string load_text(const std::string& path);
 
-/// Parses TOML. Syntax errors are added to the complaints; a line that is wrong in itself is left out and the rest is read.
+/// Parses TOML. Syntax errors are added to the complaints; a line that is wrong in itself is left out and the rest is
+/// read.
 Document parse_document(std::string text, Complaints& complaints);
 
-/// The value of an override as TOML; text that is no TOML value counts as a text. Null pointer result is avoided: false with a
-/// complaint when it looks like a list, table or quoted text but is broken.
+/// The value of an override as TOML; text that is no TOML value counts as a text. Null pointer result is avoided: false
+/// with a complaint when it looks like a list, table or quoted text but is broken.
 bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints);
 
 }  // namespace railwave::case_file

@@ -8,7 +8,9 @@
 namespace railwave::case_file {
 namespace {
 
-bool finite(double limit) { return limit > -std::numeric_limits<double>::max() && limit < std::numeric_limits<double>::max(); }
+bool finite(double limit) {
+  return limit > -std::numeric_limits<double>::max() && limit < std::numeric_limits<double>::max();
+}
 
 std::string written(const std::string& text) { return "\"" + text + "\""; }
 
@@ -21,9 +23,13 @@ struct Written {
   std::string operator()(int number) const { return fmt::format("{}", number); }
   std::string operator()(double number) const { return fmt::format("{}", number); }
   std::string operator()(const std::string& text) const { return text.empty() ? "" : written(text); }
-  std::string operator()(Choice choice) const { return written(key.choices.at(static_cast<std::size_t>(choice.position))); }
+  std::string operator()(Choice choice) const {
+    return written(key.choices.at(static_cast<std::size_t>(choice.position)));
+  }
   std::string operator()(const Numbers3& vector) const { return written(vector); }
-  std::string operator()(const Integers3& vector) const { return fmt::format("[{}, {}, {}]", vector[0], vector[1], vector[2]); }
+  std::string operator()(const Integers3& vector) const {
+    return fmt::format("[{}, {}, {}]", vector[0], vector[1], vector[2]);
+  }
   std::string operator()(const Axes& axes) const {
     return fmt::format("[{}, {}, {}]", written(axes[0]), written(axes[1]), written(axes[2]));
   }
@@ -46,7 +52,8 @@ std::string range_text(const Range& range) {
   const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", range.low);
   const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", range.high);
   if (finite(range.low) && finite(range.high)) {
-    return !range.low_open && !range.high_open ? fmt::format("between {} and {}", range.low, range.high) : low + " and " + high;
+    return !range.low_open && !range.high_open ? fmt::format("between {} and {}", range.low, range.high)
+                                               : low + " and " + high;
   }
   return finite(range.low) ? low : finite(range.high) ? high : "";
 }
@@ -56,22 +63,39 @@ std::string default_text(const Key& key) {
   return key.required ? "" : std::visit(Written{key}, key.initial());
 }
 
-std::string expectation(const Key& key) {
-  const auto unit = key.unit.empty() ? "" : " in " + key.unit;
+std::string expectation(const Key& key, bool with_unit) {
+  const auto unit = key.unit.empty() || !with_unit ? "" : " in " + key.unit;
   const bool named = key.refers_to != refers_to_nothing;
   switch (key.kind) {
-    case Kind::absent: return "";
-    case Kind::boolean: return "true or false";
-    case Kind::integer: return "a whole number" + unit;
-    case Kind::number: return "a number" + unit;
-    case Kind::text: return !key.choices.empty() ? alternatives(key.choices) : key.is_path ? "a file name in quotes" : named ? "a name in quotes" : "text in quotes";
-    case Kind::choice: return alternatives(key.choices);
-    case Kind::vector: return "three numbers [x, y, z]" + unit;
-    case Kind::integer_vector: return "three whole numbers [x, y, z]" + unit;
-    case Kind::axes: return "three unit vectors [[x, y, z], [x, y, z], [x, y, z]]";
-    case Kind::directions: return "a list of directions such as [\"x\", \"z\"]";
-    case Kind::texts: return !key.choices.empty() ? "a list of " + alternatives(key.choices) : named ? "a list of names in quotes" : "a list of texts";
-    case Kind::pairs: return "a list of pairs [[time, value], ...]";
+    case Kind::absent:
+      return "";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return "a whole number" + unit;
+    case Kind::number:
+      return "a number" + unit;
+    case Kind::text:
+      return !key.choices.empty() ? alternatives(key.choices)
+             : key.is_path        ? "a file name in quotes"
+             : named              ? "a name in quotes"
+                                  : "text in quotes";
+    case Kind::choice:
+      return alternatives(key.choices);
+    case Kind::vector:
+      return "three numbers [x, y, z]" + unit;
+    case Kind::integer_vector:
+      return "three whole numbers [x, y, z]" + unit;
+    case Kind::axes:
+      return "three unit vectors [[x, y, z], [x, y, z], [x, y, z]]";
+    case Kind::directions:
+      return "a list of directions such as [\"x\", \"z\"]";
+    case Kind::texts:
+      return !key.choices.empty() ? "a list of " + alternatives(key.choices)
+             : named              ? "a list of names in quotes"
+                                  : "a list of texts";
+    case Kind::pairs:
+      return "a list of pairs [[time, value], ...]";
   }
   return "";
 }

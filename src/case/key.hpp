@@ -14,7 +14,8 @@
 /// How one key, and one section, of the case file is described. The descriptions themselves are in keys.hpp.
 namespace railwave::case_file {
 
-/// Allowed numbers: from `low` to `high`; the ends themselves excluded where open. Holds for each component of a vector.
+/// Allowed numbers: from `low` to `high`; the ends themselves excluded where open. Holds for each component of a
+/// vector.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -23,7 +24,9 @@ struct Range {
   bool has(double number) const {
     return (low_open ? number > low : number >= low) && (high_open ? number < high : number <= high);
   }
-  bool limited() const { return low > -std::numeric_limits<double>::max() || high < std::numeric_limits<double>::max(); }
+  bool limited() const {
+    return low > -std::numeric_limits<double>::max() || high < std::numeric_limits<double>::max();
+  }
 };
 
 inline Range above(double low) { return {low, std::numeric_limits<double>::infinity(), true, false}; }
@@ -41,9 +44,9 @@ enum Reference : unsigned {
   whole_part = 1u << 3,
   point = 1u << 4,
   ground = 1u << 5,
-  node_set = 1u << 6,      ///< `part.set`
-  surface = 1u << 7,       ///< `part.set`
-  element_set = 1u << 8,   ///< `part.set`
+  node_set = 1u << 6,     ///< `part.set`
+  surface = 1u << 7,      ///< `part.set`
+  element_set = 1u << 8,  ///< `part.set`
   any_set = node_set | surface | element_set,
 };
 
@@ -57,9 +60,9 @@ struct Key {
   std::string unit;
   Range range;
   bool required = false;
-  bool is_path = false;            ///< a file, relative to the case file's folder; must exist
-  bool is_direction = false;       ///< any length but zero; stored with length 1
-  std::string default_text;        ///< said instead of the default value
+  bool is_path = false;       ///< a file, relative to the case file's folder; must exist
+  bool is_direction = false;  ///< any length but zero; stored with length 1
+  std::string default_text;   ///< said instead of the default value
   std::vector<std::string> choices;
   std::vector<std::string> types;  ///< the section's `type`s that have this key; empty: all
   unsigned refers_to = refers_to_nothing;
@@ -100,16 +103,26 @@ struct Same {
   static Value to(const T& field) { return field; }
 };
 
-template <> struct AsValue<bool> : Same<bool, Kind::boolean> {};
-template <> struct AsValue<int> : Same<int, Kind::integer> {};
-template <> struct AsValue<double> : Same<double, Kind::number> {};
-template <> struct AsValue<std::string> : Same<std::string, Kind::text> {};
-template <> struct AsValue<Numbers3> : Same<Numbers3, Kind::vector> {};
-template <> struct AsValue<Integers3> : Same<Integers3, Kind::integer_vector> {};
-template <> struct AsValue<Axes> : Same<Axes, Kind::axes> {};
-template <> struct AsValue<Flags3> : Same<Flags3, Kind::directions> {};
-template <> struct AsValue<Texts> : Same<Texts, Kind::texts> {};
-template <> struct AsValue<Pairs> : Same<Pairs, Kind::pairs> {};
+template <>
+struct AsValue<bool> : Same<bool, Kind::boolean> {};
+template <>
+struct AsValue<int> : Same<int, Kind::integer> {};
+template <>
+struct AsValue<double> : Same<double, Kind::number> {};
+template <>
+struct AsValue<std::string> : Same<std::string, Kind::text> {};
+template <>
+struct AsValue<Numbers3> : Same<Numbers3, Kind::vector> {};
+template <>
+struct AsValue<Integers3> : Same<Integers3, Kind::integer_vector> {};
+template <>
+struct AsValue<Axes> : Same<Axes, Kind::axes> {};
+template <>
+struct AsValue<Flags3> : Same<Flags3, Kind::directions> {};
+template <>
+struct AsValue<Texts> : Same<Texts, Kind::texts> {};
+template <>
+struct AsValue<Pairs> : Same<Pairs, Kind::pairs> {};
 
 template <class T>
 struct AsValue<std::optional<T>> {
@@ -127,7 +140,9 @@ Key key(std::string name, T Entry::*field, std::string help) {
   result.name = std::move(name);
   result.help = std::move(help);
   result.kind = detail::AsValue<T>::kind;
-  result.store = [field](void* entry, const Value& value) { static_cast<Entry*>(entry)->*field = detail::AsValue<T>::from(value); };
+  result.store = [field](void* entry, const Value& value) {
+    static_cast<Entry*>(entry)->*field = detail::AsValue<T>::from(value);
+  };
   result.initial = [field] { return detail::AsValue<T>::to(Entry{}.*field); };
   return result;
 }
@@ -145,15 +160,21 @@ Key key(std::string name, Inner Entry::*inner, T Base::*field, std::string help)
 
 class EntryCheck;
 
-/// A section of the case file: one table ([time]), many named ones ([parts.NAME]), or the keys above all sections (name "").
+/// A section of the case file: one table ([time]), many named ones ([parts.NAME]), or the keys above all sections (name
+/// "").
 struct Section {
   std::string name;
   std::string help;
-  std::string singular;   ///< of a named one: "part"
+  std::string singular;  ///< of a named one: "part"
   bool required = false;
   std::vector<Key> keys;
   std::function<void*(scene::Scene&, const scene::Place&)> open;  ///< makes (named) or finds the entry to fill
   std::function<void(void*, EntryCheck&)> rule;                   ///< what no single key can check; may be empty
+
+  /// Adds keys that only entries of this `type` have.
+  void add_keys(const std::string& type, const std::vector<Key>& of_type) {
+    for (auto one : of_type) keys.push_back(std::move(one).only({type}));
+  }
 
   bool named() const { return !singular.empty(); }
   std::string title() const { return name.empty() ? "" : named() ? "[" + name + ".NAME]" : "[" + name + "]"; }
@@ -171,7 +192,8 @@ struct Section {
 
 /// [name.NAME], one entry of the list for each.
 template <class Entry>
-Section named_section(std::string name, std::string singular, std::vector<Entry> scene::Scene::*list, std::string help) {
+Section named_section(std::string name, std::string singular, std::vector<Entry> scene::Scene::*list,
+                      std::string help) {
   Section section;
   section.name = std::move(name);
   section.singular = std::move(singular);

@@ -5,7 +5,7 @@
 #include "case/key.hpp"
 
 /// The one table of everything that a case file may say. Reading, checking, help text, docs/case-file.md and
-/// docs/case.schema.json all come from it: a new key is one line in keys_bodies.cpp, keys_actions.cpp or keys_run.cpp.
+/// docs/case.schema.json all come from it: a new key is one line in keys_*.cpp.
 namespace railwave::case_file {
 
 /// All sections in the order of the documentation; the first, without a name, holds the keys above all sections.
@@ -20,17 +20,18 @@ std::vector<std::string> section_names();
 /// Names of the keys that an entry of that type may have, each once; an empty type means every type.
 std::vector<std::string> key_names(const Section& section, const std::string& type = "");
 
-Section title_keys();       // keys_run.cpp
+Section title_keys();  // keys_run.cpp
 Section settle_section();
 Section time_section();
 Section output_section();
 
+Section mesh_section();  // keys_meshes.cpp
+
 Section material_section();  // keys_bodies.cpp
-Section mesh_section();
 Section part_section();
 Section point_section();
 
-Section curve_section();    // keys_actions.cpp
+Section curve_section();  // keys_actions.cpp
 Section load_section();
 Section connector_section();
 Section constraint_section();

@@ -8,8 +8,9 @@ using scene::Scene;
 
 Section connector_section() {
   using scene::Connector;
-  auto section = named_section("connectors", "connector", &Scene::connectors,
-                               "Linear springs and dashpots side by side, between the mean motions of two node sets or points.");
+  auto section =
+      named_section("connectors", "connector", &Scene::connectors,
+                    "Linear springs and dashpots side by side, between the mean motions of two node sets or points.");
   section.keys = {
       key("from", &Connector::from, "one end").names(node_set | point | ground).needed(),
       key("to", &Connector::to, "the other end").names(node_set | point | ground).needed(),
@@ -24,7 +25,8 @@ Section connector_section() {
 
 Section constraint_section() {
   using scene::Constraint;
-  auto section = named_section("constraints", "constraint", &Scene::constraints, "Directions in which the nodes of a set don't move.");
+  auto section = named_section("constraints", "constraint", &Scene::constraints,
+                               "Directions in which the nodes of a set don't move.");
   section.keys = {
       key("target", &Constraint::target, "what is held").names(node_set | point).needed(),
       key("fixed", &Constraint::fixed, "held directions: along the first, second, third of the axes").needed(),
@@ -35,13 +37,17 @@ Section constraint_section() {
 
 Section contact_section() {
   using scene::Contact;
-  auto section = named_section("contacts", "contact", &Scene::contacts, "Pairs of surfaces that may touch: penalty contact with Coulomb friction.");
+  auto section = named_section("contacts", "contact", &Scene::contacts,
+                               "Pairs of surfaces that may touch: penalty contact with Coulomb friction.");
   section.keys = {
       key("slave", &Contact::slave, "surface whose nodes must not enter the other").names(surface).needed(),
       key("master", &Contact::master, "surface whose faces the nodes meet").names(surface).needed(),
       key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out").within(between(0, 2)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
-      key("close_gap", &Contact::close_gap, "before the run, the slave's part is moved along this direction until it first touches").direction().otherwise("it stays where it is"),
+      key("close_gap", &Contact::close_gap,
+          "before the run, the slave's part is moved along this direction until it first touches")
+          .direction()
+          .otherwise("it stays where it is"),
   };
   section.rule = check_contact;
   return section;
@@ -51,10 +57,19 @@ Section curve_section() {
   using scene::Curve;
   auto section = named_section("curves", "curve", &Scene::curves, "Factors that change with time, for loads.");
   section.keys = {
-      key("type", &Curve::type, "its shape; `constant` is 1 at all times").one_of({"constant", "cosine_ramp", "table"}).needed(),
+      key("type", &Curve::type, "its shape; `constant` is 1 at all times")
+          .one_of({"constant", "cosine_ramp", "table"})
+          .needed(),
       key("start", &Curve::start, "when the ramp begins: 0 before").in("s").only({"cosine_ramp"}),
-      key("duration", &Curve::duration, "how long it rises from 0 to 1, as half a cosine wave").in("s").within(above(0)).needed().only({"cosine_ramp"}),
-      key("points", &Curve::points, "pairs [time in s, factor] with increasing time; straight lines between, constant before and after").needed().only({"table"}),
+      key("duration", &Curve::duration, "how long it rises from 0 to 1, as half a cosine wave")
+          .in("s")
+          .within(above(0))
+          .needed()
+          .only({"cosine_ramp"}),
+      key("points", &Curve::points,
+          "pairs [time in s, factor] with increasing time; straight lines between, constant before and after")
+          .needed()
+          .only({"table"}),
   };
   section.rule = check_curve;
   return section;
@@ -68,9 +83,18 @@ Section load_section() {
       key("target", &Load::target, "what it acts on").names(node_set | point).needed().only({"nodal_force"}),
       key("target", &Load::target, "what it acts on").names(surface).needed().only({"pressure", "traction"}),
       key("target", &Load::target, "what it acts on").names(node_set).needed().only({"torque"}),
-      key("force", &Load::force, "total force, shared among the nodes by their mass").in("N").needed().only({"nodal_force"}),
-      key("pressure", &Load::pressure, "positive pushes into the body; follows the surface as it moves").in("Pa").needed().only({"pressure"}),
-      key("traction", &Load::traction, "force per undeformed area, of fixed direction").in("Pa").needed().only({"traction"}),
+      key("force", &Load::force, "total force, shared among the nodes by their mass")
+          .in("N")
+          .needed()
+          .only({"nodal_force"}),
+      key("pressure", &Load::pressure, "positive pushes into the body; follows the surface as it moves")
+          .in("Pa")
+          .needed()
+          .only({"pressure"}),
+      key("traction", &Load::traction, "force per undeformed area, of fixed direction")
+          .in("Pa")
+          .needed()
+          .only({"traction"}),
       key("moment", &Load::moment, "torque about the axis").in("N m").needed().only({"torque"}),
       key("axis", &Load::axis, "its direction, through the set's moving centre of mass").direction().only({"torque"}),
       key("curve", &Load::curve, "factor that changes with time").names(curve).otherwise("constant 1"),
@@ -79,7 +103,9 @@ Section load_section() {
 }
 
 Section gravity_section() {
-  auto section = single_section("gravity", &Scene::gravity, "Acceleration of gravity on all parts and point masses; without this section there is none.");
+  auto section =
+      single_section("gravity", &Scene::gravity,
+                     "Acceleration of gravity on all parts and point masses; without this section there is none.");
   section.open = [](Scene& scene, const scene::Place&) -> void* { return &scene; };
   section.keys = {key("acceleration", &Scene::gravity, "usually [0, 0, -9.81]").in("m/s2").needed()};
   return section;

@@ -16,16 +16,18 @@ Section title_keys() {
 
 Section settle_section() {
   using scene::Settle;
-  auto section = single_section("settle", &Scene::settle,
-                                "With this section the scene comes to rest under its static loads before the run, by dynamic "
-                                "relaxation; without it the run starts from the undeformed meshes.");
+  auto section =
+      single_section("settle", &Scene::settle,
+                     "With this section the scene comes to rest under its static loads before the run, by dynamic "
+                     "relaxation; without it the run starts from the undeformed meshes.");
   section.open = [](Scene& scene, const scene::Place&) -> void* {
     scene.settle.active = true;
     return &scene.settle;
   };
   section.keys = {
       key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
-      key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled").within(inside(0, 1)),
+      key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
+          .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many steps").within(at_least(1)),
   };
   return section;
@@ -49,12 +51,20 @@ Section output_section() {
   auto section = single_section("output", &Scene::output, "What is written, and how often.");
   section.keys = {
       key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs"),
-      key("history_interval", &Output::history_interval, "between samples of the histories; 0 is every step").in("s").within(at_least(0)),
-      key("field_interval", &Output::field_interval, "between outputs of the fields; 0 is only the beginning and the end").in("s").within(at_least(0)),
+      key("history_interval", &Output::history_interval, "between samples of the histories; 0 is every step")
+          .in("s")
+          .within(at_least(0)),
+      key("field_interval", &Output::field_interval,
+          "between outputs of the fields; 0 is only the beginning and the end")
+          .in("s")
+          .within(at_least(0)),
       key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
       key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress"}),
-      key("history_sets", &Output::history_sets, "whose mean displacement, velocity and acceleration are written").names(node_set | point),
-      key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall").in("s").within(above(0)),
+      key("history_sets", &Output::history_sets, "whose mean displacement, velocity and acceleration are written")
+          .names(node_set | point),
+      key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")
+          .in("s")
+          .within(above(0)),
   };
   section.rule = check_output;
   return section;

@@ -30,9 +30,12 @@ std::string load_text(const std::string& path) {
   const auto status = fs::status(path, failed);
   if (path.empty()) throw InputError("no case file was named; give one such as cases/rolling.toml");
   if (!fs::exists(status)) throw InputError(path + ": there is no such file" + nearest_case(path));
-  if (fs::is_directory(status)) throw InputError(path + ": is a folder; give a case file in it, such as " + path + "/NAME.toml");
+  if (fs::is_directory(status))
+    throw InputError(path + ": is a folder; give a case file in it, such as " + path + "/NAME.toml");
   if (fs::is_regular_file(status) && fs::file_size(path, failed) > largest) {
-    throw InputError(path + ": has more than 16 MiB, too large for a case file; meshes and results are named in a case, not given instead of it");
+    throw InputError(path +
+                     ": has more than 16 MiB, too large for a case file; meshes and results are named in a case, not "
+                     "given instead of it");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(path + ": cannot be opened; check that you may read it");
@@ -43,8 +46,10 @@ std::string load_text(const std::string& path) {
     if (text.size() > largest) throw InputError(path + ": has more than 16 MiB, too large for a case file");
   }
   if (file.bad()) throw InputError(path + ": cannot be read");
-  if (text.rfind("\x89HDF", 0) == 0) throw InputError(path + ": is an HDF5 file, perhaps results of a run; give the case file (TOML)");
-  if (text.find('\0') != std::string::npos) throw InputError(path + ": is not text; a case file is TOML, such as cases/rolling.toml");
+  if (text.rfind("\x89HDF", 0) == 0)
+    throw InputError(path + ": is an HDF5 file, perhaps results of a run; give the case file (TOML)");
+  if (text.find('\0') != std::string::npos)
+    throw InputError(path + ": is not text; a case file is TOML, such as cases/rolling.toml");
   return text;
 }
 

@@ -15,7 +15,8 @@ std::string trimmed(const std::string& text) {
 std::vector<std::string> split(const std::string& path) {
   std::vector<std::string> words;
   std::size_t begin = 0;
-  for (std::size_t dot; (dot = path.find('.', begin)) != std::string::npos; begin = dot + 1) words.push_back(path.substr(begin, dot - begin));
+  for (std::size_t dot; (dot = path.find('.', begin)) != std::string::npos; begin = dot + 1)
+    words.push_back(path.substr(begin, dot - begin));
   words.push_back(path.substr(begin));
   return words;
 }
@@ -46,7 +47,9 @@ Node* holder(const std::vector<std::string>& words, Node& root, std::string& mis
   }
   const auto* section = words[0].empty() ? nullptr : find_section(words[0]);
   if (!section) {
-    mistake = "there is no section [" + printable(words[0]) + "]; " + suggestion(words[0], section_names());
+    const auto near = nearest_name(words[0], section_names());
+    mistake = "there is no section [" + printable(words[0]) + "]; " +
+              (near.empty() ? suggestion(words[0], section_names()) : "did you mean [" + near + "]?");
     return nullptr;
   }
   const std::size_t wanted = section->named() ? 3 : 2;
@@ -63,7 +66,8 @@ Node* holder(const std::vector<std::string>& words, Node& root, std::string& mis
   auto* entry = entries ? entries->find(words[1]) : nullptr;
   if (!entry) {
     const auto known = entries ? child_names(*entries) : std::vector<std::string>{};
-    mistake = "the file has no " + section->singular + " '" + printable(words[1]) + "'" + (known.empty() ? "" : "; " + suggestion(words[1], known));
+    mistake = "the file has no " + section->singular + " '" + printable(words[1]) + "'" +
+              (known.empty() ? "" : "; " + suggestion(words[1], known));
     return nullptr;
   }
   return entry->type == Node::Type::table ? entry : nullptr;

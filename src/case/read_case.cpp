@@ -1,6 +1,7 @@
 #include "case/read_case.hpp"
 
 #include <filesystem>
+#include <set>
 
 #include "case/document.hpp"
 #include "case/keys.hpp"
@@ -17,8 +18,10 @@ using namespace case_file;
 std::string name_mistake(const Section& section, const std::string& name) {
   if (name.empty()) return "the name is empty";
   const auto allowed = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-  if (name.find('.') != std::string::npos) return "the name '" + printable(name) + "' has a dot, which separates part and set in 'part.set'; use '_'";
-  if (name.find_first_not_of(allowed) != std::string::npos) return "the name '" + printable(name) + "' may only have letters a-z, digits, '_' and '-'";
+  if (name.find('.') != std::string::npos)
+    return "the name '" + printable(name) + "' has a dot, which separates part and set in 'part.set'; use '_'";
+  if (name.find_first_not_of(allowed) != std::string::npos)
+    return "the name '" + printable(name) + "' may only have letters a-z, digits, '_' and '-'";
   const bool body = section.name == "parts" || section.name == "points";
   if (body && name == "ground") return "'ground' is what connectors are held by; choose another name";
   return "";
@@ -26,9 +29,13 @@ std::string name_mistake(const Section& section, const std::string& name) {
 
 void read_named(const Section& section, const Node& entries, scene::Scene& scene, Reading& reading) {
   auto& complaints = reading.complaints;
+  const auto not_understood = [&] { reading.unsure |= references_to(section.name); };
   if (entries.type != Node::Type::table) {
-    const auto mend = entries.type == Node::Type::list ? "is a list; write [" + section.name + ".NAME] with single brackets for each " + section.singular
-                                                       : "is " + entries.described() + ", must be a section " + section.title() + " for each " + section.singular;
+    const auto mend =
+        entries.type == Node::Type::list
+            ? "is a list; write [" + section.name + ".NAME] with single brackets for each " + section.singular
+            : "is " + entries.described() + ", must be a section " + section.title() + " for each " + section.singular;
+    not_understood();
     complaints.add(entries.where, "[" + section.name + "]: " + mend);
     return;
   }
@@ -39,9 +46,13 @@ void read_named(const Section& section, const Node& entries, scene::Scene& scene
       if (!mistake.empty()) complaints.add(node.where, subject + ": " + mistake);
       read_entry(section, node, section.open(scene, {node.name, node.where.line}), subject, reading);
     } else if (node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table) {
-      complaints.add(node.where, subject + ": is written in double brackets; write " + subject + " once, with single brackets");
+      not_understood();
+      complaints.add(node.where,
+                     subject + ": is written in double brackets; write " + subject + " once, with single brackets");
     } else {
-      complaints.add(node.where, "[" + section.name + "] " + printable(node.name) + ": stands outside a named section; write " + section.title() +
+      not_understood();
+      complaints.add(node.where, "[" + section.name + "] " + printable(node.name) +
+                                     ": stands outside a named section; write " + section.title() +
                                      " above it, with a name of your choice for the " + section.singular);
     }
   }
@@ -52,27 +63,38 @@ void read_single(const Section& section, const Node& node, scene::Scene& scene, 
   if (node.type == Node::Type::table) {
     read_entry(section, node, section.open(scene, {section.name, node.where.line}), subject, reading);
   } else if (node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table) {
-    reading.complaints.add(node.where, subject + ": is written in double brackets; write it once, with single brackets");
+    reading.complaints.add(node.where,
+                           subject + ": is written in double brackets; write it once, with single brackets");
   } else {
-    reading.complaints.add(node.where, subject + ": is " + node.described() + ", must be a section " + subject + " with keys");
+    reading.complaints.add(node.where,
+                           subject + ": is " + node.described() + ", must be a section " + subject + " with keys");
   }
 }
 
+/// Complains about a section that doesn't exist; returns the name of the one that was probably meant, or "".
+std::string unknown_section(const Node& node, Reading& reading) {
+  const auto near = nearest_name(node.name, section_names());
+  const auto mend =
+      near.empty() ? suggestion(node.name, section_names()) : "did you mean " + find_section(near)->title() + "?";
+  reading.complaints.add(node.where, "[" + printable(node.name) + "]: unknown section; " + mend);
+  reading.unsure |= references_to(near);
+  return near;
+}
+
 void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
+  std::set<std::string> meant;
   const auto& top = *find_section("");
   read_entry(top, root, &scene, "", reading);
   for (const auto& node : root.children) {
     const auto* section = node.name.empty() ? nullptr : find_section(node.name);
     if (!section) {
-      if (is_section(node)) {
-        reading.complaints.add(node.where, "[" + printable(node.name) + "]: unknown section; " + suggestion(node.name, section_names()));
-      }
+      if (is_section(node)) meant.insert(unknown_section(node, reading));
       continue;
     }
     section->named() ? read_named(*section, node, scene, reading) : read_single(*section, node, scene, reading);
   }
   for (const auto& section : sections()) {
-    if (!section.required || !reading.complete) continue;
+    if (!section.required || !reading.complete || meant.count(section.name) != 0) continue;
     const auto* node = root.find(section.name);
     if (node && (!section.named() || !node->children.empty())) continue;
     std::string needed;
@@ -94,10 +116,11 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   scene::Scene scene;
   scene.path = path;
   apply_overrides(overrides, document.root, complaints);
-  Reading reading{complaints, std::filesystem::path(path).parent_path().string(), document.complete, {}};
+  Reading reading{
+      complaints, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
   read_sections(document.root, scene, reading);
   if (document.complete) {
-    check_references(reading.names, scene, complaints);
+    check_references(reading.names, scene, reading.unsure, complaints);
     check_scene(scene, complaints);
   }
   complaints.throw_if_any();

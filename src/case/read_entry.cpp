@@ -47,13 +47,16 @@ class EntryReader : public EntryCheck {
     reading_.complaints.add(where, subject_of(key) + ": " + text);
   }
 
-  std::string subject_of(const std::string& key) const { return (subject_.empty() ? "" : subject_ + " ") + printable(key); }
+  std::string subject_of(const std::string& key) const {
+    return (subject_.empty() ? "" : subject_ + " ") + printable(key);
+  }
 
   void find_type() {
     const auto* key = section_.type_key();
     if (!key) return;
     const auto* node = table_.find("type");
-    const bool known = node && node->type == Node::Type::text && std::find(key->choices.begin(), key->choices.end(), node->text) != key->choices.end();
+    const bool known = node && node->type == Node::Type::text &&
+                       std::find(key->choices.begin(), key->choices.end(), node->text) != key->choices.end();
     type_known_ = known;
     if (known) type_ = node->text;
   }
@@ -62,6 +65,11 @@ class EntryReader : public EntryCheck {
     const auto* key = section_.find(node.name, type_);
     const bool for_some_type = !type_known_ && contains(key_names(section_), node.name);
     if (!key && for_some_type) return;
+    if (!key && node.type == Node::Type::table) {
+      const auto own = subject_.empty() ? std::string("the sections") : subject_;
+      return complain_at(node.where, node.name,
+                         "is a section inside " + own + ", which has none; its keys stand under " + own + " itself");
+    }
     if (!key) return complain_at(node.where, node.name, unknown(node.name));
     const Complain complain = [&](Where where, const std::string& text) { complain_at(where, key->name, text); };
     auto value = read_value(*key, node, complain);
@@ -78,18 +86,23 @@ class EntryReader : public EntryCheck {
     return std::find(names.begin(), names.end(), name) != names.end();
   }
 
-  std::string unknown(const std::string& name) const {
+  std::string unknown(const std::string& name) {
     for (const auto& key : section_.keys) {
       if (key.name == name) return "does not belong to type '" + type_ + "', only to " + alternatives(key.types);
     }
     const auto names = key_names(section_, type_);
     const auto near = nearest_name(name, names);
-    if (!near.empty()) return "unknown key; did you mean '" + near + "'?";
-    for (const auto& other : sections()) {
-      if (contains(key_names(other), name)) {
-        return "unknown key here; it belongs " + (other.name.empty() ? "above all sections" : "to " + other.title()) + "; known here are: " + joined(names);
-      }
+    if (!near.empty()) {
+      meant_.insert(near);
+      return "unknown key; did you mean '" + near + "'?";
     }
+    std::vector<std::string> owners;
+    for (const auto& other : sections()) {
+      if (contains(key_names(other), name))
+        owners.push_back(other.name.empty() ? "the top of the file, above all sections" : other.title());
+    }
+    if (!owners.empty())
+      return "unknown key here; it belongs to " + joined(owners, " or ") + "; known here are: " + joined(names);
     return "unknown key; known are: " + joined(names);
   }
 
@@ -100,14 +113,17 @@ class EntryReader : public EntryCheck {
     std::error_code failed;
     const auto status = fs::status(path, failed);
     const auto shown = "'" + printable(path.lexically_normal().string()) + "'";
-    if (!fs::exists(status)) return complain_at(node.where, key.name, "there is no file " + shown + "; paths are relative to the case file's folder");
+    if (!fs::exists(status))
+      return complain_at(node.where, key.name,
+                         "there is no file " + shown + "; paths are relative to the case file's folder");
     if (fs::is_directory(status)) return complain_at(node.where, key.name, shown + " is a folder, must be a file");
   }
 
   void note_names(const Key& key, const Node& node) {
     if (key.refers_to == refers_to_nothing) return;
     const auto use = [&](const Node& one) {
-      if (!one.text.empty() || key.required) reading_.names.push_back({one.where, subject_of(key.name), key.refers_to, one.text});
+      if (!one.text.empty() || key.required)
+        reading_.names.push_back({one.where, subject_of(key.name), key.refers_to, one.text});
     };
     if (node.type == Node::Type::text) use(node);
     for (const auto& child : node.children) use(child);
@@ -118,9 +134,12 @@ class EntryReader : public EntryCheck {
       const bool applies = key.types.empty() || (type_known_ && key.belongs_to(type_));
       if (!key.required || !applies || given(key.name)) continue;
       unsound_.insert(key.name);
-      if (!reading_.complete) continue;
+      if (!reading_.complete || meant_.count(key.name) != 0) continue;
       const auto range = range_text(key.range);
-      complain(key.name, "is missing; must be " + expectation(key) + (range.empty() ? "" : ", " + range));
+      const bool name = key.refers_to != refers_to_nothing && key.kind == Kind::text;
+      complain(key.name, "is missing; must " +
+                             (name ? "name " + reference_text(key.refers_to) : "be " + expectation(key)) +
+                             (range.empty() ? "" : ", " + range));
     }
   }
 
@@ -131,12 +150,14 @@ class EntryReader : public EntryCheck {
   std::string type_;
   bool type_known_ = true;
   std::set<std::string> unsound_;
+  std::set<std::string> meant_;  ///< known keys that unknown ones were probably meant to be
 };
 
 }  // namespace
 
 bool is_section(const Node& node) {
-  const bool tables = node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table;
+  const bool tables =
+      node.type == Node::Type::list && !node.children.empty() && node.children[0].type == Node::Type::table;
   return node.type == Node::Type::table || tables || (!node.name.empty() && find_section(node.name));
 }
 

@@ -18,18 +18,30 @@ class Reader {
 
   std::optional<Value> read(const Node& node) const {
     switch (key_.kind) {
-      case Kind::absent: return std::nullopt;
-      case Kind::boolean: return node.type == Node::Type::boolean ? std::optional<Value>(node.boolean) : wrong(node);
-      case Kind::integer: return as_value(integer(node, ""));
-      case Kind::number: return as_value(number(node, ""));
-      case Kind::text: return text(node);
-      case Kind::choice: return choice(node);
-      case Kind::vector: return vector(node);
-      case Kind::integer_vector: return integer_vector(node);
-      case Kind::axes: return axes(node);
-      case Kind::directions: return directions(node);
-      case Kind::texts: return texts(node);
-      case Kind::pairs: return pairs(node);
+      case Kind::absent:
+        return std::nullopt;
+      case Kind::boolean:
+        return node.type == Node::Type::boolean ? std::optional<Value>(node.boolean) : wrong(node);
+      case Kind::integer:
+        return as_value(integer(node, ""));
+      case Kind::number:
+        return as_value(number(node, ""));
+      case Kind::text:
+        return text(node);
+      case Kind::choice:
+        return choice(node);
+      case Kind::vector:
+        return vector(node);
+      case Kind::integer_vector:
+        return integer_vector(node);
+      case Kind::axes:
+        return axes(node);
+      case Kind::directions:
+        return directions(node);
+      case Kind::texts:
+        return texts(node);
+      case Kind::pairs:
+        return pairs(node);
     }
     return std::nullopt;
   }
@@ -46,8 +58,11 @@ class Reader {
   }
 
   std::nullopt_t wrong(const Node& node) const {
-    const bool short_list = node.type == Node::Type::list && (key_.kind == Kind::vector || key_.kind == Kind::integer_vector || key_.kind == Kind::axes);
-    const auto is = short_list ? fmt::format("has {} value{}", node.children.size(), node.children.size() == 1 ? "" : "s") : "is " + node.described();
+    const bool short_list = node.type == Node::Type::list &&
+                            (key_.kind == Kind::vector || key_.kind == Kind::integer_vector || key_.kind == Kind::axes);
+    const auto is = short_list
+                        ? fmt::format("has {} value{}", node.children.size(), node.children.size() == 1 ? "" : "s")
+                        : "is " + node.described();
     return bad(node, is + ", must be " + expectation(key_));
   }
 
@@ -56,9 +71,11 @@ class Reader {
     const auto is = which.empty() ? std::string("is") : which + " is";
     const auto unit = key_.unit.empty() ? "" : " in " + key_.unit;
     if (!node.is_number()) return bad(node, fmt::format("{} {}, must be a number{}", is, node.described(), unit));
-    if (!std::isfinite(node.number)) return bad(node, fmt::format("{} {}, must be a finite number{}", is, node.number, unit));
+    if (!std::isfinite(node.number))
+      return bad(node, fmt::format("{} {}, must be a finite number{}", is, node.number, unit));
     if (!key_.range.has(node.number)) {
-      return bad(node, fmt::format("{} {}, must be {}{}", is, node.number, range_text(key_.range), key_.unit.empty() ? "" : " " + key_.unit));
+      return bad(node, fmt::format("{} {}, must be {}{}", is, node.number, range_text(key_.range),
+                                   key_.unit.empty() ? "" : " " + key_.unit));
     }
     return node.number;
   }
@@ -66,7 +83,8 @@ class Reader {
   std::optional<int> integer(const Node& node, const std::string& which) const {
     const auto is = which.empty() ? std::string("is") : which + " is";
     if (!node.is_number()) return bad(node, fmt::format("{} {}, must be a whole number", is, node.described()));
-    if (!(std::floor(node.number) == node.number)) return bad(node, fmt::format("{} {}, must be a whole number", is, node.number));
+    if (!(std::floor(node.number) == node.number))
+      return bad(node, fmt::format("{} {}, must be a whole number", is, node.number));
     const auto checked = number(node, which);
     if (!checked) return std::nullopt;
     if (std::fabs(*checked) > std::numeric_limits<int>::max()) {
@@ -116,7 +134,8 @@ class Reader {
     auto result = components(node, "");
     if (!result || !key_.is_direction) return as_value(result);
     const double length = std::hypot((*result)[0], (*result)[1], (*result)[2]);
-    if (!(length > 0) || !std::isfinite(length)) return bad(node, fmt::format("has length {}, must be a direction such as [0, 0, 1]", length));
+    if (!(length > 0) || !std::isfinite(length))
+      return bad(node, fmt::format("has length {}, must be a direction such as [0, 0, 1]", length));
     for (auto& one : *result) one /= length;
     return *result;
   }
@@ -149,18 +168,22 @@ class Reader {
     const auto dot = [](const Numbers3& a, const Numbers3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
     for (std::size_t i = 0; i < 3; ++i) {
       const double length = std::hypot(axes[i][0], axes[i][1], axes[i][2]);
-      if (!(std::fabs(length - 1) <= tolerance)) return bad(node, fmt::format("axis {} has length {:.7g}, must be 1", i + 1, length)), false;
+      if (!(std::fabs(length - 1) <= tolerance))
+        return bad(node, fmt::format("axis {} has length {:.7g}, must be 1", i + 1, length)), false;
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const double cosine = dot(axes[i], axes[j]);
       if (!(std::fabs(cosine) <= tolerance)) {
-        return bad(node, fmt::format("axes {} and {} must be perpendicular; the cosine of their angle is {:.3g}", i + 1, j + 1, cosine)), false;
+        return bad(node, fmt::format("axes {} and {} must be perpendicular; the cosine of their angle is {:.3g}", i + 1,
+                                     j + 1, cosine)),
+               false;
       }
     }
     const auto &a = axes[0], &b = axes[1];
     const Numbers3 third{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    if (dot(third, axes[2]) < 0) return bad(node, "axes are left-handed; turn one of them round, so that the third is first x second"), false;
+    if (dot(third, axes[2]) < 0)
+      return bad(node, "axes are left-handed; turn one of them round, so that the third is first x second"), false;
     return true;
   }
 
@@ -170,7 +193,9 @@ class Reader {
     Flags3 result{};
     bool good = true;
     for (const auto& child : node.children) {
-      const auto position = child.type == Node::Type::text && child.text.size() == 1 ? std::string("xyz").find(child.text) : std::string::npos;
+      const auto position = child.type == Node::Type::text && child.text.size() == 1
+                                ? std::string("xyz").find(child.text)
+                                : std::string::npos;
       if (position == std::string::npos) {
         const auto has = child.type == Node::Type::text ? "'" + printable(child.text) + "'" : child.described();
         complain_(child.where, "has " + has + ", may only have 'x', 'y' and 'z'");
@@ -228,6 +253,8 @@ class Reader {
 
 }  // namespace
 
-std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain) { return Reader(key, complain).read(node); }
+std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain) {
+  return Reader(key, complain).read(node);
+}
 
 }  // namespace railwave::case_file

@@ -18,7 +18,9 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void append(std::vector<std::string>& names, const std::vector<std::string>& more) { names.insert(names.end(), more.begin(), more.end()); }
+void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
+  names.insert(names.end(), more.begin(), more.end());
+}
 
 std::string set_kind(unsigned refers_to) {
   std::vector<std::string> kinds;
@@ -35,9 +37,12 @@ struct Family {
   std::vector<std::string> names;
 };
 
-std::string missing(const std::string& what, const std::string& section, const std::string& name, const std::vector<std::string>& candidates) {
+std::string missing(const std::string& what, const std::string& section, const std::string& name,
+                    const std::vector<std::string>& candidates) {
   const auto said = "there is no " + what + " '" + printable(name) + "'";
-  if (candidates.empty()) return said + "; none is defined: add a section [" + section + "." + (name.empty() ? "NAME" : printable(name)) + "]";
+  if (candidates.empty())
+    return said + "; none is defined: add a section [" + section + "." + (name.empty() ? "NAME" : printable(name)) +
+           "]";
   return said + "; " + suggestion(name, candidates);
 }
 
@@ -56,7 +61,8 @@ class Names {
   std::string mistake(unsigned refers_to, const std::string& name) const {
     const auto dot = name.find('.');
     const bool may_be_set = (refers_to & any_set) != 0;
-    if (dot != std::string::npos && may_be_set) return set_mistake(refers_to, name.substr(0, dot), name.substr(dot + 1));
+    if (dot != std::string::npos && may_be_set)
+      return set_mistake(refers_to, name.substr(0, dot), name.substr(dot + 1));
     if ((refers_to & ground) && name == "ground") return "";
     std::vector<std::string> candidates;
     const Family* first = nullptr;
@@ -68,7 +74,8 @@ class Names {
     }
     if (may_be_set) return bare_name_mistake(refers_to, name, candidates);
     if (name == "ground") return "'ground' can only be an end of a connector";
-    if (dot != std::string::npos && (refers_to & whole_part)) return "'" + printable(name) + "' has a dot; name the whole part, '" + printable(name.substr(0, dot)) + "'";
+    if (dot != std::string::npos && (refers_to & whole_part))
+      return "'" + printable(name) + "' has a dot; name the whole part, '" + printable(name.substr(0, dot)) + "'";
     const auto what = (refers_to & whole_part) && (refers_to & point) ? "part or point mass" : first->what;
     return missing(what, first->section, name, candidates);
   }
@@ -77,27 +84,32 @@ class Names {
   std::string set_mistake(unsigned refers_to, const std::string& part, const std::string& set) const {
     if (!has(parts_, part)) {
       if (has(points_, part)) {
-        return "'" + part + "' is a point mass, which has no sets" + (refers_to & point ? "; write '" + part + "'" : "; name a part's " + set_kind(refers_to));
+        return "'" + part + "' is a point mass, which has no sets" +
+               (refers_to & point ? "; write '" + part + "'" : "; name a part's " + set_kind(refers_to));
       }
       const auto near = nearest_name(part, parts_);
-      if (!near.empty()) return "there is no part '" + printable(part) + "'; did you mean '" + near + "." + printable(set) + "'?";
+      if (!near.empty())
+        return "there is no part '" + printable(part) + "'; did you mean '" + near + "." + printable(set) + "'?";
       return missing("part", "parts", part, parts_);
     }
     if (set.empty()) return "the name of the " + set_kind(refers_to) + " after '" + part + ".' is missing";
     return "";
   }
 
-  std::string bare_name_mistake(unsigned refers_to, const std::string& name, std::vector<std::string> candidates) const {
+  std::string bare_name_mistake(unsigned refers_to, const std::string& name,
+                                std::vector<std::string> candidates) const {
     if (has(parts_, name)) {
       return "'" + name + "' is a whole part; name a " + set_kind(refers_to) + " of it: '" + name + ".SET'";
     }
     if (has(points_, name)) return "'" + name + "' is a point mass; must be " + reference_text(refers_to);
+    if (name == "ground") return "'ground' can only be an end of a connector; must be " + reference_text(refers_to);
     if (refers_to & ground) candidates.push_back("ground");
     for (const auto& part : parts_) {
       if (!(refers_to & whole_part)) candidates.push_back(part + ".SET");
     }
     const auto near = nearest_name(name, candidates);
-    return "'" + printable(name) + "' refers to nothing; must be " + reference_text(refers_to) + (near.empty() ? "" : "; did you mean '" + near + "'?");
+    return "'" + printable(name) + "' refers to nothing; must be " + reference_text(refers_to) +
+           (near.empty() ? "" : "; did you mean '" + near + "'?");
   }
 
   std::vector<Family> families_;
@@ -112,7 +124,8 @@ std::string reference_text(unsigned refers_to) {
   if (refers_to & mesh) kinds.push_back("a mesh");
   if (refers_to & curve) kinds.push_back("a curve");
   if (refers_to & whole_part) kinds.push_back("a part");
-  if (refers_to & any_set) kinds.push_back((refers_to & element_set ? "an " : "a ") + set_kind(refers_to) + " 'part.set'");
+  if (refers_to & any_set)
+    kinds.push_back((refers_to & element_set ? "an " : "a ") + set_kind(refers_to) + " 'part.set'");
   if (refers_to & point) kinds.push_back("a point mass");
   if (refers_to & ground) kinds.push_back("'ground'");
   if (kinds.size() < 2) return joined(kinds);
@@ -121,9 +134,20 @@ std::string reference_text(unsigned refers_to) {
   return joined(kinds) + " or " + last;
 }
 
-void check_references(const std::vector<NameUse>& uses, const scene::Scene& scene, Complaints& complaints) {
+unsigned references_to(const std::string& section) {
+  if (section == "materials") return material;
+  if (section == "meshes") return mesh;
+  if (section == "curves") return curve;
+  if (section == "parts") return whole_part | any_set;
+  if (section == "points") return point;
+  return refers_to_nothing;
+}
+
+void check_references(const std::vector<NameUse>& uses, const scene::Scene& scene, unsigned unsure,
+                      Complaints& complaints) {
   const Names names(scene);
   for (const auto& use : uses) {
+    if ((use.refers_to & unsure) != 0) continue;
     const auto mistake = names.mistake(use.refers_to, use.name);
     if (!mistake.empty()) complaints.add(use.where, use.subject + ": " + mistake);
   }
@@ -135,8 +159,9 @@ void check_scene(const scene::Scene& scene, Complaints& complaints) {
       if (part.name != mass.name) continue;
       const bool mass_later = mass.line >= part.line;
       complaints.add({mass_later ? mass.line : part.line},
-                     "[" + std::string(mass_later ? "points." : "parts.") + mass.name + "]: a part and a point mass are both called '" + mass.name +
-                         "' (line " + std::to_string(mass_later ? part.line : mass.line) + "); rename one");
+                     "[" + std::string(mass_later ? "points." : "parts.") + mass.name +
+                         "]: a part and a point mass are both called '" + mass.name + "' (line " +
+                         std::to_string(mass_later ? part.line : mass.line) + "); rename one");
     }
   }
   for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
@@ -145,8 +170,8 @@ void check_scene(const scene::Scene& scene, Complaints& complaints) {
       const bool same = later.slave == earlier.slave && later.master == earlier.master;
       const bool turned = later.slave == earlier.master && later.master == earlier.slave;
       if (later.slave.empty() || later.master.empty() || later.slave == later.master || (!same && !turned)) continue;
-      complaints.add({later.line}, "[contacts." + later.name + "]: has the same two surfaces as [contacts." + earlier.name +
-                                       "], so that their forces would count twice; keep one of them");
+      complaints.add({later.line}, "[contacts." + later.name + "]: has the same two surfaces as [contacts." +
+                                       earlier.name + "], so that their forces would count twice; keep one of them");
     }
   }
 }

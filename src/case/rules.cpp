@@ -12,19 +12,38 @@ struct Named {
   double value;
 };
 
+/// "0.5", or "0.5 by default" when the file doesn't say it.
+std::string said(const EntryCheck& check, const Named& one) {
+  return fmt::format("{}{}", one.value, check.given(one.key) ? "" : " by default");
+}
+
+/// Blames the key that the file gives, if it gives only one of the two.
+void blame(EntryCheck& check, const Named& small, const Named& large, const char* small_must_be,
+           const char* large_must_be) {
+  const bool blame_small = check.given(small.key) && !check.given(large.key);
+  const auto& wrong = blame_small ? small : large;
+  const auto& other = blame_small ? large : small;
+  check.complain(wrong.key, fmt::format("is {}, must be {} {} ({})", said(check, wrong),
+                                        blame_small ? small_must_be : large_must_be, other.key, said(check, other)));
+}
+
 void ascending(EntryCheck& check, std::initializer_list<Named> values) {
   const Named* last = nullptr;
   for (const auto& value : values) {
-    if (last && check.sound({last->key, value.key}) && !(last->value < value.value)) {
-      check.complain(value.key, fmt::format("is {}, must be larger than {} ({})", value.value, last->key, last->value));
-    }
+    const bool wrong = last && check.sound({last->key, value.key}) && !(last->value < value.value);
+    if (wrong) blame(check, *last, value, "smaller than", "larger than");
     last = &value;
   }
 }
 
 void at_most(EntryCheck& check, Named value, Named limit) {
-  if (check.sound({value.key, limit.key}) && value.value > limit.value) {
-    check.complain(value.key, fmt::format("is {}, must be at most {} ({})", value.value, limit.key, limit.value));
+  if (!check.sound({value.key, limit.key}) || !(value.value > limit.value)) return;
+  if (check.given(value.key)) {
+    check.complain(value.key,
+                   fmt::format("is {}, must be at most {} ({})", value.value, limit.key, said(check, limit)));
+  } else {
+    check.complain(limit.key,
+                   fmt::format("is {}, must be at least {} ({})", limit.value, value.key, said(check, value)));
   }
 }
 
@@ -41,9 +60,14 @@ void check_wheel(const scene::WheelMesh& wheel, EntryCheck& check) {
   at_most(check, {"zone_size", wheel.zone_size}, {"zone_width", wheel.zone_width});
   at_most(check, {"zone_size", wheel.zone_size}, {"zone_length", wheel.zone_length});
   at_most(check, {"zone_size", wheel.zone_size}, {"coarse_size", wheel.coarse_size});
+  if (check.given("conicity") && check.sound({"profile"}) && wheel.profile != "cone") {
+    check.complain("conicity",
+                   "has no effect on profile '" + wheel.profile + "'; leave it out, or say profile = \"cone\"");
+  }
   const double around = 2 * M_PI * wheel.radius;
   if (check.sound({"zone_length", "radius"}) && wheel.zone_length > around) {
-    check.complain("zone_length", fmt::format("is {}, must be at most once around the wheel ({:.4g} m)", wheel.zone_length, around));
+    check.complain("zone_length",
+                   fmt::format("is {}, must be at most once around the wheel ({:.4g} m)", wheel.zone_length, around));
   }
 }
 
@@ -53,11 +77,10 @@ void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
   at_most(check, {"zone_size", rail.zone_size}, {"zone_width", rail.zone_width});
   at_most(check, {"zone_size", rail.zone_size}, {"coarse_size", rail.coarse_size});
   if (!check.sound({"start", "end"})) return;
-  if (check.sound({"zone_start"}) && (rail.zone_start < rail.start || rail.zone_start > rail.end)) {
-    check.complain("zone_start", fmt::format("is {}, must be on the rail, from start = {} to end = {}", rail.zone_start, rail.start, rail.end));
-  }
-  if (check.sound({"zone_end"}) && (rail.zone_end < rail.start || rail.zone_end > rail.end)) {
-    check.complain("zone_end", fmt::format("is {}, must be on the rail, from start = {} to end = {}", rail.zone_end, rail.start, rail.end));
+  for (const auto& end : {Named{"zone_start", rail.zone_start}, Named{"zone_end", rail.zone_end}}) {
+    if (!check.sound({end.key}) || (end.value >= rail.start && end.value <= rail.end)) continue;
+    check.complain(end.key, fmt::format("is {}, must be on the rail, from start = {} to end = {}", said(check, end),
+                                        rail.start, rail.end));
   }
 }
 
@@ -89,10 +112,13 @@ void check_contact(void* entry, EntryCheck& check) {
   const auto& contact = *static_cast<scene::Contact*>(entry);
   if (!check.sound({"slave", "master"})) return;
   if (contact.slave == contact.master) {
-    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces", contact.master));
+    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces",
+                                         contact.master));
   } else if (contact.close_gap && part_of(contact.slave) == part_of(contact.master)) {
-    check.complain("close_gap", fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out",
-                                            part_of(contact.slave)));
+    check.complain(
+        "close_gap",
+        fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out",
+                    part_of(contact.slave)));
   }
 }
 
@@ -102,7 +128,8 @@ void check_curve(void* entry, EntryCheck& check) {
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const double before = curve.points[i - 1][0], time = curve.points[i][0];
     if (time > before) continue;
-    check.complain("points", fmt::format("time must increase from pair to pair, but pair {} has {} s after {} s", i + 1, time, before));
+    check.complain("points", fmt::format("time must increase from pair to pair, but pair {} has {} s after {} s", i + 1,
+                                         time, before));
     return;
   }
 }
@@ -124,10 +151,13 @@ void check_output(void* entry, EntryCheck& check) {
   const auto& output = *static_cast<scene::Output*>(entry);
   if (!check.sound({"field_sets", "fields"})) return;
   if (!output.field_sets.empty() && !check.given("fields")) {
-    check.complain("fields", "is missing, so nothing would be written for field_sets; add for instance fields = [\"displacement\"]");
+    check.complain(
+        "fields",
+        "is missing, so nothing would be written for field_sets; add for instance fields = [\"displacement\"]");
   }
   if (!output.fields.empty() && !check.given("field_sets")) {
-    check.complain("field_sets", "is missing, so none of the fields would be written; add for instance field_sets = [\"PART\"]");
+    check.complain("field_sets",
+                   "is missing, so none of the fields would be written; add for instance field_sets = [\"PART\"]");
   }
 }
 

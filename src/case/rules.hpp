@@ -18,7 +18,8 @@ class EntryCheck {
   virtual void complain(const std::string& key, const std::string& text) = 0;
 };
 
-// Rules that bind several keys of one entry; each gets the section's entry. They also set defaults that depend on another key.
+// Rules that bind several keys of one entry; each gets the section's entry. They also set defaults that depend on
+// another key.
 void check_mesh(void* entry, EntryCheck& check);
 void check_part(void* entry, EntryCheck& check);
 void check_connector(void* entry, EntryCheck& check);

@@ -42,7 +42,8 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
     const auto distance = edit_distance(word, candidate);
     const auto allowed = std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
     const bool similar = distance <= allowed && distance < std::max(word.size(), candidate.size());
-    const bool part = contains(small_letters(candidate), small_letters(word)) || contains(small_letters(word), small_letters(candidate));
+    const bool part = contains(small_letters(candidate), small_letters(word)) ||
+                      contains(small_letters(word), small_letters(candidate));
     if (!similar && !part) continue;
     if (nearest.empty() || distance < least) {
       nearest = candidate;

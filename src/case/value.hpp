@@ -21,8 +21,22 @@ struct Choice {
 };
 
 /// In the order of Value's alternatives. A default that is absent (std::optional) is monostate.
-enum class Kind { absent, boolean, integer, number, text, choice, vector, integer_vector, axes, directions, texts, pairs };
+enum class Kind {
+  absent,
+  boolean,
+  integer,
+  number,
+  text,
+  choice,
+  vector,
+  integer_vector,
+  axes,
+  directions,
+  texts,
+  pairs
+};
 
-using Value = std::variant<std::monostate, bool, int, double, std::string, Choice, Numbers3, Integers3, Axes, Flags3, Texts, Pairs>;
+using Value = std::variant<std::monostate, bool, int, double, std::string, Choice, Numbers3, Integers3, Axes, Flags3,
+                           Texts, Pairs>;
 
 }  // namespace railwave::case_file

@@ -1,0 +1,109 @@
+#include "case/keys.hpp"
+#include "case/rules.hpp"
+
+// The meshes: each type has its own keys.
+namespace railwave::case_file {
+
+using scene::BoxMesh;
+using scene::FileMesh;
+using scene::MeshSource;
+using scene::RailMesh;
+using scene::WheelMesh;
+
+namespace {
+
+std::vector<Key> box_keys() {
+  const auto box = &MeshSource::box;
+  return {
+      key("origin", box, &BoxMesh::origin, "lowest corner").in("m"),
+      key("size", box, &BoxMesh::size, "edge lengths along x, y, z").in("m").within(above(0)),
+      key("divisions", box, &BoxMesh::divisions, "number of elements along x, y, z").within(between(1, 100000)),
+  };
+}
+
+std::vector<Key> wheel_keys() {
+  using Wheel = WheelMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::wheel, field, help); };
+  const auto position = [=](auto name, auto field, auto help) { return any(name, field, help).in("m"); };
+  const auto length = [=](auto name, auto field, auto help) { return position(name, field, help).within(above(0)); };
+  return {
+      any("profile", &Wheel::profile, "tread profile; `cone` is straight, without flange").one_of({"S1002", "cone"}),
+      any("conicity", &Wheel::conicity, "slope of profile `cone`: its radius falls towards +y")
+          .within(between(-0.2, 0.2)),
+      length("radius", &Wheel::radius, "nominal rolling radius, at the tape circle"),
+      length("bore_radius", &Wheel::bore_radius, "radius of the axle's seat"),
+      length("hub_radius", &Wheel::hub_radius, "where the hub's full width ends"),
+      length("hub_width", &Wheel::hub_width, "width of the hub along the axle"),
+      length("web_inner_radius", &Wheel::web_inner_radius, "where the hub's taper has become the web"),
+      length("web_inner_thickness", &Wheel::web_inner_thickness, "thickness of the web at web_inner_radius"),
+      length("web_outer_thickness", &Wheel::web_outer_thickness, "thickness of the web at web_outer_radius"),
+      length("web_outer_radius", &Wheel::web_outer_radius, "where the web begins to widen into the rim"),
+      length("rim_inner_radius", &Wheel::rim_inner_radius, "where the rim has its full width"),
+      length("rim_width", &Wheel::rim_width, "width of the rim along the axle"),
+      position("web_centre", &Wheel::web_centre, "lateral middle of web and hub"),
+      length("zone_size", &Wheel::zone_size, "element size in the solution zone"),
+      length("zone_length", &Wheel::zone_length, "rolled arc length that has zone_size"),
+      position("zone_start", &Wheel::zone_start,
+               "arc where the zone begins: 0 is the lowest point, positive rolls later"),
+      position("zone_centre", &Wheel::zone_centre,
+               "middle of the contact band, along the profile from the tape circle"),
+      length("zone_width", &Wheel::zone_width, "width of the contact band"),
+      any("zone_layers", &Wheel::zone_layers, "layers of zone_size below the running surface").within(between(1, 20)),
+      any("growth", &Wheel::growth, "largest ratio of neighbouring element sizes").within(above_up_to(1, 3)),
+      length("coarse_size", &Wheel::coarse_size, "largest element size along the tread, far from the zone"),
+      length("core_size", &Wheel::core_size, "largest element size below the tread, as an arc at the tread"),
+      length("section_size", &Wheel::section_size, "largest element size across the tread"),
+      any("web_columns", &Wheel::web_columns, "elements through the web's thickness").within(between(1, 9)),
+  };
+}
+
+std::vector<Key> rail_keys() {
+  using Rail = RailMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::rail, field, help); };
+  const auto position = [=](auto name, auto field, auto help) { return any(name, field, help).in("m"); };
+  const auto length = [=](auto name, auto field, auto help) { return position(name, field, help).within(above(0)); };
+  return {
+      any("section", &Rail::section, "rail section").one_of({"54E1", "60E1"}),
+      any("inclination", &Rail::inclination, "slope towards -y, the track's centre; 0.025 is 1:40")
+          .within(between(-0.2, 0.2)),
+      position("start", &Rail::start, "x of the rail's beginning"),
+      position("end", &Rail::end, "x of the rail's end"),
+      length("zone_size", &Rail::zone_size, "element size in the solution zone"),
+      position("zone_start", &Rail::zone_start, "x where the solution zone begins"),
+      position("zone_end", &Rail::zone_end, "x where the solution zone ends"),
+      position("zone_centre", &Rail::zone_centre, "y of the contact band's middle"),
+      length("zone_width", &Rail::zone_width, "width of the contact band"),
+      any("zone_layers", &Rail::zone_layers, "layers of zone_size below the running surface").within(between(1, 20)),
+      any("growth", &Rail::growth, "largest ratio of neighbouring element sizes").within(above_up_to(1, 3)),
+      length("coarse_size", &Rail::coarse_size, "largest element size along the head's surface, far from the zone"),
+      length("core_size", &Rail::core_size, "largest element size along the rail, below the head's surface"),
+      length("section_size", &Rail::section_size, "largest element size across the head's surface"),
+      any("web_columns", &Rail::web_columns, "elements through the web's thickness").within(between(1, 9)),
+  };
+}
+
+std::vector<Key> file_keys() {
+  const auto file = &MeshSource::file;
+  return {
+      key("path", file, &FileMesh::path, "8-node hexahedra: Abaqus or CalculiX (.inp), Gmsh 4.1 (.msh)")
+          .path()
+          .needed(),
+      key("scale", file, &FileMesh::scale, "multiplies the coordinates: 0.001 for a mesh in mm").within(above(0)),
+  };
+}
+
+}  // namespace
+
+Section mesh_section() {
+  auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
+                               "Meshes of 8-node hexahedra, made by a generator or read from a file.");
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file"}).needed()};
+  section.add_keys("box", box_keys());
+  section.add_keys("wheel", wheel_keys());
+  section.add_keys("rail", rail_keys());
+  section.add_keys("file", file_keys());
+  section.rule = check_mesh;
+  return section;
+}
+
+}  // namespace railwave::case_file

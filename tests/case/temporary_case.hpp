@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "case/error.hpp"
+#include "case/read_case.hpp"
+
+namespace railwave::test {
+
+/// A case file that lives as long as this object.
+class TemporaryCase {
+ public:
+  explicit TemporaryCase(const std::string& text) {
+    static int count = 0;
+    folder_ = std::filesystem::temp_directory_path() /
+              ("railwave_case_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+    std::filesystem::create_directories(folder_);
+    write("case.toml", text);
+  }
+  ~TemporaryCase() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  TemporaryCase(const TemporaryCase&) = delete;
+  TemporaryCase& operator=(const TemporaryCase&) = delete;
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+  std::filesystem::path folder() const { return folder_; }
+  std::string path() const { return (folder_ / "case.toml").string(); }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// What InputError says when the file is read; "" when it is read without one.
+inline std::string mistakes_of(const std::string& path, const std::vector<std::string>& overrides = {}) {
+  try {
+    read_case(path, overrides);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+/// A case with nothing but what is required: one block.
+inline const std::string small_case =
+    "[materials.steel]\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\ndensity = 7800\n"
+    "[meshes.cube]\ntype = \"box\"\n"
+    "[parts.cube]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
+    "[time]\nend = 1e-3\n";
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace railwave::test

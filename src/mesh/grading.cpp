@@ -154,10 +154,11 @@ Stations periodic_stations(const StationPlan& plan, double period) {
   ZoneCells zone = zone_cells(plan);
   double rest = period - zone.cells * plan.zone_size;
   std::vector<double> before, after;
-  if (rest < 6 * plan.zone_size) {  // the whole circle is zone
-    zone.cells = static_cast<int>(std::ceil(period / plan.zone_size / 3 - 1e-6)) * 3;
+  if (rest < 6 * plan.zone_size) {  // the whole circle is zone, in whole groups of two levels
+    zone.cells = static_cast<int>(std::ceil(period / plan.zone_size / 9 - 1e-6)) * 9;
     fitted.zone_size = period / zone.cells;
-    zone.first = -zone.origin * fitted.zone_size;
+    zone.first = 0;
+    zone.origin = 0;
   } else {
     // Both sides meet opposite the zone; whole groups of three from the origin leave no odd cell there.
     const int side_before = zone.origin, side_after = zone.cells - zone.origin;

@@ -16,7 +16,7 @@ namespace railwave {
 
 namespace {
 
-constexpr double widest_ring_at_side = 0.013;  // leaves the core and its wings room above the head's underside
+constexpr double widest_ring_at_side = 0.016;  // leaves the core and its wings room above the head's underside
 
 /// One half's curves, numbered in the section; the left half's are mirrored, so both run from the crown outwards.
 struct Half {
@@ -40,7 +40,7 @@ class RailSectionBuilder {
     add_web();
     add_foot();
     place_zone();
-    set_ideal_shapes(section_);
+    set_ideal_shapes(section_, size());
     smooth_section(section_);
     return std::move(section_);
   }
@@ -48,6 +48,8 @@ class RailSectionBuilder {
  private:
   double size() const { return plan_.zone_size; }
   double ring_depth() const { return size() * (plan_.zone_layers + transition_height); }
+
+  double side_depth() const { return std::min(ring_depth(), widest_ring_at_side); }
 
   /// Arc length from the crown's middle to the point whose inclined lateral coordinate is y.
   double arc_at_inclined(double y) const {
@@ -83,12 +85,15 @@ class RailSectionBuilder {
     columns_ = surface_columns(crown - left, crown + first, crown + last, crown + right, zone, size(), plan_.growth,
                                plan_.section_size, 1);
     core_corner_arc_ = {crown - left, crown + right};
-    merges_ = plan_merges(columns_, 1.6 * plan_.section_size, 2.0 * plan_.section_size);
+    const double room = outline_.underside.length - side_depth();
+    const int wing = std::max(1, static_cast<int>(room / (1.1 * size())));
+    merges_ = plan_merges(columns_, 1.6 * plan_.section_size, 2.0 * plan_.section_size, plan_.web_columns + 2,
+                          plan_.web_columns + 2 * wing);
   }
 
   void add_ring() {
     const double depth = ring_depth();
-    const double side_depth = std::min(0.9 * depth, widest_ring_at_side);
+    const double side_depth = this->side_depth();
     rows_.assign(plan_.zone_layers, Row{RowKind::plain, size()});
     rows_.push_back({RowKind::longitudinal, transition_height * size()});
 
@@ -113,9 +118,9 @@ class RailSectionBuilder {
     for (int side = 0; side < 2; ++side) {
       Point2& corner = section_.nodes[side == 0 ? inner.front() : inner.back()].position;
       const Point2 outside = head_.at(core_corner_arc_[side]);
-      const double y = std::abs(outside.y) - 0.55 * side_depth;
+      const double y = std::abs(outside.y) - 0.65 * side_depth;
       const double above = head_.at(crown_arc + y).z - depth;
-      corner = {side == 0 ? -y : y, std::min(above, outside.z - 0.45 * depth)};
+      corner = {side == 0 ? -y : y, std::min(above, outside.z - 0.5 * depth)};
     }
     core_top_ = inner;
 

@@ -159,22 +159,24 @@ std::vector<BlockRow> fill_block(SectionMesh& section, const std::vector<int>& t
   return result;
 }
 
-void set_ideal_shapes(SectionMesh& section) {
+void set_ideal_shapes(SectionMesh& section, double smallest) {
   for (SectionQuad& quad : section.quads) {
     Point2 p[4];
     for (int i = 0; i < 4; ++i) p[i] = section.position(quad.nodes[i]);
     const auto edge = [&](int i) { return norm(p[(i + 1) % 4] - p[i]); };
-    const Point2 diagonal = quad.ideal[2] - quad.ideal[0];
-    if (norm(diagonal) == 0) {
-      const double width = (edge(0) + edge(2)) / 2, height = (edge(1) + edge(3)) / 2;
+    if (norm(quad.ideal[2] - quad.ideal[0]) == 0) {
+      const double least_height = quad.transition && quad.level == 0 ? transition_height * smallest : smallest;
+      const double width = std::max(smallest, (edge(0) + edge(2)) / 2);
+      const double height = std::max(least_height, (edge(1) + edge(3)) / 2);
       quad.ideal = {Point2{0, 0}, Point2{width, 0}, Point2{width, height}, Point2{0, height}};
-    } else {
+    } else {  // a template's quad, stored for cells of size 1
       double present = 0, ideal = 0;
       for (int i = 0; i < 4; ++i) {
         present += edge(i);
         ideal += norm(quad.ideal[(i + 1) % 4] - quad.ideal[i]);
       }
-      for (Point2& corner : quad.ideal) corner = (present / ideal) * corner;
+      const double scale = std::max(smallest, present / ideal);
+      for (Point2& corner : quad.ideal) corner = scale * corner;
     }
   }
 }

@@ -79,8 +79,9 @@ std::vector<BlockRow> fill_block(SectionMesh& section, const std::vector<int>& t
                                  const std::vector<int>& right, const std::vector<int>& bottom, int level);
 
 /// Sets each quad's ideal shape from the present positions: a rectangle with the mean lengths of opposite edges; quads
-/// of a lateral transition keep the template's shape, which fill_block has stored, scaled.
-void set_ideal_shapes(SectionMesh& section);
+/// of a lateral transition keep the template's shape, which fill_block has stored, scaled. No ideal edge is shorter
+/// than `smallest`, so that smoothing widens what the start has squeezed and no element sets a short time step.
+void set_ideal_shapes(SectionMesh& section, double smallest);
 
 /// Fractions of a transition row's height and of a cell's width at which the template's inner nodes lie, from the
 /// merged side; with a row 2.4 cells high every hexahedron keeps a stable step of 0.8 of the fine cell's.

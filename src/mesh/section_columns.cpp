@@ -26,14 +26,16 @@ SurfaceColumns surface_columns(double begin, double first, double last, double e
   return columns;
 }
 
-std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit) {
+std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit,
+                                          int least, int most) {
   std::vector<std::vector<int>> merges;
   std::vector<double> sizes = columns.sizes;
   int middle = columns.zone_first;
   double width = columns.sizes[columns.zone_first];
-  while (3 * width <= band_limit * (1 + 1e-9)) {
-    const auto groups = merge_groups(sizes, middle, limit);
+  while (3 * width <= band_limit * (1 + 1e-9) || (static_cast<int>(sizes.size()) > most && merges.size() < 2)) {
+    const auto groups = merge_groups(sizes, middle, std::max(limit, 3 * width));
     if (std::count(groups.begin(), groups.end(), 3) == 0) break;
+    if (static_cast<int>(groups.size()) < least) break;
     int cell = 0, next = 0;
     while (cell < middle) cell += groups[next++];
     middle = next;
@@ -78,9 +80,13 @@ void fix_zone(SectionMesh& section, const std::vector<BlockRow>& rows, const Sur
     for (int c = columns.zone_first; c <= columns.zone_last; ++c) {
       SectionNode& node = section.nodes[rows[r].top_line[c]];
       if (r > 0 && node.curve >= 0) continue;  // the band reaches the section's side
-      const double arc = columns.boundaries[c];
-      node.position = surface.at(arc) - r * size * surface.left_normal(arc);
-      node.fixed = true;
+      const double arc = columns.boundaries[c], depth = r * size;
+      const auto below = [&](double at) { return surface.at(at) - depth * surface.left_normal(at); };
+      node.position = below(arc);
+      // Below a sharp corner normals run together: leave the deeper nodes there to smoothing.
+      const double step = std::min(1e-5, 0.1 * size);
+      const double from = std::max(0.0, arc - step), to = std::min(surface.length, arc + step);
+      node.fixed = r <= 1 || norm(below(to) - below(from)) > 0.8 * (to - from);
     }
     if (r == layers) break;
     for (int c = columns.zone_first; c < columns.zone_last; ++c) section.quads[rows[r].first_quads[c]].zone = true;

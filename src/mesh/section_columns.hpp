@@ -23,8 +23,9 @@ SurfaceColumns surface_columns(double begin, double first, double last, double e
                                double largest, int multiple);
 
 /// Group sizes for as many lateral 3:1 transitions as keep the band's merged columns within
-/// `band_limit`; other columns are merged as far as `limit`.
-std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit);
+/// `band_limit`; other columns are merged as far as `limit`. More than `most` remaining columns are merged once more; `least` remain.
+std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit,
+                                          int least, int most);
 
 /// `count` lateral transition rows below columns of the given size, each as high as its template wants.
 std::vector<Row> lateral_rows(int count, double size);
@@ -37,7 +38,7 @@ std::vector<double> even_fractions(int parts);
 std::vector<int> straight_line(SectionMesh& section, int first, int last, const std::vector<double>& fractions);
 
 /// Puts the first `layers` rows below the contact band's columns exactly below `surface`, along its normals, `size`
-/// apart; fixes them and marks their quads as zone. The surface's outside lies on the left of its direction.
+/// apart, where their normals don't run together; fixes them and marks their quads as zone. The surface's outside lies on the left of its direction.
 void fix_zone(SectionMesh& section, const std::vector<BlockRow>& rows, const SurfaceColumns& columns, const Curve& surface,
               int layers, double size);
 

@@ -37,7 +37,7 @@ class WheelSectionBuilder {
     add_web();
     add_hub();
     fix_zone(section_, layers_, columns_, surface_, wheel_.zone_layers, size());
-    set_ideal_shapes(section_);
+    set_ideal_shapes(section_, size());
     smooth_section(section_);
     return std::move(section_);
   }
@@ -60,7 +60,7 @@ class WheelSectionBuilder {
           "lateral positions {:.4f} to {:.4f} m",
           wheel_.zone_width, wheel_.zone_centre, surface_.begin().y, surface_.end().y));
     columns_ = surface_columns(0, first, last, surface_.length, zone, size(), wheel_.growth, wheel_.section_size, 3);
-    merges_ = plan_merges(columns_, 1.6 * wheel_.section_size, 3.3 * wheel_.section_size);
+    merges_ = plan_merges(columns_, 1.6 * wheel_.section_size, 3.3 * wheel_.section_size, wheel_.web_columns + 2, 1 << 20);
   }
 
   Point2 base_point(double y) const {

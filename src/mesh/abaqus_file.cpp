@@ -20,13 +20,15 @@ constexpr std::int64_t largest_number = std::numeric_limits<std::int32_t>::max()
 
 class AbaqusReader {
  public:
-  AbaqusReader(const std::string& path, std::vector<std::string>& notes) : notes_(notes), lines_(path, numbered_.files) {}
+  AbaqusReader(const std::string& path, std::vector<std::string>& notes)
+      : notes_(notes), lines_(path, numbered_.files) {}
 
   Mesh read() {
     while (lines_.has_line()) {
       if (lines_.has_data()) {
         const auto field = std::string(lines_.take_fields()[0]);
-        fail(lines_.place(), "'{}' stands where a keyword is expected; an Abaqus input file begins with a line such as *NODE",
+        fail(lines_.place(),
+             "'{}' stands where a keyword is expected; an Abaqus input file begins with a line such as *NODE",
              for_message(field));
       }
       read_block(lines_.take_keyword());
@@ -72,8 +74,10 @@ class AbaqusReader {
     // Passing over one of these would leave a mesh other than the one meant.
     for (const char* maker : {"NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM"})
       if (name == maker)
-        fail(keyword.place, "*{} makes nodes or elements, which isn't supported; let the program that wrote the file write "
-             "all nodes and elements out", name);
+        fail(keyword.place,
+             "*{} makes nodes or elements, which isn't supported; let the program that wrote the file write "
+             "all nodes and elements out",
+             name);
     const bool structure = name == "ASSEMBLY" || name.substr(0, 3) == "END" || name == "HEADING";
     if (!structure) skipped_.try_emplace(name, keyword.place);
     skip_data();
@@ -94,7 +98,8 @@ class AbaqusReader {
   double coordinate(std::string_view field, const char* what) const {
     if (field.empty()) return 0;  // Abaqus takes an empty field as zero
     const auto value = parse_real(field);
-    if (!value) fail(lines_.place(), "'{}' is no {}; give a number, with commas between numbers", for_message(field), what);
+    if (!value)
+      fail(lines_.place(), "'{}' is no {}; give a number, with commas between numbers", for_message(field), what);
     return *value;
   }
 
@@ -113,8 +118,10 @@ class AbaqusReader {
       const auto node = number(fields[0], "node number");
       if (fields.size() < 4)
         fail(lines_.place(), "node {} has {} of its three coordinates; write number, x, y, z", node, fields.size() - 1);
-      numbered_.add_node(node, {coordinate(fields[1], "coordinate"), coordinate(fields[2], "coordinate"),
-                                coordinate(fields[3], "coordinate")}, lines_.place());
+      numbered_.add_node(node,
+                         {coordinate(fields[1], "coordinate"), coordinate(fields[2], "coordinate"),
+                          coordinate(fields[3], "coordinate")},
+                         lines_.place());
       if (!set.empty()) node_sets_.add_number(set, node, lines_.place());
     }
   }
@@ -126,8 +133,10 @@ class AbaqusReader {
     }
     const auto type = keyword.value("TYPE");
     if (type != "c3d8" && type != "c3d8r" && type != "c3d8i")
-      fail(keyword.place, "*ELEMENT, TYPE={}: only 8-node hexahedra (C3D8, C3D8R, C3D8I) are read; mesh the part with "
-           "these, or take this block out", type.empty() ? "(none)" : for_message(keyword.parameters.at("TYPE")));
+      fail(keyword.place,
+           "*ELEMENT, TYPE={}: only 8-node hexahedra (C3D8, C3D8R, C3D8I) are read; mesh the part with "
+           "these, or take this block out",
+           type.empty() ? "(none)" : for_message(keyword.parameters.at("TYPE")));
     if (keyword.has("INPUT")) lines_.include(keyword);
     const auto set = keyword.value("ELSET");
     if (!set.empty()) element_sets_.open(set, false, false, keyword.place);
@@ -145,7 +154,8 @@ class AbaqusReader {
       for (const auto field : lines_.take_fields()) {
         if (count == 0) place = lines_.place();
         if (count == numbers.size())
-          fail(lines_.place(), "element {} has more than 8 nodes; C3D8 has 8, quadratic elements aren't read", numbers[0]);
+          fail(lines_.place(), "element {} has more than 8 nodes; C3D8 has 8, quadratic elements aren't read",
+               numbers[0]);
         numbers[count] = number(field, count == 0 ? "element number" : "node number");
         ++count;
       }
@@ -241,8 +251,10 @@ class AbaqusReader {
 
   void begin_instance(const AbaqusKeyword& keyword) {
     if (instance_)
-      fail(keyword.place, "*INSTANCE '{}' is a second instance; a mesh file holds one: place the mesh several times as "
-           "parts of the case, each with its position", for_message(keyword.value("NAME")));
+      fail(keyword.place,
+           "*INSTANCE '{}' is a second instance; a mesh file holds one: place the mesh several times as "
+           "parts of the case, each with its position",
+           for_message(keyword.value("NAME")));
     instance_ = keyword.value("NAME");
     scope_ = Scope::part;
     int line = 0;
@@ -265,7 +277,8 @@ class AbaqusReader {
   // A member as `instance.member` is written without the instance; lower case.
   std::string without_instance(std::string_view field) const {
     auto member = lower_case(field);
-    if (member.size() >= 2 && member.front() == '"' && member.back() == '"') member = member.substr(1, member.size() - 2);
+    if (member.size() >= 2 && member.front() == '"' && member.back() == '"')
+      member = member.substr(1, member.size() - 2);
     if (instance_ && member.compare(0, instance_->size() + 1, *instance_ + ".") == 0)
       member.erase(0, instance_->size() + 1);
     return member;
@@ -273,7 +286,8 @@ class AbaqusReader {
 
   void note_assembly(const AbaqusKeyword& keyword) {
     if (!assembly_noted_)
-      notes_.push_back(fmt::format("{} the assembly's own nodes and elements were left out", numbered_.where(keyword.place)));
+      notes_.push_back(
+          fmt::format("{} the assembly's own nodes and elements were left out", numbered_.where(keyword.place)));
     assembly_noted_ = true;
   }
 
@@ -283,8 +297,7 @@ class AbaqusReader {
       for (int i = 0; i < 3; ++i) node[i] += translation_[i];
     for (const auto& [node_set, element_set, place] : nodes_of_elements_)
       for (int element : element_sets_.positions(element_set, place))
-        for (int node : mesh.elements[element])
-          node_sets_.add_number(node_set, numbered_.node_numbers()[node], place);
+        for (int node : mesh.elements[element]) node_sets_.add_number(node_set, numbered_.node_numbers()[node], place);
     mesh.node_sets = node_sets_.all();
     mesh.element_sets = element_sets_.all();
     make_surfaces(mesh);
@@ -314,7 +327,8 @@ class AbaqusReader {
     if (const auto element_number = parse_integer(entry.target)) {
       const auto element = numbered_.find_element(*element_number);
       if (!element)
-        fail(entry.place, "the surface names element {}, which the file doesn't define; mend the number", *element_number);
+        fail(entry.place, "the surface names element {}, which the file doesn't define; mend the number",
+             *element_number);
       elements.push_back(*element);
     } else {
       elements = element_sets_.positions(entry.target, entry.place);

@@ -66,13 +66,14 @@ void AbaqusLines::open(const std::string& path, const FilePlace* from) {
   const auto real_path = std::filesystem::weakly_canonical(path, error).string();
   for (const auto& source : sources_)
     if (source->real_path == real_path)
-      throw InputError(fmt::format("{}includes {}, which is being read already; a file can't include itself", here, path));
+      throw InputError(
+          fmt::format("{}includes {}, which is being read already; a file can't include itself", here, path));
   if (sources_.size() > deepest_include)
-    throw InputError(fmt::format("{}includes {}: more than {} files inside one another; put them into fewer", here, path,
-                                 deepest_include));
+    throw InputError(fmt::format("{}includes {}: more than {} files inside one another; put them into fewer", here,
+                                 path, deepest_include));
   if (++includes_ > most_includes)
-    throw InputError(fmt::format("{}includes {}: more than {} inclusions; put them into fewer files", here, path,
-                                 most_includes));
+    throw InputError(
+        fmt::format("{}includes {}: more than {} inclusions; put them into fewer files", here, path, most_includes));
   auto source = std::make_unique<Source>();
   try {
     source->text = read_whole_file(path);
@@ -90,15 +91,18 @@ void AbaqusLines::check_text(std::string_view line) const {
   for (char c : line) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20 && c != '\t' && c != '\r' && c != '\f')
-      throw InputError(fmt::format("{} there is a byte 0x{:02x}, so this isn't a text file; give an Abaqus or CalculiX "
-                                   "input file saved as plain text", where(current_place_), byte));
+      throw InputError(
+          fmt::format("{} there is a byte 0x{:02x}, so this isn't a text file; give an Abaqus or CalculiX "
+                      "input file saved as plain text",
+                      where(current_place_), byte));
   }
 }
 
 bool AbaqusLines::fill() {
   // An include stands for the lines of its file, wherever it is, also between data lines.
   while (fill_plain()) {
-    if (current_[0] != '*' || upper_case_without_blanks(current_.substr(0, current_.find(','))) != "*INCLUDE") return true;
+    if (current_[0] != '*' || upper_case_without_blanks(current_.substr(0, current_.find(','))) != "*INCLUDE")
+      return true;
     include(read_keyword());
   }
   return false;
@@ -132,7 +136,8 @@ AbaqusKeyword AbaqusLines::read_keyword() {
   keyword.place = place_ = current_place_;
   std::string line(current_.substr(1));
   drop_line();
-  // A comma at the end says that the next line belongs to this one. Numbers can't be parameters: there the comma is idle.
+  // A comma at the end says that the next line belongs to this one. Numbers can't be parameters: there the comma is
+  // idle.
   while (!line.empty() && line.back() == ',' && fill_plain() && current_[0] != '*') {
     const char first = current_[0];
     if ((first >= '0' && first <= '9') || first == '-' || first == '+' || first == '.') break;
@@ -162,8 +167,8 @@ std::vector<std::string_view> AbaqusLines::take_fields() {
 void AbaqusLines::include(const AbaqusKeyword& keyword) {
   const auto input = keyword.parameters.find("INPUT");
   if (input == keyword.parameters.end() || input->second.empty())
-    throw InputError(fmt::format("{} *{} names no file; write *{}, INPUT=file", where(keyword.place), keyword.name,
-                                 keyword.name));
+    throw InputError(
+        fmt::format("{} *{} names no file; write *{}, INPUT=file", where(keyword.place), keyword.name, keyword.name));
   const std::filesystem::path folder = std::filesystem::path(files_[keyword.place.file]).parent_path();
   open((folder / input->second).string(), &keyword.place);
 }

@@ -14,8 +14,8 @@ namespace railwave {
 
 /// A keyword line `*NAME, KEY=value, FLAG` with its continuation lines.
 struct AbaqusKeyword {
-  std::string name;                              ///< upper case, without blanks: "NODE", "ENDPART"
-  std::map<std::string, std::string> parameters; ///< keys in upper case; values as written, quotes taken off
+  std::string name;                               ///< upper case, without blanks: "NODE", "ENDPART"
+  std::map<std::string, std::string> parameters;  ///< keys in upper case; values as written, quotes taken off
   FilePlace place;
 
   bool has(const std::string& key) const { return parameters.count(key) > 0; }
@@ -57,8 +57,8 @@ class AbaqusLines {
     std::int64_t line = 0;
   };
 
-  bool fill();       // brings up a line, inclusions done
-  bool fill_plain(); // the same, where *INCLUDE is a line as any other
+  bool fill();        // brings up a line, inclusions done
+  bool fill_plain();  // the same, where *INCLUDE is a line as any other
   void open(const std::string& path, const FilePlace* from);
   void drop_line() { filled_ = false; }
   AbaqusKeyword read_keyword();

@@ -31,9 +31,10 @@ void AbaqusSets::open(const std::string& name, bool in_assembly, bool internal, 
     set.internal = internal;
     set.place = place;
   } else if (set.in_assembly != in_assembly) {
-    throw InputError(fmt::format("{} {} set '{}' is defined in the part and in the assembly (at {}), so a case file can't "
-                                 "tell them apart; rename one", mesh_.where(place), kind_, for_message(name),
-                                 mesh_.where(set.place)));
+    throw InputError(
+        fmt::format("{} {} set '{}' is defined in the part and in the assembly (at {}), so a case file can't "
+                    "tell them apart; rename one",
+                    mesh_.where(place), kind_, for_message(name), mesh_.where(set.place)));
   }
   set.positions.reset();
 }
@@ -80,20 +81,23 @@ void AbaqusSets::resolve(const std::string& name, Definition& set, int depth) {
   for (const Number& entry : set.numbers) {
     const auto position = find(entry.number);
     if (!position)
-      throw InputError(fmt::format("{} {} set '{}' names {} {}, which the file doesn't define; take it out or define it",
-                                   mesh_.where(entry.place), kind_, for_message(name), kind_, entry.number));
+      throw InputError(
+          fmt::format("{} {} set '{}' names {} {}, which the file doesn't define; take it out or define it",
+                      mesh_.where(entry.place), kind_, for_message(name), kind_, entry.number));
     positions.push_back(*position);
   }
   for (const Range& range : set.ranges) add_range_positions(name, range, positions);
   for (const Reference& reference : set.sets) {
     const auto entry = sets_.find(reference.name);
     if (entry == sets_.end())
-      throw InputError(fmt::format("{} {} set '{}' names '{}', which is neither a number nor a {} set of this file; mend "
-                                   "the name", mesh_.where(reference.place), kind_, for_message(name),
-                                   for_message(reference.name), kind_));
+      throw InputError(
+          fmt::format("{} {} set '{}' names '{}', which is neither a number nor a {} set of this file; mend "
+                      "the name",
+                      mesh_.where(reference.place), kind_, for_message(name), for_message(reference.name), kind_));
     if (entry->second.being_resolved)
       throw InputError(fmt::format("{} {} set '{}' contains itself by way of '{}'; take one of the two out",
-                                   mesh_.where(reference.place), kind_, for_message(name), for_message(reference.name)));
+                                   mesh_.where(reference.place), kind_, for_message(name),
+                                   for_message(reference.name)));
     resolve(reference.name, entry->second, depth + 1);
     positions.insert(positions.end(), entry->second.positions->begin(), entry->second.positions->end());
   }
@@ -116,9 +120,10 @@ void AbaqusSets::add_range_positions(const std::string& name, const Range& range
       if (const auto position = find(number)) positions.push_back(*position);
   }
   if (positions.size() == size_before)
-    throw InputError(fmt::format("{} {} set '{}' has the range {} to {} by {}, but the file defines no {} in it; mend the "
-                                 "range", mesh_.where(range.place), kind_, for_message(name), range.first, range.last,
-                                 range.step, kind_));
+    throw InputError(
+        fmt::format("{} {} set '{}' has the range {} to {} by {}, but the file defines no {} in it; mend the "
+                    "range",
+                    mesh_.where(range.place), kind_, for_message(name), range.first, range.last, range.step, kind_));
 }
 
 }  // namespace railwave

@@ -23,11 +23,11 @@ void check(const scene::MeshSource& source) {
   double node_count = 1;
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(box.origin[axis]))
-      throw InputError(fmt::format("{}origin along {} is {}; give a finite number in m", where, axis_names[axis],
-                                   box.origin[axis]));
+      throw InputError(
+          fmt::format("{}origin along {} is {}; give a finite number in m", where, axis_names[axis], box.origin[axis]));
     if (!(box.size[axis] > 0) || !std::isfinite(box.size[axis]))
-      throw InputError(fmt::format("{}size along {} is {}; give a length above 0 in m", where, axis_names[axis],
-                                   box.size[axis]));
+      throw InputError(
+          fmt::format("{}size along {} is {}; give a length above 0 in m", where, axis_names[axis], box.size[axis]));
     if (box.divisions[axis] < 1)
       throw InputError(fmt::format("{}divisions along {} is {}; give a whole number of 1 or more", where,
                                    axis_names[axis], box.divisions[axis]));
@@ -54,8 +54,7 @@ Mesh box_mesh(const scene::MeshSource& source) {
       for (int i = 0; i <= n[0]; ++i) {
         const std::array<int, 3> position{i, j, k};
         Vec3 x;
-        for (int axis = 0; axis < 3; ++axis)
-          x[axis] = box.origin[axis] + box.size[axis] * position[axis] / n[axis];
+        for (int axis = 0; axis < 3; ++axis) x[axis] = box.origin[axis] + box.size[axis] * position[axis] / n[axis];
         for (int axis = 0; axis < 3; ++axis) {
           const std::string name(1, axis_names[axis]);
           if (position[axis] == 0) mesh.node_sets[name + "_min"].push_back(node_number(i, j, k));

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 
 namespace railwave {
 
-/// The faces of a mesh's hexahedra, found by their four nodes: which are on the outside, and which face a quadrangle is.
+/// The faces of a mesh's hexahedra, found by their four nodes: which are on the outside, and which face a quadrangle
+/// is.
 class FaceTable {
  public:
   explicit FaceTable(const Mesh& mesh);
@@ -18,8 +20,8 @@ class FaceTable {
   /// All element faces with these four nodes, in any order: none, one (outside) or two (between two elements).
   std::vector<Face> find(std::array<int, 4> nodes) const;
 
-  /// Faces at the same four nodes whose elements can't lie on either side of them (three or more elements, or two on the
-  /// same side): the first such place, empty in a sound mesh. `mesh` is the one that the table was made from.
+  /// Faces at the same four nodes whose elements can't lie on either side of them (three or more elements, or two on
+  /// the same side): the first such place, empty in a sound mesh. `mesh` is the one that the table was made from.
   std::vector<Face> overlapping(const Mesh& mesh) const;
 
  private:
@@ -27,7 +29,8 @@ class FaceTable {
     std::array<int, 4> nodes;  // ascending
     Face face;
   };
-  std::vector<Entry> entries_;  // ascending by nodes, then element and side
+  std::vector<std::ptrdiff_t> first_;  // of each node: the first entry whose lowest node it is
+  std::vector<Entry> entries_;         // ascending by nodes, then element and side
 };
 
 }  // namespace railwave

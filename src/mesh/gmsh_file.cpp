@@ -25,15 +25,15 @@ struct ElementType {
   int nodes;
 };
 
-// Element types by Gmsh's numbers (Gmsh reference manual, "MSH file format"). Only first-order ones can stand beside 8-node
-// hexahedra, so the others serve messages.
+// Element types by Gmsh's numbers (Gmsh reference manual, "MSH file format"). Only first-order ones can stand beside
+// 8-node hexahedra, so the others serve messages.
 const std::map<std::int64_t, ElementType> element_types = {
-    {1, {"2-node lines", 1, 2}},           {2, {"3-node triangles", 2, 3}},       {3, {"4-node quadrangles", 2, 4}},
-    {4, {"4-node tetrahedra", 3, 4}},    {5, {"8-node hexahedra", 3, 8}},     {6, {"6-node prisms", 3, 6}},
-    {7, {"5-node pyramids", 3, 5}},        {8, {"3-node lines", 1, 3}},           {9, {"6-node triangles", 2, 6}},
-    {10, {"9-node quadrangles", 2, 9}},    {11, {"10-node tetrahedra", 3, 10}}, {12, {"27-node hexahedra", 3, 27}},
-    {13, {"18-node prisms", 3, 18}},       {14, {"14-node pyramids", 3, 14}},     {15, {"points", 0, 1}},
-    {16, {"8-node quadrangles", 2, 8}},    {17, {"20-node hexahedra", 3, 20}},  {18, {"15-node prisms", 3, 15}},
+    {1, {"2-node lines", 1, 2}},        {2, {"3-node triangles", 2, 3}},     {3, {"4-node quadrangles", 2, 4}},
+    {4, {"4-node tetrahedra", 3, 4}},   {5, {"8-node hexahedra", 3, 8}},     {6, {"6-node prisms", 3, 6}},
+    {7, {"5-node pyramids", 3, 5}},     {8, {"3-node lines", 1, 3}},         {9, {"6-node triangles", 2, 6}},
+    {10, {"9-node quadrangles", 2, 9}}, {11, {"10-node tetrahedra", 3, 10}}, {12, {"27-node hexahedra", 3, 27}},
+    {13, {"18-node prisms", 3, 18}},    {14, {"14-node pyramids", 3, 14}},   {15, {"points", 0, 1}},
+    {16, {"8-node quadrangles", 2, 8}}, {17, {"20-node hexahedra", 3, 20}},  {18, {"15-node prisms", 3, 15}},
     {19, {"13-node pyramids", 3, 13}},
 };
 
@@ -53,8 +53,10 @@ class GmshReader {
       read_section(std::string(heading));
     for (const char* section : {"$Nodes", "$Elements"})
       if (!sections_.count(section))
-        tokens_.fail(fmt::format("the file ends without a {} section: it has no mesh or was cut short; mesh in 3D and save "
-                                 "again", section));
+        tokens_.fail(
+            fmt::format("the file ends without a {} section: it has no mesh or was cut short; mesh in 3D and save "
+                        "again",
+                        section));
     return finish();
   }
 
@@ -76,8 +78,9 @@ class GmshReader {
   void read_format() {
     const auto heading = tokens_.text_line();
     if (heading != "$MeshFormat")
-      tokens_.fail(fmt::format("'{}' stands where $MeshFormat is expected; this is no Gmsh mesh file of version 4.1: {}",
-                               for_message(heading), how_to_export));
+      tokens_.fail(
+          fmt::format("'{}' stands where $MeshFormat is expected; this is no Gmsh mesh file of version 4.1: {}",
+                      for_message(heading), how_to_export));
     const auto version = tokens_.real("version of the format");
     if (version != 4.1)
       tokens_.fail(fmt::format("the format's version is {}, but only 4.1 is read; {}", version, how_to_export));
@@ -106,15 +109,19 @@ class GmshReader {
     const auto ending = "$End" + heading.substr(1);
     if (line == ending) return;
     if (line.empty())
-      tokens_.fail(fmt::format("the file ends inside {}, before {}: it was cut short; write it again", heading, ending));
-    tokens_.fail(fmt::format("'{}' stands where {} is expected: the section has more entries than its counts say, or is "
-                             "damaged; write the file again", for_message(line), ending));
+      tokens_.fail(
+          fmt::format("the file ends inside {}, before {}: it was cut short; write it again", heading, ending));
+    tokens_.fail(
+        fmt::format("'{}' stands where {} is expected: the section has more entries than its counts say, or is "
+                    "damaged; write the file again",
+                    for_message(line), ending));
   }
 
   void read_section(const std::string& heading) {
     if (heading[0] != '$' || heading.compare(0, 4, "$End") == 0)
-      tokens_.fail(fmt::format("'{}' stands where a section such as $Nodes is expected; the file is damaged, write it again",
-                               for_message(heading)));
+      tokens_.fail(
+          fmt::format("'{}' stands where a section such as $Nodes is expected; the file is damaged, write it again",
+                      for_message(heading)));
     const bool known = heading == "$PhysicalNames" || heading == "$Entities" || heading == "$Nodes" ||
                        heading == "$Elements" || heading == "$MeshFormat";
     if (known && (!sections_.insert(heading).second || heading == "$MeshFormat"))
@@ -123,7 +130,8 @@ class GmshReader {
       tokens_.fail("the mesh is partitioned, which isn't read; save it before partitioning");
     if (heading == "$PhysicalNames") read_physical_names();
     // From here on the known sections' bytes are numbers, beginning after the heading's line break.
-    else if (known && tokens_.binary()) tokens_.end_line();
+    else if (known && tokens_.binary())
+      tokens_.end_line();
     if (heading == "$Entities") read_entities();
     if (heading == "$Nodes") read_nodes();
     if (heading == "$Elements") {
@@ -134,8 +142,8 @@ class GmshReader {
     if (known)
       end_section(heading);
     else if (!tokens_.skip_past("$End" + heading.substr(1)))
-      tokens_.fail(fmt::format("section '{}' has no $End{}: the file was cut short; write it again", for_message(heading),
-                               for_message(heading.substr(1))));
+      tokens_.fail(fmt::format("section '{}' has no $End{}: the file was cut short; write it again",
+                               for_message(heading), for_message(heading.substr(1))));
   }
 
   // This section is text in binary files too.
@@ -146,7 +154,8 @@ class GmshReader {
       const auto line = tokens_.text_line();
       if (line.empty()) tokens_.fail("the file ends inside $PhysicalNames: it was cut short; write it again");
       const auto blank = line.find(' '), first_quote = line.find('"'), last_quote = line.rfind('"');
-      const bool formed = blank != line.npos && first_quote != line.npos && blank < first_quote && first_quote < last_quote;
+      const bool formed =
+          blank != line.npos && first_quote != line.npos && blank < first_quote && first_quote < last_quote;
       const auto dimension = formed ? parse_integer(line.substr(0, blank)) : std::nullopt;
       const auto tag = formed ? parse_integer(trim(line.substr(blank, first_quote - blank))) : std::nullopt;
       if (!dimension || !tag || *dimension < 0 || *dimension > 3)
@@ -217,8 +226,8 @@ class GmshReader {
       }
     }
     if (static_cast<std::int64_t>(numbered_.node_count()) != total)
-      tokens_.fail(fmt::format("$Nodes promises {} nodes, but its blocks hold {}; the file is damaged, write it again", total,
-                               numbered_.node_count()));
+      tokens_.fail(fmt::format("$Nodes promises {} nodes, but its blocks hold {}; the file is damaged, write it again",
+                               total, numbered_.node_count()));
   }
 
   void read_elements() {
@@ -242,8 +251,8 @@ class GmshReader {
       found += count;
     }
     if (found != total)
-      tokens_.fail(fmt::format("$Elements promises {} elements, but its blocks hold {}; the file is damaged, write it again",
-                               total, found));
+      tokens_.fail(fmt::format(
+          "$Elements promises {} elements, but its blocks hold {}; the file is damaged, write it again", total, found));
   }
 
   ElementType element_type() {
@@ -254,11 +263,15 @@ class GmshReader {
     const ElementType& type = entry->second;
     const bool first_order = number <= 7 || number == 15;
     if (!first_order)
-      tokens_.fail(fmt::format("there are {}, but only first-order elements are read; set Mesh.ElementOrder = 1 and mesh "
-                               "again", type.name));
+      tokens_.fail(
+          fmt::format("there are {}, but only first-order elements are read; set Mesh.ElementOrder = 1 and mesh "
+                      "again",
+                      type.name));
     if (type.dimension == 3 && number != 5)
-      tokens_.fail(fmt::format("there are {}, but solids must be 8-node hexahedra; use transfinite or extruded volumes with "
-                               "Recombine, or Mesh.SubdivisionAlgorithm = 2", type.name));
+      tokens_.fail(
+          fmt::format("there are {}, but solids must be 8-node hexahedra; use transfinite or extruded volumes with "
+                      "Recombine, or Mesh.SubdivisionAlgorithm = 2",
+                      type.name));
     return type;
   }
 
@@ -273,10 +286,12 @@ class GmshReader {
         for (const Group& group : groups) volumes_[group].push_back(static_cast<int>(numbered_.element_count()) - 1);
       } else if (type.dimension == 2) {
         if (type.nodes != 4 && !groups.empty())
-          fail(place, fmt::format("surface '{}' has triangles, which are no faces of hexahedra; set Recombine Surface and "
-                                  "mesh again", name_of(groups.front())));
-        for (const Group& group : groups) quadrangles_[group].push_back({number, {nodes[0], nodes[1], nodes[2], nodes[3]},
-                                                                         place});
+          fail(place,
+               fmt::format("surface '{}' has triangles, which are no faces of hexahedra; set Recombine Surface and "
+                           "mesh again",
+                           name_of(groups.front())));
+        for (const Group& group : groups)
+          quadrangles_[group].push_back({number, {nodes[0], nodes[1], nodes[2], nodes[3]}, place});
       } else {
         for (const Group& group : groups)
           for (int n = 0; n < type.nodes; ++n) node_groups_[group].push_back({nodes[n], place});
@@ -305,19 +320,23 @@ class GmshReader {
     if (!quadrangles_.empty()) make_surfaces(mesh);
     make_node_sets(mesh);
     if (volumes_.empty() && quadrangles_.empty() && node_groups_.empty())
-      notes_.push_back(fmt::format("{}: no physical groups, so the only set is 'exterior'; add Physical Surface and "
-                                   "Physical Volume in Gmsh to name parts of the mesh", path_));
+      notes_.push_back(
+          fmt::format("{}: no physical groups, so the only set is 'exterior'; add Physical Surface and "
+                      "Physical Volume in Gmsh to name parts of the mesh",
+                      path_));
     numbered_.complete(mesh, notes_);
     return mesh;
   }
 
-  // Points before curves, so that a name shared by both means the points. Surfaces and volumes add theirs in complete().
+  // Points before curves, so that a name shared by both means the points. Surfaces and volumes add theirs in
+  // complete().
   void make_node_sets(Mesh& mesh) {
     std::map<std::string, int> dimension_of;
     for (const auto& [group, members] : node_groups_) {
       const auto name = name_of(group);
       if (dimension_of.try_emplace(name, group.first).first->second != group.first) {
-        notes_.push_back(fmt::format("{}: physical curve '{}' was left out: a physical point has that name", path_, name));
+        notes_.push_back(
+            fmt::format("{}: physical curve '{}' was left out: a physical point has that name", path_, name));
         continue;
       }
       auto& set = mesh.node_sets[name];
@@ -339,8 +358,10 @@ class GmshReader {
     for (int i = 0; i < 4; ++i) nodes[i] = node(quadrangle.nodes[i], quadrangle.place, owner);
     const auto faces = table.find(nodes);
     if (faces.empty())
-      fail(quadrangle.place, fmt::format("{} is no face of a hexahedron; mesh the volume behind this surface too, or take "
-                                         "the surface out of the physical group", owner));
+      fail(quadrangle.place,
+           fmt::format("{} is no face of a hexahedron; mesh the volume behind this surface too, or take "
+                       "the surface out of the physical group",
+                       owner));
     for (const Face& face : faces) {
       const auto outward = mesh.face_nodes(face);
       for (int start = 0; start < 4; ++start)

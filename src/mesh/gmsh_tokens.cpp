@@ -72,8 +72,10 @@ std::string_view GmshTokens::token(const char* what) {
   if (result.empty())
     fail(fmt::format("the file ends where the {} should stand: it was cut short; write it again", what));
   if (result[0] == '$')
-    fail(fmt::format("'{}' stands where the {} should: the section has fewer entries than its counts say; write the file "
-                     "again", for_message(result), what));
+    fail(fmt::format(
+        "'{}' stands where the {} should: the section has fewer entries than its counts say; write the file "
+        "again",
+        for_message(result), what));
   return result;
 }
 
@@ -118,7 +120,8 @@ std::int64_t GmshTokens::size(const char* what) {
 double GmshTokens::real(const char* what) {
   if (binary_) {
     const auto value = raw<double>(what);
-    if (!std::isfinite(value)) fail(fmt::format("the {} isn't a finite number; the file is damaged, write it again", what));
+    if (!std::isfinite(value))
+      fail(fmt::format("the {} isn't a finite number; the file is damaged, write it again", what));
     return value;
   }
   const auto text = token(what);
@@ -132,8 +135,10 @@ void GmshTokens::expect_room(std::int64_t count, std::int64_t numbers, const cha
   // In ASCII a number takes a digit and a blank, but the last needs no blank.
   const std::int64_t smallest = binary_ ? 4 * numbers : 2 * numbers;
   if (count > (left + 1) / smallest)
-    fail(fmt::format("the header promises {} {}, but only {} bytes follow: the header is wrong or the file was cut short; "
-                     "write it again", count, what, left));
+    fail(fmt::format(
+        "the header promises {} {}, but only {} bytes follow: the header is wrong or the file was cut short; "
+        "write it again",
+        count, what, left));
 }
 
 }  // namespace railwave

@@ -23,7 +23,8 @@ class GmshTokens {
   /// The same for NumberedMesh.
   FilePlace place() const { return {0, binary_ ? static_cast<std::int64_t>(start_) : line_}; }
 
-  /// The next line that isn't blank, trimmed: headings and what is ASCII in binary files too. Empty at the end of the file.
+  /// The next line that isn't blank, trimmed: headings and what is ASCII in binary files too. Empty at the end of the
+  /// file.
   std::string_view text_line();
 
   /// Skips what is left of this line, its break included: binary data begin at the next byte.
@@ -32,10 +33,10 @@ class GmshTokens {
   /// Skips to after the line `ending`; false when there is none.
   bool skip_past(const std::string& ending);
 
-  std::int64_t integer(const char* what);           ///< 4 bytes in binary
-  std::int64_t size(const char* what);              ///< 8 bytes in binary; never negative
-  double real(const char* what);                    ///< 8 bytes in binary
-  std::int32_t raw_integer(const char* what);       ///< 4 bytes, whatever the mode
+  std::int64_t integer(const char* what);      ///< 4 bytes in binary
+  std::int64_t size(const char* what);         ///< 8 bytes in binary; never negative
+  double real(const char* what);               ///< 8 bytes in binary
+  std::int32_t raw_integer(const char* what);  ///< 4 bytes, whatever the mode
 
   /// Throws InputError unless `count` things of at least `numbers` numbers (of at least 4 bytes in binary) can still
   /// follow: no memory is asked for on a broken header's word.
@@ -51,8 +52,8 @@ class GmshTokens {
   std::string_view bytes_;
   std::string path_;
   bool binary_ = false;
-  std::size_t offset_ = 0;   // of what comes next
-  std::size_t start_ = 0;    // of what was read last
+  std::size_t offset_ = 0;  // of what comes next
+  std::size_t start_ = 0;   // of what was read last
   std::int64_t line_ = 1;
 };
 

@@ -17,12 +17,12 @@ Mesh read_mesh_file(const scene::MeshSource& source, std::vector<std::string>* n
   const scene::FileMesh& file = source.file;
   const auto where = place_of(source);
   if (!(file.scale > 0) || !std::isfinite(file.scale))
-    throw InputError(fmt::format("{}scale is {}; give a number above 0, for example 0.001 for a mesh in mm", where,
-                                 file.scale));
+    throw InputError(
+        fmt::format("{}scale is {}; give a number above 0, for example 0.001 for a mesh in mm", where, file.scale));
   std::error_code ignored;
   if (!std::filesystem::exists(file.path, ignored))
-    throw InputError(fmt::format("{}there is no file {}; check path, which counts from the case file's folder", where,
-                                 file.path));
+    throw InputError(
+        fmt::format("{}there is no file {}; check path, which counts from the case file's folder", where, file.path));
 
   const auto ending = lower_case(std::filesystem::path(file.path).extension().string());
   Mesh mesh;

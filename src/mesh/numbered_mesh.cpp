@@ -77,9 +77,7 @@ void add_implied_node_sets(Mesh& mesh) {
   }
 }
 
-std::string and_more(std::size_t others) {
-  return others == 0 ? "" : fmt::format(" (and {} more like it)", others);
-}
+std::string and_more(std::size_t others) { return others == 0 ? "" : fmt::format(" (and {} more like it)", others); }
 
 }  // namespace
 
@@ -120,8 +118,8 @@ std::optional<int> NumberedMesh::find_element(std::int64_t number) const {
 
 Mesh NumberedMesh::connect() const {
   if (elements_.empty())
-    throw InputError(fmt::format("{}: there are no 8-node hexahedra in this file; export the volume mesh too",
-                                 files.front()));
+    throw InputError(
+        fmt::format("{}: there are no 8-node hexahedra in this file; export the volume mesh too", files.front()));
   Mesh mesh;
   mesh.nodes = nodes_;
   mesh.elements.resize(elements_.size());
@@ -130,13 +128,16 @@ Mesh NumberedMesh::connect() const {
       const auto number = elements_[e][corner];
       const auto node = find_node(number);
       if (!node)
-        throw InputError(fmt::format("{} element {} names node {}, which the file doesn't define; define it or mend the "
-                                     "element", where(element_places_[e]), element_numbers_[e], number));
+        throw InputError(
+            fmt::format("{} element {} names node {}, which the file doesn't define; define it or mend the "
+                        "element",
+                        where(element_places_[e]), element_numbers_[e], number));
       for (int before = 0; before < corner; ++before)
         if (mesh.elements[e][before] == *node)
-          throw InputError(fmt::format("{} element {} names node {} twice; a hexahedron needs eight different nodes, "
-                                       "collapsed ones (wedges) aren't read",
-                                       where(element_places_[e]), element_numbers_[e], number));
+          throw InputError(
+              fmt::format("{} element {} names node {} twice; a hexahedron needs eight different nodes, "
+                          "collapsed ones (wedges) aren't read",
+                          where(element_places_[e]), element_numbers_[e], number));
       mesh.elements[e][corner] = *node;
     }
   }
@@ -190,10 +191,12 @@ void NumberedMesh::check_shapes(const Mesh& mesh) const {
         "the first four with the last four, or mirror the mesh back where it was made",
         where(element_places_[*first_mirrored]), element_numbers_[*first_mirrored], and_more(mirrored - 1)));
   if (first_bad)
-    complaints.push_back(fmt::format(
-        "{} element {} is flat or turned inside out at its corner {}, node {}{}; mend the order of its nodes or the mesh "
-        "there", where(element_places_[*first_bad]), element_numbers_[*first_bad], bad_corner + 1,
-        elements_[*first_bad][bad_corner], and_more(bad - 1)));
+    complaints.push_back(
+        fmt::format("{} element {} is flat or turned inside out at its corner {}, node {}{}; mend the order of its "
+                    "nodes or the mesh "
+                    "there",
+                    where(element_places_[*first_bad]), element_numbers_[*first_bad], bad_corner + 1,
+                    elements_[*first_bad][bad_corner], and_more(bad - 1)));
   if (!complaints.empty()) throw InputError(complaints);
 }
 

@@ -13,16 +13,16 @@ namespace railwave {
 
 /// Where in a mesh file something stands: a line, or a byte of a binary file.
 struct FilePlace {
-  int file = 0;                ///< position in NumberedMesh::files
-  std::int64_t position = 0;   ///< line from 1, or byte from 0
+  int file = 0;               ///< position in NumberedMesh::files
+  std::int64_t position = 0;  ///< line from 1, or byte from 0
 };
 
 /// A mesh as a file gives it: nodes and hexahedra under the file's own numbers, each with its place for messages.
 /// A reader fills it, calls connect(), makes the sets, and hands both to complete().
 class NumberedMesh {
  public:
-  std::vector<std::string> files;   ///< paths for messages
-  bool binary = false;              ///< places are bytes
+  std::vector<std::string> files;  ///< paths for messages
+  bool binary = false;             ///< places are bytes
 
   /// "path:line:" or "path: byte N:".
   std::string where(const FilePlace& place) const;

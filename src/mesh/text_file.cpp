@@ -18,8 +18,7 @@ namespace railwave {
 std::string read_whole_file(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    throw InputError(fmt::format("{}: no such file; check the path", path));
+  if (!std::filesystem::exists(status)) throw InputError(fmt::format("{}: no such file; check the path", path));
   if (!std::filesystem::is_regular_file(status))
     throw InputError(fmt::format("{}: not a file; give the path of a mesh file", path));
   std::ifstream file(path, std::ios::binary);

@@ -60,7 +60,8 @@ inline Vec3 area_vector(const Mesh& mesh, const std::vector<Face>& surface) {
   Vec3 total{0, 0, 0};
   for (const Face& face : surface) {
     const auto n = mesh.face_nodes(face);
-    const Vec3 twice = cross(difference(mesh.nodes[n[2]], mesh.nodes[n[0]]), difference(mesh.nodes[n[3]], mesh.nodes[n[1]]));
+    const Vec3 twice =
+        cross(difference(mesh.nodes[n[2]], mesh.nodes[n[0]]), difference(mesh.nodes[n[3]], mesh.nodes[n[1]]));
     for (int i = 0; i < 3; ++i) total[i] += twice[i] / 2;
   }
   return total;

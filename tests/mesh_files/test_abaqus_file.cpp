@@ -62,15 +62,16 @@ TEST_CASE("faces S1 to S6 are Abaqus's") {
 TEST_CASE("sets may be ranges, name other sets, come before what they name, and go on later") {
   const TemporaryFolder folder;
   const Mesh mesh = read_abaqus_file(folder.write("sets.inp",
-      "*NSET, NSET=Both\nLeft, right\n12,\n"
-      "*Nset, nset=LEFT, generate\n1, 8, 3\n"
-      "*ELSET, ELSET=All, GENERATE\n1, 999999999\n"
-      "*ELSET, ELSET=one\n20\n" + two_cubes +
-      "*NSET,\nNSET=Right\n 9, 10,\n11\n"
-      "*NSET, NSET=left\n2\n"
-      "*NSET, NSET=OfOne, ELSET=ONE\n"
-      "*SURFACE, NAME=skin\none\n"
-      "*SURFACE, NAME=tip, TYPE=NODE\nright, 0.5\n12\n"));
+                                                  "*NSET, NSET=Both\nLeft, right\n12,\n"
+                                                  "*Nset, nset=LEFT, generate\n1, 8, 3\n"
+                                                  "*ELSET, ELSET=All, GENERATE\n1, 999999999\n"
+                                                  "*ELSET, ELSET=one\n20\n" +
+                                                      two_cubes +
+                                                      "*NSET,\nNSET=Right\n 9, 10,\n11\n"
+                                                      "*NSET, NSET=left\n2\n"
+                                                      "*NSET, NSET=OfOne, ELSET=ONE\n"
+                                                      "*SURFACE, NAME=skin\none\n"
+                                                      "*SURFACE, NAME=tip, TYPE=NODE\nright, 0.5\n12\n"));
   CHECK(mesh.node_sets.at("left") == std::vector<int>{0, 1, 3, 6});
   CHECK(mesh.node_sets.at("right") == std::vector<int>{8, 9, 10});
   CHECK(mesh.node_sets.at("both") == std::vector<int>{0, 1, 3, 6, 8, 9, 10, 11});
@@ -84,7 +85,8 @@ TEST_CASE("sets may be ranges, name other sets, come before what they name, and 
 
 TEST_CASE("number formats, continuation lines, comments and line ends of many programs are understood") {
   const TemporaryFolder folder;
-  const Mesh mesh = read_abaqus_file(folder.write("forms.inp",
+  const Mesh mesh = read_abaqus_file(folder.write(
+      "forms.inp",
       "\xef\xbb\xbf** made by hand\r\n*Heading\r\n M\xfcller's cube, 1:1\r\n\r\n*node , NSET = \"My Nodes\"\r\n"
       "  1, 0., , -0\r\n2,+1.0D0,0,0.\r\n3, 1.E+00, 1d0, 0, 0.6, 0.8\r\n4,,1,0\r\n"
       "5,0,0,.1D+1\r\n** between\r\n6,1,0,1\r\n7,1,1,1\r\n8,0,10.e-1,1\r\n"
@@ -123,13 +125,16 @@ TEST_CASE("an error in an included file names that file, and a file can't includ
 TEST_CASE("a part with one instance is read where the instance puts it") {
   const TemporaryFolder folder;
   std::vector<std::string> notes;
-  const Mesh mesh = read_abaqus_file(folder.write("cae.inp",
-      "*Part, name=Block\n" + two_cubes + "*Nset, nset=Tip\n 9, 10, 11, 12\n*Elset, elset=_Top_S2, internal\n10, 20\n"
-      "*Surface, type=ELEMENT, name=Top\n_Top_S2, S2\n*End Part\n"
-      "*Assembly, name=Assembly\n*Instance, name=Block-1, part=Block\n 0., 5., 0.\n*End Instance\n"
-      "*Node\n 1, 7., 7., 7.\n*Nset, nset=Point\n 1,\n"
-      "*Nset, nset=Far, instance=Block-1\n 9, 10\n*Nset, nset=Far2\nBlock-1.Tip, Block-1.1\n"
-      "*End Assembly\n"), &notes);
+  const Mesh mesh = read_abaqus_file(
+      folder.write("cae.inp",
+                   "*Part, name=Block\n" + two_cubes +
+                       "*Nset, nset=Tip\n 9, 10, 11, 12\n*Elset, elset=_Top_S2, internal\n10, 20\n"
+                       "*Surface, type=ELEMENT, name=Top\n_Top_S2, S2\n*End Part\n"
+                       "*Assembly, name=Assembly\n*Instance, name=Block-1, part=Block\n 0., 5., 0.\n*End Instance\n"
+                       "*Node\n 1, 7., 7., 7.\n*Nset, nset=Point\n 1,\n"
+                       "*Nset, nset=Far, instance=Block-1\n 9, 10\n*Nset, nset=Far2\nBlock-1.Tip, Block-1.1\n"
+                       "*End Assembly\n"),
+      &notes);
   CHECK(mesh.nodes.size() == 12);
   CHECK(mesh.nodes[0] == Vec3{0, 5, 0});
   CHECK(mesh.node_sets.at("far") == std::vector<int>{8, 9});
@@ -143,9 +148,10 @@ TEST_CASE("a part with one instance is read where the instance puts it") {
 TEST_CASE("nodes of no element are left out with a note, and positions stay right") {
   const TemporaryFolder folder;
   std::vector<std::string> notes;
-  const Mesh mesh = read_abaqus_file(folder.write("loose.inp",
-      "*NODE\n100, 9,9,9\n" + nodes + "*ELEMENT,TYPE=C3D8\n" + elements +
-      "*NSET,NSET=mixed\n100,9\n*NSET,NSET=lonely\n100\n"), &notes);
+  const Mesh mesh =
+      read_abaqus_file(folder.write("loose.inp", "*NODE\n100, 9,9,9\n" + nodes + "*ELEMENT,TYPE=C3D8\n" + elements +
+                                                     "*NSET,NSET=mixed\n100,9\n*NSET,NSET=lonely\n100\n"),
+                       &notes);
   REQUIRE(mesh.nodes.size() == 12);
   CHECK(mesh.nodes[0] == Vec3{0, 0, 0});
   CHECK(mesh.elements[0] == std::array<int, 8>{0, 1, 2, 3, 4, 5, 6, 7});
@@ -158,8 +164,7 @@ TEST_CASE("nodes of no element are left out with a note, and positions stay righ
 TEST_CASE("sets nested without end don't exhaust the stack") {
   const TemporaryFolder folder;
   std::string text = two_cubes;
-  for (int i = 0; i < 50000; ++i)
-    text += "*NSET,NSET=s" + std::to_string(i) + "\ns" + std::to_string(i + 1) + "\n";
+  for (int i = 0; i < 50000; ++i) text += "*NSET,NSET=s" + std::to_string(i) + "\ns" + std::to_string(i + 1) + "\n";
   text += "*NSET,NSET=s50000\n1\n";
   CHECK_THROWS_AS(read_abaqus_file(folder.write("deep.inp", text)), InputError);
 }

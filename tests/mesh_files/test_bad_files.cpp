@@ -10,12 +10,15 @@
 
 using namespace railwave;
 
-// Each file of bad/ has one mistake. What its message must say stands in its first line (`** expect: ...`) or, for .msh,
-// in a file of the same name with .expect after it: from the file's name and line on, " ... " standing for any text.
+// Each file of bad/ has one mistake. What its message must say stands in its first line (`** expect: ...`) or, for
+// .msh, in a file of the same name with .expect after it: from the file's name and line on, " ... " standing for any
+// text.
 TEST_CASE("each broken mesh file is refused with its message") {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/bad"))
-    if (const auto ending = entry.path().extension(); ending == ".inp" || ending == ".msh") paths.push_back(entry.path());
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/bad"))
+    if (const auto ending = entry.path().extension(); ending == ".inp" || ending == ".msh")
+      paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   REQUIRE(paths.size() >= 40);
 

@@ -21,8 +21,9 @@ std::string cube(const std::string& names, const std::string& entities, const st
   std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
   if (!names.empty()) text += "$PhysicalNames\n" + names + "\n$EndPhysicalNames\n";
   text += "$Entities\n" + entities + "\n$EndEntities\n";
-  text += "$Nodes\n1 8 10 80\n3 1 0 8\n10\n20\n30\n40\n50\n60\n70\n80\n"
-          "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n$EndNodes\n";
+  text +=
+      "$Nodes\n1 8 10 80\n3 1 0 8\n10\n20\n30\n40\n50\n60\n70\n80\n"
+      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n$EndNodes\n";
   return text + "$Elements\n" + elements + "\n$EndElements\n";
 }
 
@@ -55,19 +56,22 @@ TEST_CASE("a bar meshed by Gmsh is read from ASCII and binary alike, with its ph
 }
 
 TEST_CASE("ASCII and binary give the same mesh") {
-  const Mesh ascii = read_gmsh_file(test_data + "block_ascii.msh"), binary = read_gmsh_file(test_data + "block_binary.msh");
+  const Mesh ascii = read_gmsh_file(test_data + "block_ascii.msh"),
+             binary = read_gmsh_file(test_data + "block_binary.msh");
   CHECK(ascii.elements == binary.elements);
   CHECK(ascii.node_sets == binary.node_sets);
   // Gmsh prints 16 digits, one fewer than a double needs.
   for (std::size_t node = 0; node < ascii.nodes.size(); ++node)
-    for (int i = 0; i < 3; ++i) CHECK(ascii.nodes[node][i] == Approx(binary.nodes[node][i]).epsilon(1e-15).margin(1e-18));
+    for (int i = 0; i < 3; ++i)
+      CHECK(ascii.nodes[node][i] == Approx(binary.nodes[node][i]).epsilon(1e-15).margin(1e-18));
 }
 
 TEST_CASE("groups without a name are called after their tag; a quadrangle is turned outward") {
   const TemporaryFolder folder;
   // The quadrangle is x = 1 with its normal pointing inwards.
-  const auto path = folder.write("cube.msh", cube("", "0 0 1 1\n4 0 0 0 1 1 1 1 -7 0\n1 0 0 0 1 1 1 2 8 9 0",
-                                                  "2 2 5 9\n2 4 3 1\n9 20 60 70 30\n3 1 5 1\n5 10 20 30 40 50 60 70 80"));
+  const auto path =
+      folder.write("cube.msh", cube("", "0 0 1 1\n4 0 0 0 1 1 1 1 -7 0\n1 0 0 0 1 1 1 2 8 9 0",
+                                    "2 2 5 9\n2 4 3 1\n9 20 60 70 30\n3 1 5 1\n5 10 20 30 40 50 60 70 80"));
   const Mesh mesh = read_gmsh_file(path);
   REQUIRE(mesh.surfaces.count("physical_7") == 1);
   const Vec3 area = area_vector(mesh, mesh.surfaces.at("physical_7"));
@@ -80,7 +84,8 @@ TEST_CASE("groups without a name are called after their tag; a quadrangle is tur
 TEST_CASE("a surface between two volumes belongs to the element that it points out of") {
   const TemporaryFolder folder;
   const bool turned = GENERATE(false, true);
-  std::string text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"joint\"\n$EndPhysicalNames\n"
+  std::string text =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"joint\"\n$EndPhysicalNames\n"
       "$Entities\n0 0 1 1\n1 1 0 0 1 1 1 1 1 0\n1 0 0 0 2 1 1 0 0\n$EndEntities\n"
       "$Nodes\n1 12 1 12\n3 1 0 12\n1\n2\n3\n4\n5\n6\n7\n8\n9\n10\n11\n12\n"
       "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n2 0 0\n2 1 0\n2 0 1\n2 1 1\n$EndNodes\n"
@@ -95,7 +100,8 @@ TEST_CASE("a surface between two volumes belongs to the element that it points o
   CHECK(mesh.surfaces.at("exterior").size() == 10);
 }
 
-TEST_CASE("a Gmsh file without physical groups gives the mesh, its exterior and a note; other sections are passed over") {
+TEST_CASE(
+    "a Gmsh file without physical groups gives the mesh, its exterior and a note; other sections are passed over") {
   const TemporaryFolder folder;
   auto text = cube("", "0 0 1 1\n4 0 0 0 1 1 1 0 0\n1 0 0 0 1 1 1 0 0",
                    "2 2 1 2\n2 4 2 1\n1 10 20 30\n3 1 5 1\n2 10 20 30 40 50 60 70 80");

@@ -39,8 +39,9 @@ TEST_CASE("the ending chooses the format, in either case") {
 
 TEST_CASE("what is wrong in the case file's own entry names that entry") {
   const TemporaryFolder folder;
-  CHECK_THROWS_WITH(read_mesh_file(file(folder.write("a.vtk", "x"))),
-                    StartsWith("[meshes.rail] (line 12): ") && ContainsSubstring("ends in '.vtk'; mesh files are .inp"));
+  CHECK_THROWS_WITH(
+      read_mesh_file(file(folder.write("a.vtk", "x"))),
+      StartsWith("[meshes.rail] (line 12): ") && ContainsSubstring("ends in '.vtk'; mesh files are .inp"));
   CHECK_THROWS_WITH(read_mesh_file(file("/nowhere/a.inp")),
                     StartsWith("[meshes.rail] (line 12): ") && ContainsSubstring("there is no file /nowhere/a.inp"));
   auto source = file(test_data + "cantilever.inp");
@@ -54,5 +55,6 @@ TEST_CASE("a folder or an empty file is no mesh") {
   const auto path = folder.write("empty.inp", "");
   CHECK_THROWS_WITH(read_mesh_file(file(path)), ContainsSubstring("there are no 8-node hexahedra"));
   CHECK_THROWS_WITH(read_mesh_file(file(folder.write("empty.msh", ""))), ContainsSubstring("$MeshFormat is expected"));
-  CHECK_THROWS_WITH(read_mesh_file(file(path.substr(0, path.rfind('/')) + "/folder.inp")), ContainsSubstring("not a file"));
+  CHECK_THROWS_WITH(read_mesh_file(file(path.substr(0, path.rfind('/')) + "/folder.inp")),
+                    ContainsSubstring("not a file"));
 }

@@ -30,7 +30,8 @@ skip() {
 fetch_package() {
     apt-get -q -o "APT::Sandbox::User=$(id -un)" download "$package" >&2 && return
     say "the system's package lists don't have $package; reading Debian's into a private folder"
-    private_apt_open "$package" deb && apt-get "${private_apt_options[@]}" download "$package" >&2
+    private_apt_open "$package" deb && apt-get "${private_apt_options[@]}" download "$package" >&2 || return
+    private_apt_close
 }
 
 [ -x "$railwave" ] || fail "there is no program $railwave; build it (scripts/run does) or give its path"
@@ -38,7 +39,7 @@ railwave=$(realpath "$railwave")
 { command -v apt-get && command -v dpkg-deb; } >/dev/null || skip "this needs Debian's apt-get and dpkg-deb"
 
 folder=$(mktemp -d)
-trap 'rm -rf "$folder" "$deps_dir/apt/$package"' EXIT
+trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 fetch_package || skip "$package can't be had from Debian now"
 dpkg-deb -x "$package"_*.deb package

@@ -44,13 +44,14 @@ Value circle(double centre_s, double centre_z, double radius, int side, double s
 }
 
 Value s1002(double s) {
-  if (s > 32.15796) return {1.364323640 - 0.066666667 * s, -0.066666667};
-  if (s > -26) return polynomial(section_b, s);
-  if (s > -35) return polynomial(section_c, s);
-  if (s > -38.426669071) return circle(-26.210665, 16.446, 13, -1, s);
-  if (s > -39.764473993) return {-93.576667419 - 2.747477419 * s, -2.747477419};
-  if (s > -49.662510381) return circle(-58.558326413, 8.834924130, 20, 1, s);
-  if (s > -62.764705882) return circle(-55, 16, 12, 1, s);
+  const double joint = s + 1e-9;  // a joint belongs to the section on its field side, as in the table
+  if (joint > 32.15796) return {1.364323640 - 0.066666667 * s, -0.066666667};
+  if (joint > -26) return polynomial(section_b, s);
+  if (joint > -35) return polynomial(section_c, s);
+  if (joint > -38.426669071) return circle(-26.210665, 16.446, 13, -1, s);
+  if (joint > -39.764473993) return {-93.576667419 - 2.747477419 * s, -2.747477419};
+  if (joint > -49.662510381) return circle(-58.558326413, 8.834924130, 20, 1, s);
+  if (joint > -62.764705882) return circle(-55, 16, 12, 1, s);
   return circle(-49.5, 9.519259302, 20.5, 1, s);
 }
 
@@ -102,6 +103,19 @@ const std::vector<Piece> outline_60e1 = {{10.228, 171.8255959987406, 300},
 
 double s1002_height(double s) { return 1e-3 * s1002(1e3 * s).height; }
 double s1002_slope(double s) { return s1002(1e3 * s).slope; }
+
+Curve s1002_curve(double radius, double end) {
+  std::vector<Curve> pieces;  // one for each section: arc lengths are integrated where the slope is smooth
+  double from = s1002_flange_back_joint;
+  const auto add = [&](double to) {
+    pieces.push_back(graph(from, to, [radius](double s) { return radius + s1002_height(s); }, s1002_slope));
+    from = to;
+  };
+  for (double joint : s1002_joints)
+    if (joint > from && joint < end) add(joint);
+  add(end);
+  return joined(pieces);
+}
 
 RailOutline rail_outline(const std::string& section) {
   const std::vector<Piece>* pieces = nullptr;

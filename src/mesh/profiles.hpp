@@ -14,10 +14,16 @@ double s1002_height(double s);
 double s1002_slope(double s);
 inline constexpr double s1002_first = -0.070;
 inline constexpr double s1002_last = 0.060;
+/// Where its sections meet; the curvature jumps there.
+inline constexpr double s1002_joints[] = {-0.062764705882, -0.049662510381, -0.039764473993, -0.038426669071,
+                                          -0.035,          -0.026,          0.03215796};
 /// Where the arc of the flange back (centre, radius) meets the flange tip's arc.
-inline constexpr double s1002_flange_back_joint = -0.062764705882;
+inline constexpr double s1002_flange_back_joint = s1002_joints[0];
 inline constexpr Point2 s1002_flange_back_centre{-0.0495, 0.009519259302};
 inline constexpr double s1002_flange_back_radius = 0.0205;
+
+/// The profile from the flange back's joint to s = `end`, at the height added by `radius`, by arc length.
+Curve s1002_curve(double radius, double end);
 
 /// The right half (y > 0) of a rail's outline before inclination, from the crown's middle clockwise to the middle of the
 /// underside, cut where a mesh needs corners. z = 0 at the underside of the foot, y = 0 in the middle (m).

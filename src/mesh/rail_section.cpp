@@ -10,6 +10,7 @@
 #include "mesh/grading.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/section_columns.hpp"
+#include "mesh/section_outline.hpp"
 #include "mesh/section_smoothing.hpp"
 
 namespace railwave {
@@ -42,6 +43,7 @@ class RailSectionBuilder {
     place_zone();
     set_ideal_shapes(section_, size());
     smooth_section(section_);
+    match_outline();
     return std::move(section_);
   }
 
@@ -216,7 +218,7 @@ class RailSectionBuilder {
   void add_foot() {
     const int level = plan_.lower_transition ? 2 : 1;
     const std::vector<Row> rows(2, Row{RowKind::plain, 1});
-    const Point2 corner = section_.curves[half_[1].toe].end();
+    const Point2 corner{section_.curves[half_[1].toe].end().y, 0};  // on the underside, below the rounding's middle
     const int base = section_.add_curve(line({-corner.y, corner.z}, corner));
     std::vector<int> side_line[2];
     for (int side = 0; side < 2; ++side) {
@@ -240,7 +242,7 @@ class RailSectionBuilder {
       const Curve& top_curve = section_.curves[half_[side].foot_top];
       const Curve& toe = section_.curves[half_[side].toe];
       const int columns = std::max(2, static_cast<int>(std::round(top_curve.length / (1.3 * plan_.section_size))));
-      const int upper = section_.add_fixed_node(toe.begin()), lower = section_.add_fixed_node(toe.end());
+      const int upper = section_.add_fixed_node(toe.begin()), lower = section_.add_fixed_node({toe.end().y, 0});
       std::vector<int> top = section_.add_curve_line(side_line[side].front(), half_[side].foot_top, columns, upper);
       const std::vector<int> toe_line{upper, section_.add_curve_node(half_[side].toe, toe.length / 2), lower};
       if (side == 0) {
@@ -257,6 +259,18 @@ class RailSectionBuilder {
 
   /// The zone's layers lie exactly below the surface, along its normals.
   void place_zone() { fix_zone(section_, ring_, columns_, head_, plan_.zone_layers, size()); }
+
+  /// The running surface stays exact; elsewhere area and second moments count for more than the nodes' own places.
+  void match_outline() {
+    const Curve half =
+        joined({outline_.head, outline_.underside, outline_.web, outline_.foot_top, outline_.toe, outline_.base});
+    std::vector<char> kept(section_.nodes.size(), 0);
+    for (int node : ring_.front().top_line) kept[node] = 1;
+    for (const auto& line : outer_)
+      for (int node : line) kept[node] = node != ring_end_[0].front() && node != ring_end_[1].front();
+    for (int node : section_.node_sets["foot"]) kept[node] = 1;
+    match_outline_area(section_, sample_closed(joined({reversed(half), mirrored(half)}), 5e-5), kept);
+  }
 
   RailSectionPlan plan_;
   RailOutline outline_;

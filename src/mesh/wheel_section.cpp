@@ -281,8 +281,7 @@ Curve wheel_running_surface(const scene::WheelMesh& wheel) {
   const double field = field_side(wheel);
   if (!has_flange(wheel))
     return line({inner_side, wheel_surface_radius(wheel, inner_side)}, {field, wheel_surface_radius(wheel, field)});
-  const double radius = wheel.radius, tread_end = std::min(s1002_last, field);
-  return graph(s1002_flange_back_joint, tread_end, [radius](double s) { return radius + s1002_height(s); }, s1002_slope);
+  return s1002_curve(wheel.radius, std::min(s1002_last, field));
 }
 
 SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition) {

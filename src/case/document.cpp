@@ -104,7 +104,29 @@ int line_that_breaks(const std::string& text) {
   return bad;
 }
 
+/// First line with a name of very many parts ("a.a.a..."), which would be nested tables without end; 0 without one.
+int line_of_endless_name(const std::string& text) {
+  constexpr int most_dots = 200;
+  int line = 1, dots = 0;
+  char last = '\n';
+  bool comment = false;
+  for (const char letter : text) {
+    const bool in_name =
+        std::isalnum(static_cast<unsigned char>(letter)) || std::string("_-.\"' \t").find(letter) != std::string::npos;
+    if (!in_name) dots = 0;
+    if (letter == '.' && last != '.' && !comment && ++dots > most_dots) return line;
+    if (letter == '#') comment = true;
+    if (letter == '\n') {
+      comment = false;
+      ++line;
+    }
+    if (letter != ' ' && letter != '\t') last = letter;
+  }
+  return 0;
+}
+
 std::optional<SyntaxError> try_parse(const std::string& text, toml::table& table) {
+  if (const int line = line_of_endless_name(text); line > 0) return SyntaxError{line, "a name has more than 200 dots"};
   try {
     table = toml::parse(text);
     return std::nullopt;

@@ -42,8 +42,8 @@ std::string load_text(const std::string& path);
 /// read.
 Document parse_document(std::string text, Complaints& complaints);
 
-/// The value of an override as TOML; text that is no TOML value counts as a text. Null pointer result is avoided: false
-/// with a complaint when it looks like a list, table or quoted text but is broken.
+/// The value of an override as TOML; text that is no TOML value counts as a text. Returns false, with
+/// a complaint, when it looks like a list, table or quoted text but is broken.
 bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints);
 
 }  // namespace railwave::case_file

@@ -69,4 +69,8 @@ TEST_CASE("deep nesting is refused with a message", "[case]") {
   for (int i = 0; i < 3000; ++i) dotted += ".a";
   read_anyhow(file, dotted + " = 1\n");
   read_anyhow(file, "[" + dotted + "]\n");
+  for (int i = 0; i < 7; ++i) dotted += "." + dotted;
+  read_anyhow(file, dotted + " = 1\n");
+  read_anyhow(file, "x = { " + dotted + " = 1 }\n");
+  CHECK(mistakes_of(file.path()) == file.path() + ":1: not valid TOML: a name has more than 200 dots");
 }

@@ -79,7 +79,7 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSou
   steps_ = group.create_growing<long>("step", {}, times_in_block);
 }
 
-void ContactSection::add(const FieldSource& source, double time, long step) {
+void ContactSection::add_values(const FieldSource& source, long step) {
   const ContactState state = source.contact(contact_);
   const std::size_t count = slave_.nodes.size();
   if (state.slipping.size() != count) throw std::logic_error("a contact state has arrays of another length than its nodes");
@@ -90,7 +90,6 @@ void ContactSection::add(const FieldSource& source, double time, long step) {
   const std::vector<signed char> slipping(state.slipping.begin(), state.slipping.end());
   slipping_.append(slipping.data(), 1);
   steps_.append(&step, 1);
-  times_.append(&time, 1);
 }
 
 }  // namespace railwave

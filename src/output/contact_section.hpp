@@ -14,7 +14,9 @@ class ContactSection {
  public:
   ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact);
 
-  void add(const FieldSource& source, double time, long step);
+  /// Writes the state at one more output time, then its time: see ResultsWriter::flush().
+  void add_values(const FieldSource& source, long step);
+  void add_time(double time) { times_.append(&time, 1); }
 
   std::size_t node_count(bool slave) const { return side(slave).nodes.size(); }
   std::size_t facet_count(bool slave) const { return side(slave).facet_count; }

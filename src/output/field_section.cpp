@@ -40,11 +40,10 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
   }
 }
 
-void FieldSection::add(const FieldSource& source, double time, long step) {
+void FieldSection::add_values(const FieldSource& source, long step) {
   for (NodeColumn& column : node_columns_) append(column.dataset, source.nodes(column.field, set_.nodes), set_.nodes.size(), 3, set_.name);
   if (has_stress_) append(stress_, source.stress(set_.elements), set_.elements.size(), 6, set_.name);
   steps_.append(&step, 1);
-  times_.append(&time, 1);
 }
 
 }  // namespace railwave

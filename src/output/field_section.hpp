@@ -15,7 +15,9 @@ class FieldSection {
   /// `fields`: of displacement, velocity, acceleration, stress.
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
 
-  void add(const FieldSource& source, double time, long step);
+  /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
+  void add_values(const FieldSource& source, long step);
+  void add_time(double time) { times_.append(&time, 1); }
 
  private:
   struct NodeColumn {

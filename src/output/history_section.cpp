@@ -67,7 +67,7 @@ void HistorySection::add(const HistorySample& sample) {
   }
 }
 
-void HistorySection::write() {
+void HistorySection::write_values() {
   const hsize_t rows = waiting();
   for (auto& energy : energies_) energy.write(rows);
   for (auto& contact : contacts_) {
@@ -83,7 +83,8 @@ void HistorySection::write() {
     set.acceleration.write(rows);
   }
   steps_.write(rows);
-  times_.write(rows);
 }
+
+void HistorySection::write_times() { times_.write(waiting()); }
 
 }  // namespace railwave

@@ -9,14 +9,15 @@
 namespace railwave {
 
 /// Group /history of a results file: energies, contact forces and mean motions against time. Samples are kept in memory
-/// and written by write().
+/// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
 class HistorySection {
  public:
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets);
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
-  void write();
+  void write_values();
+  void write_times();
 
  private:
   template <class T>

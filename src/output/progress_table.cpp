@@ -30,9 +30,7 @@ std::string duration_text(double seconds) {
 }
 
 ProgressTable::ProgressTable(std::ostream& out, ProgressPlan plan, Clock clock)
-    : out_(out), plan_(std::move(plan)), clock_(std::move(clock)), forces_(plan_.contacts.size()) {
-  start_ = last_line_ = clock_();
-}
+    : out_(out), plan_(std::move(plan)), clock_(std::move(clock)), forces_(plan_.contacts.size()) {}
 
 void ProgressTable::note(const HistorySample& sample) {
   last_ = sample;
@@ -56,7 +54,11 @@ void ProgressTable::note(const HistorySample& sample) {
 
 void ProgressTable::history(const HistorySample& sample) {
   const double now = clock_();
-  if (first_step_ < 0) first_step_ = last_line_step_ = sample.step;
+  if (first_step_ < 0) {
+    // Counted from here: what the run did before its first step says nothing of the time left.
+    first_step_ = last_line_step_ = sample.step;
+    start_ = last_line_ = now;
+  }
   note(sample);
   if (lines_ > 0 && now - last_line_ < plan_.interval) return;
   print_line(sample, now);
@@ -131,9 +133,8 @@ void ProgressTable::end(const RunSummary& summary) {
     print_contacts();
   }
   if (!summary.left_out.empty()) {
-    out_ << "  left out, because the scene does not need it:";
-    for (std::size_t i = 0; i < summary.left_out.size(); ++i) out_ << (i ? ", " : " ") << summary.left_out[i];
-    out_ << '\n';
+    out_ << "  left out, because the scene does not need it\n";
+    for (const std::string& what : summary.left_out) out_ << "    " << what << '\n';
   }
   out_.flush();
 }

@@ -37,7 +37,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.end_time = scene.time.end;
   description_.node_count = static_cast<long>(assembly.nodes.size());
   description_.element_count = static_cast<long>(assembly.elements.size());
-  for (const auto& contact : scene.contacts) description_.contacts.push_back(contact.name);
+  for (const auto& contact : scene.contacts) description_.contacts.push_back({contact.name, contact.slave, contact.master});
   description_.history_sets = scene.output.history_sets;
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);

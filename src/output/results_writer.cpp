@@ -80,7 +80,9 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description)
   root.set_attribute("end_time", description_.end_time);
   root.set_attribute("completed", 0L);
   root.set_attribute("reason", "the run has not ended, or was killed");
-  history_ = std::make_unique<HistorySection>(root, description_.contacts, description_.history_sets);
+  std::vector<std::string> contact_names;
+  for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
+  history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets);
   root.create_group("fields");
   root.create_group("contact");
 }
@@ -99,23 +101,33 @@ void ResultsWriter::create_sections(const FieldSource& source) {
   for (const OutputSet& set : description_.sets) field_sections_.emplace_back(fields_group, set, description_.fields);
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
     const ContactSection& section = contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i));
+    const ContactNames& names = description_.contacts[i];
+    const hdf5::Group group = contacts_group.group(names.name);
+    group.group("slave").set_attribute("surface", names.slave);
+    group.group("master").set_attribute("surface", names.master);
     for (const bool slave : {true, false})
-      contact_sides_.push_back({description_.contacts[i], slave, section.node_count(slave), section.facet_count(slave)});
+      contact_sides_.push_back({names.name, slave, section.node_count(slave), section.facet_count(slave)});
   }
 }
 
 void ResultsWriter::fields(const FieldSource& source, double time, long step) {
   if (outputs_ == 0) create_sections(source);
-  for (FieldSection& section : field_sections_) section.add(source, time, step);
-  for (ContactSection& section : contact_sections_) section.add(source, time, step);
-  flush();
+  for (FieldSection& section : field_sections_) section.add_values(source, step);
+  for (ContactSection& section : contact_sections_) section.add_values(source, step);
+  flush(time);
   if (!description_.sets.empty() || !contact_sides_.empty()) xdmf_.add(time, outputs_, description_.sets, contact_sides_);
   ++outputs_;
 }
 
-void ResultsWriter::flush() {
+void ResultsWriter::flush(std::optional<double> time) {
   holds_data_ = true;
-  history_->write();
+  history_->write_values();
+  file_.flush();
+  history_->write_times();
+  if (time) {
+    for (FieldSection& section : field_sections_) section.add_time(*time);
+    for (ContactSection& section : contact_sections_) section.add_time(*time);
+  }
   file_.flush();
   if (!in_place_) {
     if (std::rename((path_ + ".new").c_str(), path_.c_str()) != 0)

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,11 @@
 #include "output/xdmf.hpp"
 
 namespace railwave {
+
+/// A contact pair's name and those of its surfaces.
+struct ContactNames {
+  std::string name, slave, master;
+};
 
 /// What a results file says of the run as a whole.
 struct RunDescription {
@@ -22,7 +28,7 @@ struct RunDescription {
   double end_time = 0;                     ///< s, asked for
   long node_count = 0;
   long element_count = 0;
-  std::vector<std::string> contacts;
+  std::vector<ContactNames> contacts;
   std::vector<std::string> history_sets;
   std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress
   std::vector<OutputSet> sets;
@@ -48,7 +54,10 @@ class ResultsWriter {
 
  private:
   void create_sections(const FieldSource& source);
-  void flush();
+
+  /// Writes the waiting history and brings everything to the disk. `time` is that of the fields added since the last
+  /// flush, if any. Times go last, by a flush of their own: a killed run may leave half an entry, but then not its time.
+  void flush(std::optional<double> time = {});
 
   std::string path_;
   RunDescription description_;

@@ -57,7 +57,7 @@ int contact_command(const std::string& file, const std::optional<std::string>& c
   if (!results.completed()) out << "note: this run did not complete: " << results.reason() << '\n';
   for (const std::string& contact : contacts) {
     const std::vector<double> times = results.contact_times(contact);
-    out << "contact " << contact << ", forces on the slave surface\n";
+    out << fmt::format("contact {}, forces on {}\n", contact, results.slave_surface(contact));
     print_heading(out);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const ContactSolution solution = contact_solution(results.contact_state(contact, i));

@@ -86,6 +86,14 @@ std::vector<std::string> ResultsReader::contacts() const {
   }
 }
 
+std::string ResultsReader::slave_surface(const std::string& contact) const {
+  try {
+    return file_.root().group("contact").group(contact).group("slave").text_attribute("surface");
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
+  }
+}
+
 std::vector<double> ResultsReader::contact_times(const std::string& contact) const {
   const std::vector<std::string> known = contacts();
   if (std::find(known.begin(), known.end(), contact) == known.end())

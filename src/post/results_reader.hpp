@@ -21,6 +21,9 @@ class ResultsReader {
 
   std::vector<std::string> contacts() const;
 
+  /// Name of its slave surface in the case.
+  std::string slave_surface(const std::string& contact) const;
+
   /// Output times that are there in full, s.
   std::vector<double> contact_times(const std::string& contact) const;
 

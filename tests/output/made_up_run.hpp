@@ -85,7 +85,7 @@ inline RunDescription description() {
   const Assembly assembly = block();
   result.node_count = static_cast<long>(assembly.nodes.size());
   result.element_count = static_cast<long>(assembly.elements.size());
-  result.contacts = {"tread"};
+  result.contacts = {{"tread", "wheel.tread", "rail.head"}};
   result.history_sets = {"block.corner", "sprung_mass"};
   result.fields = {"displacement", "velocity", "acceleration", "stress"};
   result.sets = resolve_output_sets(scene, assembly);

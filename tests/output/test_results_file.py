@@ -90,6 +90,7 @@ class ResultsFile(unittest.TestCase):
     def test_contact(self):
         group = self.file["contact/tread"]
         self.assertEqual(group.attrs["friction"], 0.4)
+        self.assertEqual((group["slave"].attrs["surface"], group["master"].attrs["surface"]), ("wheel.tread", "rail.head"))
         np.testing.assert_array_equal(group["step"][:], OUTPUT_STEPS)
         slave, master = group["slave"], group["master"]
         nodes = len(slave["nodes"])

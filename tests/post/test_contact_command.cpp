@@ -42,7 +42,7 @@ TEST_CASE("the table has a line for every output time, and the CSV the same numb
   write_run(folder / "run.h5");
   std::ostringstream out;
   REQUIRE(contact_command(folder / "run.h5", folder / "run.csv", out) == 0);
-  CHECK_THAT(out.str(), ContainsSubstring("contact tread, forces on the slave surface"));
+  CHECK_THAT(out.str(), ContainsSubstring("contact tread, forces on wheel.tread"));
 
   std::ifstream csv(folder / "run.csv");
   std::string line;

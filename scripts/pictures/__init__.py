@@ -1,0 +1,1 @@
+"""Pictures of a Railwave results file: what scripts/picture is made of."""

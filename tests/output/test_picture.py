@@ -1,0 +1,83 @@
+"""scripts/picture: what it draws of the made-up run, and what it says when it cannot."""
+
+import os
+import struct
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from sample import SOURCE_DIR, Sample
+
+SCRIPTS = os.path.join(SOURCE_DIR, "scripts")
+sys.path.insert(0, SCRIPTS)
+from pictures.results import Results
+
+
+def picture(*arguments, options=()):
+    return subprocess.run([sys.executable, *options, os.path.join(SCRIPTS, "picture"), *arguments], capture_output=True, text=True)
+
+
+def png_size(path):
+    with open(path, "rb") as file:
+        head = file.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", path
+    return struct.unpack(">II", head[16:24])
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sample = Sample()
+        assert cls.sample.status == 0, "the writer failed"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.sample.__exit__()
+
+    def test_all_pictures_are_drawn(self):
+        out = os.path.join(self.sample.folder, "drawn", "here")
+        result = picture(self.sample.path, "--out", out, "--time", "2.1e-4")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        expected = [f"run-{name}.png" for name in ("energies", "forces", "tread-evolution", "tread-patch")]
+        self.assertEqual(sorted(os.listdir(out)), expected)
+        for name in expected:
+            width, height = png_size(os.path.join(out, name))
+            self.assertGreater(min(width, height), 300, name)
+            self.assertIn(name, result.stdout)
+
+    def test_the_patch_that_is_drawn(self):
+        contact = Results(self.sample.path).contact("tread")
+        self.assertEqual(contact.nearest(None), 4)
+        self.assertEqual(contact.nearest(2.1e-4), 2)
+        patch = contact.patch(4)
+        self.assertAlmostEqual(patch.pressure.max(), 1000, places=6)
+        self.assertAlmostEqual(patch.normal_force, 1e-3 * (2 / 3) * np.pi * 6.5 * 5 * 1e3, delta=0.02 * 68)
+        self.assertAlmostEqual(patch.traction_coefficient, 0.4 * (1 - 0.6**3), delta=0.005)
+        self.assertAlmostEqual(patch.centre[0], 2, places=1)
+        self.assertTrue((np.hypot(patch.shear_x, patch.shear_y) <= 0.4 * patch.pressure + 1e-9).all())
+        square = patch.square_of_pressure()
+        self.assertTrue((square[patch.touching] > 0).all())
+        self.assertTrue((square[~patch.touching] <= 0).all())
+
+    def test_files_that_cannot_be_drawn(self):
+        text = os.path.join(self.sample.folder, "text.h5")
+        with open(text, "w") as file:
+            file.write("no HDF5")
+        for path, message in [(text, "cannot be read as an HDF5 file"), (text + ".none", "there is no results file")]:
+            result = picture(path)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(message, result.stderr)
+            self.assertNotIn("Traceback", result.stderr)
+
+    def test_missing_modules_are_named(self):
+        result = picture(self.sample.path, options=("-I", "-S"))  # sees no installed modules
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("has no module h5py", result.stderr)
+        self.assertIn("python3-matplotlib", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

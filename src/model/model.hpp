@@ -60,6 +60,7 @@ struct StableStep {
   double elements = 0;                 ///< s, min V / (A_max C_d), thesis eq. 2.14
   int element = -1;                    ///< the element that sets it
   double contact = 0;                  ///< s, of the contact springs with the elements under them; 0: no contact
+  double connector = 0;                ///< s, of springs and dashpots on the masses of their ends; 0: none
   double used = 0;                     ///< s, after the scale factor
 };
 

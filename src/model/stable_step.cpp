@@ -70,6 +70,28 @@ double contact_step(const Model& model, const ContactPair& pair, const std::vect
   return least;
 }
 
+/// Mass of a connector's end, infinite for the ground. The end's nodes move together only in the mean, but the lightest
+/// pattern that stretches the connector is theirs alone, so the elements beyond are not counted.
+double end_mass(const Model& model, const std::string& end) {
+  if (end == "ground") return std::numeric_limits<double>::infinity();
+  double mass = 0;
+  for (int n : model.assembly.node_sets.at(end)) mass += model.mass[n];
+  return mass;
+}
+
+/// Step of a spring k and dashpot c on the reduced mass m of its ends: 2/omega (sqrt(1 + zeta^2) - zeta).
+double connector_step(const Model& model, const scene::Connector& connector) {
+  const double inverse = 1 / end_mass(model, connector.from) + 1 / end_mass(model, connector.to);
+  double least = std::numeric_limits<double>::infinity();
+  for (int a = 0; a < 3; ++a) {
+    const double half_rate = 0.5 * connector.damping[a] * inverse;  // omega zeta
+    const double squared = connector.stiffness[a] * inverse;        // omega^2
+    if (squared + half_rate == 0) continue;
+    least = std::fmin(least, 2 / (std::sqrt(squared + half_rate * half_rate) + half_rate));
+  }
+  return least;
+}
+
 }  // namespace
 
 void build_stable_step(Model& model) {
@@ -88,6 +110,12 @@ void build_stable_step(Model& model) {
     for (const ContactPair& pair : model.contacts)
       stable.contact = std::fmin(stable.contact, contact_step(model, pair, node_steps));
     limit = std::fmin(limit, stable.contact);
+  }
+  if (!model.scene.connectors.empty()) {
+    stable.connector = std::numeric_limits<double>::infinity();
+    for (const scene::Connector& connector : model.scene.connectors)
+      stable.connector = std::fmin(stable.connector, connector_step(model, connector));
+    limit = std::fmin(limit, stable.connector);
   }
   const scene::Time& time = model.scene.time;
   stable.used = time.step > 0 ? time.step : time.step_scale * limit;

@@ -60,7 +60,11 @@ class CellGrid {
 
  private:
   long index(int i, int k) const { return static_cast<long>(std::floor(points_(i, k) / cell_)); }
-  static long key(long i, long j, long k) { return (i * 73856093L) ^ (j * 19349663L) ^ (k * 83492791L); }
+  /// 21 bits an index: different cells never share a key, so that no point is found twice.
+  static long key(long i, long j, long k) {
+    constexpr long mask = (1L << 21) - 1;
+    return (i & mask) | (j & mask) << 21 | (k & mask) << 42;
+  }
 
   Rows points_;
   double cell_;

@@ -65,6 +65,8 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void begin(const Model& /*model*/) {}
+  /// Every few steps of a dynamic relaxation.
+  virtual void settling(const Model& /*model*/, const SettleReport& /*so_far*/) {}
   /// After a dynamic relaxation, before the first step.
   virtual void settled(const Model& /*model*/, const SettleReport& /*report*/) {}
   virtual void history(const Model& /*model*/, const HistorySample& /*sample*/) {}

@@ -111,7 +111,7 @@ void forget_history(Model& model) {
 
 }  // namespace
 
-SettleReport settle(Model& model, const std::function<bool()>& stop) {
+SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   const auto began = std::chrono::steady_clock::now();
   SettleReport report;
   const auto stages = force_stages(model);
@@ -131,7 +131,7 @@ SettleReport settle(Model& model, const std::function<bool()>& stop) {
     block_sum(Unbalance{update}, model.nodes.count, sum);
     report.unbalance = sum[1] > 0 ? sum[0] / sum[1] : sum[0];
     report.settled = report.unbalance < wish.tolerance;
-    if (report.settled || !std::isfinite(report.unbalance) || stop()) break;
+    if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
   forget_history(model);
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

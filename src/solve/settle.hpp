@@ -17,8 +17,8 @@ struct SettleReport {
 /// Static equilibrium under the loads of t = 0 by dynamic relaxation: the state from which the run starts. Bodies that
 /// will rotate (initial_motion) are loaded by the centrifugal field of that rotation, so that the start of rolling does
 /// not ring. Point masses stay where they are: preload their connectors. Velocities are zero afterwards.
-/// @param stop asked now and then; true ends the relaxation early
-SettleReport settle(Model& model, const std::function<bool()>& stop);
+/// @param go_on told every few steps how far it is; false ends the relaxation early
+SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 
 /// Adds the scene's initial motions to the velocities, v = V + omega x (x - centre), in the present configuration.
 void set_initial_motion(Model& model);

@@ -50,7 +50,10 @@ std::string fault_in(const HistorySample& sample) {
 
 void prepare(Model& model, const std::vector<RunObserver*>& observers) {
   if (model.scene.settle.active) {
-    const SettleReport report = settle(model, [] { return stop_requested != 0; });
+    const SettleReport report = settle(model, [&](const SettleReport& so_far) {
+      for (RunObserver* observer : observers) observer->settling(model, so_far);
+      return stop_requested == 0;
+    });
     for (RunObserver* observer : observers) observer->settled(model, report);
   }
   set_initial_motion(model);

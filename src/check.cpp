@@ -1,0 +1,76 @@
+#include "check.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ostream>
+#include <sstream>
+
+#include "kernels/lanes.hpp"
+#include "mesh/quality.hpp"
+#include "solve/stages.hpp"
+
+namespace railwave {
+namespace {
+
+/// One part's mesh as it stands in the assembly.
+Mesh mesh_of(const Assembly& assembly, const Assembly::PartRange& part) {
+  Mesh mesh;
+  mesh.nodes.assign(assembly.nodes.begin() + part.first_node, assembly.nodes.begin() + part.first_node + part.node_count);
+  for (int e = 0; e < part.element_count; ++e) {
+    auto corners = assembly.elements[part.first_element + e];
+    for (int& n : corners) n -= part.first_node;
+    mesh.elements.push_back(corners);
+  }
+  return mesh;
+}
+
+double part_mass(const Model& model, const Assembly::PartRange& part) {
+  double mass = 0;
+  for (int n = part.first_node; n < part.first_node + part.node_count; ++n) mass += model.mass[n];
+  return mass;
+}
+
+std::string indented(const std::string& text) {
+  std::string result, line;
+  std::istringstream lines(text);
+  while (std::getline(lines, line)) result += "    " + line + "\n";
+  return result;
+}
+
+void describe_step(const Model& model, std::ostream& out) {
+  const StableStep& stable = model.stable_step;
+  const Vec3 at = model.assembly.nodes[model.assembly.elements[stable.element][0]];
+  out << fmt::format("Step\n  elements allow {:.4g} s (element near {:.4g}, {:.4g}, {:.4g} m)\n", stable.elements, at[0], at[1], at[2]);
+  if (stable.contact > 0) out << fmt::format("  contact springs allow {:.4g} s\n", stable.contact);
+  if (stable.connector > 0) out << fmt::format("  connectors allow {:.4g} s\n", stable.connector);
+  out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count, model.scene.time.end);
+}
+
+}  // namespace
+
+void describe_run(Model& model, std::ostream& out) {
+  if (!model.scene.title.empty()) out << model.scene.title << '\n';
+  out << "Parts\n";
+  for (const auto& part : model.assembly.parts) {
+    const scene::Material& material = model.scene.materials[part.material];
+    const double E = material.youngs_modulus, nu = material.poissons_ratio;
+    const double speed = std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * material.density));
+    out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", part.name, part.element_count, part.node_count,
+                       part_mass(model, part), material.name);
+    out << indented(describe(mesh_quality(mesh_of(model.assembly, part), speed)));
+  }
+  out << fmt::format("  in all: {} elements, {} nodes\n", model.element_count(), model.node_count());
+  describe_step(model, out);
+  const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
+  out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,
+                     1e6 * megabytes / static_cast<double>(model.element_count()));
+  out << fmt::format("Runs on: {}, {} elements a tile\n", ExecutionSpace::name(), tile_width);
+  out << "A step computes\n";
+  for (const Stage& stage : force_stages(model)) out << "  " << stage.name << '\n';
+  out << "  nodes: gather, constraints, velocities, positions\n";
+  out << "Left out\n";
+  for (const std::string& what : model.left_out) out << "  " << what << '\n';
+}
+
+}  // namespace railwave

@@ -1,0 +1,119 @@
+#include <CLI/CLI.hpp>
+
+#include <csignal>
+#include <iostream>
+
+#include "case/error.hpp"
+#include "case/read_case.hpp"
+#include "case/reference.hpp"
+#include "check.hpp"
+#include "output/progress.hpp"
+#include "output/results_file.hpp"
+#include "post/contact_solution.hpp"
+#include "solve/time_loop.hpp"
+
+namespace railwave {
+namespace {
+
+/// Exit codes, as the README tells them.
+enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, interrupted = 130 };
+
+struct Arguments {
+  std::string case_file, results_file, topic;
+  std::vector<std::string> overrides;
+  std::optional<std::string> csv;
+  bool markdown = false, schema = false;
+};
+
+volatile std::sig_atomic_t signalled = 0;
+
+void on_signal(int) {
+  signalled = 1;
+  request_stop();
+}
+
+int run_case(const Arguments& arguments) {
+  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const Kokkos::ScopeGuard kokkos;
+  Model model;
+  build_model(scene, model);
+  ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
+  Progress progress(std::cout);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const RunSummary summary = run(model, {&results, &progress});
+  if (summary.completed) return done;
+  return signalled != 0 ? interrupted : run_ended_early;
+}
+
+int check_case(const Arguments& arguments) {
+  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const Kokkos::ScopeGuard kokkos;
+  Model model;
+  build_model(scene, model);
+  ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
+  describe_run(model, std::cout);
+  return done;
+}
+
+int print_reference(const Arguments& arguments) {
+  if (arguments.schema) std::cout << case_schema_json();
+  else std::cout << case_reference_markdown();
+  return done;
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Railwave: explicit finite elements for the dynamic interaction of wheel and rail"};
+  app.set_version_flag("--version", std::string("railwave ") + RAILWAVE_VERSION);
+  app.require_subcommand(1);
+  Arguments arguments;
+  int code = done;
+
+  const auto add_case = [&](CLI::App* command) {
+    command->add_option("case", arguments.case_file, "case file (TOML); docs/case-file.md tells its keys")->required();
+    command->add_option("--set", arguments.overrides, "section.key=value in place of what the case file says; may be repeated")
+        ->allow_extra_args(false);
+  };
+  CLI::App* run_command = app.add_subcommand("run", "run a case and write its results");
+  add_case(run_command);
+  run_command->callback([&] { code = run_case(arguments); });
+  CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
+  add_case(check_command);
+  check_command->callback([&] { code = check_case(arguments); });
+  CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
+  contact->add_option("results", arguments.results_file, "results file")->required();
+  contact->add_option("--csv", arguments.csv, "also write the table as CSV");
+  contact->callback([&] { code = contact_command(arguments.results_file, arguments.csv, std::cout); });
+  CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
+  help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");
+  help->callback([&] { std::cout << case_help(arguments.topic) << '\n'; });
+  CLI::App* reference = app.add_subcommand("reference", "the case file's reference page or JSON schema");
+  reference->add_flag("--markdown", arguments.markdown, "the page (default)");
+  reference->add_flag("--schema", arguments.schema, "the schema");
+  reference->callback([&] { code = print_reference(arguments); });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? done : wrong_input;
+  }
+  return code;
+}
+
+}  // namespace
+}  // namespace railwave
+
+int main(int argc, char** argv) {
+  // One thread stays on one core; Kokkos warns when nobody says.
+  setenv("OMP_PROC_BIND", "false", 0);
+  try {
+    return railwave::dispatch(argc, argv);
+  } catch (const railwave::InputError& error) {
+    std::cerr << "railwave: " << error.what() << '\n';
+    return railwave::wrong_input;
+  } catch (const std::exception& error) {
+    std::cerr << "railwave: " << error.what() << '\n';
+    return railwave::failed;
+  }
+}

@@ -4,6 +4,11 @@ add_library(railwave_options INTERFACE)
 target_compile_features(railwave_options INTERFACE cxx_std_17)
 target_include_directories(railwave_options INTERFACE "${CMAKE_SOURCE_DIR}" "${CMAKE_SOURCE_DIR}/src")
 target_compile_options(railwave_options INTERFACE -Wall -Wextra -Wshadow)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13
+    AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
+  # New in g++ 13 and mistaken there about functions that take a temporary and return a reference to something else.
+  target_compile_options(railwave_options INTERFACE -Wno-dangling-reference)
+endif()
 if(RAILWAVE_NATIVE)
   target_compile_options(railwave_options INTERFACE -march=native)
 endif()

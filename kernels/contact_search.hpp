@@ -22,6 +22,7 @@ struct ContactSearch {
   /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface: on a convex fold
   /// a penetrating node can be outside both neighbours.
   static constexpr double outside_tolerance = 0.05;
+  static constexpr double on_segment = 1e-12;
 
   KOKKOS_INLINE_FUNCTION Vector3 master(int m) const { return row(position, contact.master_nodes(m)); }
 
@@ -108,6 +109,18 @@ struct ContactSearch {
     return std::fmax(std::fabs(p.xi), std::fabs(p.eta)) - 1.0;
   }
 
+  /// Takes the segment around a node that the slave's projection is least outside of.
+  KOKKOS_INLINE_FUNCTION void try_around(const Vector3& slave, int node, int tried, Projection& best, double& least) const {
+    for (int s = contact.first_segment(node); s < contact.first_segment(node + 1) && least > on_segment; ++s) {
+      if (contact.segment_of_node(s) == tried) continue;
+      const Projection other = project(slave, contact.segment_of_node(s));
+      if (outside(other) < least) {
+        least = outside(other);
+        best = other;
+      }
+    }
+  }
+
   /// @param previous segment touched at the last step, -1: none
   KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int node, int previous) const {
     const int begin = contact.first_segment(node), end = contact.first_segment(node + 1);
@@ -123,15 +136,14 @@ struct ContactSearch {
       best = project(slave, chosen);
       least = outside(best);
     }
-    // Folds and warped segments: the test with plane edges and the true projection can disagree.
-    for (int s = begin; s < end && least > 1e-12; ++s) {
-      if (contact.segment_of_node(s) == chosen) continue;
-      const Projection other = project(slave, contact.segment_of_node(s));
-      if (outside(other) < least) {
-        least = outside(other);
-        best = other;
+    // Folds, warped and slender segments: the test with plane edges and the true projection can disagree, and on a
+    // disordered mesh the segment that holds the projection need not touch the closest node.
+    if (least > on_segment) try_around(slave, node, chosen, best, least);
+    for (int s = begin; s < end && least > on_segment; ++s)
+      for (int k = 0; k < 4 && least > on_segment; ++k) {
+        const int other = contact.segments(contact.segment_of_node(s), k);
+        if (other != node) try_around(slave, other, chosen, best, least);
       }
-    }
     if (least > outside_tolerance) {
       best.segment = -1;
     } else if (least > 0) {

@@ -83,12 +83,14 @@ struct ElementForce {
       }
 
     double* force = corner_force.data() + elements.force_offset;
-    for (int N = 0; N < 8; ++N)
-      for (int i = 0; i < 3; ++i) {
-        Real f = T[i][0] * B[0][N] + T[i][1] * B[1][N] + T[i][2] * B[2][N];
-        for (int M = 0; M < 4; ++M) f = hourglass_base[M][N] > 0 ? f + q[i][M] : f - q[i][M];
+    for (int i = 0; i < 3; ++i) {
+      Real hourglass[8];
+      hourglass_at_corners(q[i], hourglass);
+      for (int N = 0; N < 8; ++N) {
+        const Real f = T[i][0] * B[0][N] + T[i][1] * B[1][N] + T[i][2] * B[2][N] + hourglass[N];
         store(force + tiled(batch, 24, 3 * N + i), -f);
       }
+    }
   }
 };
 

@@ -7,11 +7,28 @@
 /// configuration, so the forces have no resultant, no moment, and do nothing under linear velocity fields.
 namespace railwave {
 
-/// Base vectors: products of the corner signs: eta zeta, xi zeta, xi eta, xi eta zeta.
-inline constexpr int hourglass_base[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
-                                             {1, -1, -1, 1, -1, 1, 1, -1},
-                                             {1, -1, 1, -1, 1, -1, 1, -1},
-                                             {-1, 1, -1, 1, 1, -1, 1, -1}};
+/// Base vectors Gamma_M^N: products of the corner signs: eta zeta, xi zeta, xi eta, xi eta zeta.
+KOKKOS_INLINE_FUNCTION constexpr int hourglass_base(int M, int N) {
+  constexpr int base[4][8] = {{1, 1, -1, -1, -1, -1, 1, 1},
+                              {1, -1, -1, 1, -1, 1, 1, -1},
+                              {1, -1, 1, -1, 1, -1, 1, -1},
+                              {-1, 1, -1, 1, 1, -1, 1, -1}};
+  return base[M][N];
+}
+
+/// g[N] = sum_M q[M] Gamma_M^N, with the sums that corners share made once.
+template <class T>
+KOKKOS_INLINE_FUNCTION void hourglass_at_corners(const T (&q)[4], T (&g)[8]) {
+  const T sum = q[0] + q[1], difference = q[0] - q[1], below = q[2] - q[3], above = q[2] + q[3];
+  g[0] = below + sum;
+  g[1] = difference - below;
+  g[2] = below - sum;
+  g[3] = -(difference + below);
+  g[4] = above - sum;
+  g[5] = -(difference + above);
+  g[6] = above + sum;
+  g[7] = difference - above;
+}
 
 /// m[i][M] = sum_N u[i][N] Gamma_M^N.
 template <class T>

@@ -12,7 +12,7 @@ struct RelaxationUpdate {
   Array<const double*> relaxation_mass;   ///< kg for a unit step
   Array<const double* [3]> body_acceleration;  ///< m/s2, of true masses: centrifugal field of the motion to come; may be empty
   Array<double* [3]> unbalanced;          ///< N, for the check of convergence
-  double damping;                         ///< 0.8
+  double damping;                         ///< share of the unbalanced force, below 1
 
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const NodeArrays& nodes = acceleration.force.nodes;

@@ -57,11 +57,11 @@ TEST_CASE("hourglass shape vectors ignore linear fields and span what the gradie
     double sum = 0, along[3] = {0, 0, 0}, direct[3] = {0, 0, 0};
     for (int N = 0; N < 8; ++N) {
       const double gamma =
-          hourglass_base[M][N] - (B[0][N] * xm[0][M] + B[1][N] * xm[1][M] + B[2][N] * xm[2][M]) / volume;
+          hourglass_base(M, N) - (B[0][N] * xm[0][M] + B[1][N] * xm[1][M] + B[2][N] * xm[2][M]) / volume;
       sum += gamma;
       for (int i = 0; i < 3; ++i) {
         along[i] += gamma * x[i][N];
-        direct[i] += hourglass_base[M][N] * x[i][N];
+        direct[i] += hourglass_base(M, N) * x[i][N];
       }
     }
     CHECK_THAT(sum, WithinAbs(0, 1e-14));
@@ -69,5 +69,16 @@ TEST_CASE("hourglass shape vectors ignore linear fields and span what the gradie
       CHECK_THAT(along[i], WithinAbs(0, 1e-14));
       CHECK_THAT(xm[i][M], WithinAbs(direct[i], 1e-14));
     }
+  }
+}
+
+TEST_CASE("hourglass forces at the corners are sums of the base vectors") {
+  const double q[4] = {1.5, -0.25, 3.0, 0.75};
+  double g[8];
+  hourglass_at_corners(q, g);
+  for (int N = 0; N < 8; ++N) {
+    double direct = 0;
+    for (int M = 0; M < 4; ++M) direct += q[M] * hourglass_base(M, N);
+    CHECK_THAT(g[N], WithinAbs(direct, 1e-15));
   }
 }

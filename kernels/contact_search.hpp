@@ -77,8 +77,11 @@ struct ContactSearch {
       r = segment_point(corner, xi, eta);
       along_xi = (0.25 * (1 - eta)) * (corner[1] - corner[0]) + (0.25 * (1 + eta)) * (corner[2] - corner[3]);
       along_eta = (0.25 * (1 - xi)) * (corner[3] - corner[0]) + (0.25 * (1 + xi)) * (corner[2] - corner[1]);
-      const Vector3 d = slave - r;
-      const double a = dot(along_xi, along_xi), b = dot(along_xi, along_eta) - dot(d, twist);
+      const Vector3 d = slave - r, n = cross(along_xi, along_eta);
+      // Of d.twist only the part along the normal, all that is left of d at the contact point: with d whole the first
+      // iterations can miss on distorted segments.
+      const double curvature = dot(d, n) * dot(n, twist) / dot(n, n);
+      const double a = dot(along_xi, along_xi), b = dot(along_xi, along_eta) - curvature;
       const double c = dot(along_eta, along_eta);
       const double p = dot(along_xi, d), q = dot(along_eta, d);
       const double step_xi = (c * p - b * q) / (a * c - b * b), step_eta = (a * q - b * p) / (a * c - b * b);

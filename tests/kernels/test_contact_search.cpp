@@ -1,0 +1,309 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <random>
+
+#include "kernels/contact_search.hpp"
+#include "model/host_copy.hpp"
+
+using namespace railwave;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+using Point = std::array<double, 3>;
+using Quad = std::array<int, 4>;
+
+/// A master surface of its own, every node a master node.
+ContactSearch search_on(const std::vector<Point>& nodes, const std::vector<Quad>& quads) {
+  std::vector<int> first(nodes.size() + 1, 0), around, identity;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    identity.push_back(static_cast<int>(n));
+    for (std::size_t q = 0; q < quads.size(); ++q)
+      for (int corner : quads[q])
+        if (corner == static_cast<int>(n)) around.push_back(static_cast<int>(q));
+    first[n + 1] = static_cast<int>(around.size());
+  }
+  ContactSearch search;
+  search.contact.master_count = static_cast<int>(nodes.size());
+  search.contact.segment_count = static_cast<int>(quads.size());
+  search.contact.master_nodes = to_device("master nodes", identity);
+  search.contact.segments = to_device("segments", quads);
+  search.contact.first_segment = to_device("first segment", first);
+  search.contact.segment_of_node = to_device("segment of node", around);
+  search.position = to_device("position", nodes);
+  return search;
+}
+
+struct Question {
+  Point slave;
+  int start = 0;      ///< closest node of the step before
+  int previous = -1;  ///< segment of the step before
+};
+
+struct Answer {
+  int closest, segment;
+  double xi, eta, gap;
+  Vector3 point, normal;
+};
+
+/// Asks on the device: the nearest node by the walk, then the segment around it; or one given segment.
+struct Ask {
+  ContactSearch search;
+  Array<const double* [3]> slave;
+  Array<const int* [2]> from;
+  int only;  ///< segment to project on, -1: locate
+  Array<Answer*> answers;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const Vector3 x = row(slave, i);
+    const int closest = search.closest_node(x, from(i, 0));
+    const Projection p = only >= 0 ? search.project(x, only) : search.locate(x, closest, from(i, 1));
+    answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, p.point, p.normal};
+  }
+};
+
+/// One slave that goes through all the places, each time from where it was; one thread.
+struct Travel {
+  ContactSearch search;
+  Array<const double* [3]> slave;
+  Array<Answer*> answers;
+  KOKKOS_INLINE_FUNCTION void operator()(const int) const {
+    int closest = 0, previous = -1;
+    for (int i = 0; i < static_cast<int>(slave.extent(0)); ++i) {
+      const Vector3 x = row(slave, i);
+      closest = search.closest_node(x, closest);
+      const Projection p = search.locate(x, closest, previous);
+      previous = p.segment;
+      answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, p.point, p.normal};
+    }
+  }
+};
+
+std::vector<Answer> travel(const ContactSearch& search, const std::vector<Point>& places) {
+  const Array<Answer*> answers("answers", places.size());
+  Kokkos::parallel_for("travel", Range(0, 1), Travel{search, to_device("places", places), answers});
+  const auto host = to_host(answers);
+  return {host.data(), host.data() + places.size()};
+}
+
+std::vector<Answer> ask(const ContactSearch& search, const std::vector<Question>& questions, int only = -1) {
+  std::vector<Point> slaves;
+  std::vector<std::array<int, 2>> from;
+  for (const Question& q : questions) {
+    slaves.push_back(q.slave);
+    from.push_back({q.start, q.previous});
+  }
+  const Array<Answer*> answers("answers", questions.size());
+  Kokkos::parallel_for("ask", Range(0, questions.size()),
+                       Ask{search, to_device("slaves", slaves), to_device("from", from), only, answers});
+  const auto host = to_host(answers);
+  return {host.data(), host.data() + questions.size()};
+}
+
+/// A point of a bilinear quadrilateral.
+Point surface_point(const std::vector<Point>& nodes, const Quad& quad, double xi, double eta) {
+  const double shape[4] = {(1 - xi) * (1 - eta) / 4, (1 + xi) * (1 - eta) / 4, (1 + xi) * (1 + eta) / 4, (1 - xi) * (1 + eta) / 4};
+  Point x{};
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) x[i] += shape[k] * nodes[quad[k]][i];
+  return x;
+}
+
+double distance(const Point& a, const Point& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+/// Shortest distance to a quadrilateral by nested grids, which knows no derivative.
+double shortest_distance(const std::vector<Point>& nodes, const Quad& quad, const Point& slave) {
+  double best = 1e300, at[2] = {0, 0};
+  for (double reach = 1; reach > 1e-9; reach *= 0.3) {
+    const double centre[2] = {at[0], at[1]};
+    for (int i = -10; i <= 10; ++i)
+      for (int j = -10; j <= 10; ++j) {
+        const double xi = std::fmax(-1, std::fmin(1, centre[0] + 0.1 * i * reach));
+        const double eta = std::fmax(-1, std::fmin(1, centre[1] + 0.1 * j * reach));
+        const double d = distance(surface_point(nodes, quad, xi, eta), slave);
+        if (d >= best) continue;
+        best = d;
+        at[0] = xi;
+        at[1] = eta;
+      }
+  }
+  return best;
+}
+
+/// n x n segments over the unit square, inner nodes moved in the plane at random; z by `height`.
+template <class Height>
+void grid(int n, double disorder, const Height& height, std::vector<Point>& nodes, std::vector<Quad>& quads) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> shift(-disorder / n, disorder / n);
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) {
+      double x = 1.0 * i / n, y = 1.0 * j / n;
+      if (i > 0 && i < n) x += shift(generator);
+      if (j > 0 && j < n) y += shift(generator);
+      nodes.push_back({x, y, height(x, y)});
+    }
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int k = j * (n + 1) + i;
+      quads.push_back({k, k + 1, k + n + 2, k + n + 1});
+    }
+}
+
+/// A ridge (slope > 0) or a valley (slope < 0) along y: two rows of segments of unit size that meet at x = 0, z = 0.
+void fold(double slope, std::vector<Point>& nodes, std::vector<Quad>& quads) {
+  for (int j = 0; j <= 3; ++j)
+    for (int i = -1; i <= 1; ++i) nodes.push_back({1.0 * i, 1.0 * j, -slope * std::fabs(1.0 * i)});
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 2; ++i) quads.push_back({3 * j + i, 3 * j + i + 1, 3 * j + i + 4, 3 * j + i + 3});
+}
+
+}  // namespace
+
+TEST_CASE("the contact point on a warped segment is the nearest one") {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> shift(-0.15, 0.15), inside(-0.85, 0.85), depth(-0.2, 0.2);
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<Point> nodes{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    for (Point& x : nodes)
+      for (double& c : x) c += shift(generator);
+    const Quad quad{0, 1, 2, 3};
+    std::vector<Question> questions;
+    std::vector<double> sign;
+    for (int k = 0; k < 20; ++k) {
+      Point slave = surface_point(nodes, quad, inside(generator), inside(generator));
+      const double d = depth(generator);
+      slave[2] += d;
+      questions.push_back({slave});
+      sign.push_back(d);
+    }
+    const auto answers = ask(search_on(nodes, {quad}), questions, 0);
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      const Answer& a = answers[k];
+      if (std::fabs(a.xi) > 1 || std::fabs(a.eta) > 1) continue;  // nearest beyond the edge, which project() allows
+      const double shortest = shortest_distance(nodes, quad, questions[k].slave);
+      CHECK_THAT(std::fabs(a.gap), WithinAbs(shortest, 1e-12));
+      CHECK(a.gap * sign[k] > 0);
+      const Point there = surface_point(nodes, quad, a.xi, a.eta);
+      for (int i = 0; i < 3; ++i) {
+        CHECK_THAT(a.point[i], WithinAbs(there[i], 1e-14));
+        // The slave stands on the normal.
+        CHECK_THAT(questions[k].slave[i], WithinAbs(there[i] + a.gap * a.normal[i], 1e-12));
+      }
+    }
+  }
+}
+
+TEST_CASE("a slave over a disordered plane is found on the segment under it, over edges and corners too") {
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  grid(6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
+  const ContactSearch search = search_on(nodes, quads);
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> place(0.02, 0.98), coordinate(-1, 1);
+  std::vector<Question> questions;
+  const auto put = [&](Point x) {
+    for (double z : {-0.01, 0.02}) {
+      x[2] = z;
+      questions.push_back({x, static_cast<int>(generator() % nodes.size()), static_cast<int>(generator() % (quads.size() + 1)) - 1});
+    }
+  };
+  for (int k = 0; k < 2000; ++k) put({place(generator), place(generator), 0});
+  for (const Quad& q : quads)
+    for (int k = 0; k < 4; ++k) {
+      put(surface_point(nodes, q, k % 2 == 0 ? 1.0 : coordinate(generator), k % 2 == 0 ? coordinate(generator) : 1.0));
+      put(nodes[q[k]]);
+    }
+  const auto answers = ask(search, questions);
+  int missed = 0, wrong_gap = 0, wrong_place = 0, not_nearest = 0;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    const Answer& a = answers[k];
+    const Point& slave = questions[k].slave;
+    double nearest = 1e300;
+    for (const Point& n : nodes) nearest = std::min(nearest, distance(n, slave));
+    not_nearest += distance(nodes[a.closest], slave) > nearest + 1e-15;
+    if (a.segment < 0) {
+      ++missed;
+      continue;
+    }
+    wrong_gap += std::fabs(a.gap - slave[2]) > 1e-14;
+    wrong_place += std::fabs(a.xi) > 1 + 1e-9 || std::fabs(a.eta) > 1 + 1e-9 ||
+                   std::hypot(a.point[0] - slave[0], a.point[1] - slave[1]) > 1e-12;
+  }
+  INFO("of " << answers.size());
+  CHECK(missed == 0);
+  CHECK(wrong_gap == 0);
+  CHECK(wrong_place == 0);
+  CHECK(not_nearest == 0);
+}
+
+TEST_CASE("a slave that crosses from segment to segment of a disordered plane keeps its penetration and its point moves on") {
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  grid(6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
+  const ContactSearch search = search_on(nodes, quads);
+  const int steps = 1000;
+  const double step[2] = {0.94 / steps, 0.85 / steps};
+  std::vector<Point> path;
+  for (int k = 0; k <= steps; ++k) path.push_back({0.03 + k * step[0], 0.05 + k * step[1], -0.01});
+  const auto answers = travel(search, path);
+  int crossings = 0;
+  double worst_gap = 0, worst_move = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const Answer& a = answers[k];
+    REQUIRE(a.segment >= 0);
+    worst_gap = std::max({worst_gap, std::fabs(a.gap + 0.01), std::fabs(a.normal[2] - 1)});
+    if (k == 0) continue;
+    crossings += a.segment != answers[k - 1].segment;
+    for (int i = 0; i < 2; ++i) worst_move = std::max(worst_move, std::fabs(a.point[i] - answers[k - 1].point[i] - step[i]));
+  }
+  CHECK(crossings >= 6);
+  CHECK(worst_gap < 1e-14);
+  CHECK(worst_move < 1e-13);
+}
+
+TEST_CASE("beside the surface nothing is found") {
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  grid(4, 0.2, [](double, double) { return 0.0; }, nodes, quads);
+  std::vector<Question> questions;
+  for (double along : {-0.2, 0.1, 0.5, 0.77, 1.3})
+    for (double beside : {-0.05, -0.3, 1.05, 1.4}) {
+      questions.push_back({{beside, along, -0.01}});
+      questions.push_back({{along, beside, -0.01}});
+    }
+  for (const Answer& a : ask(search_on(nodes, quads), questions)) CHECK(a.segment == -1);
+}
+
+TEST_CASE("over a ridge and in a valley a shallow penetration is found, with the depth under one of the two faces") {
+  std::mt19937 generator(8);
+  std::uniform_real_distribution<double> across(-0.3, 0.3), along(0.1, 2.9), depth(1e-4, 5e-3);
+  for (double slope : {-0.6, -0.2, 0.2, 0.6}) {
+    std::vector<Point> nodes;
+    std::vector<Quad> quads;
+    fold(slope, nodes, quads);
+    const ContactSearch search = search_on(nodes, quads);
+    std::vector<Question> questions;
+    std::vector<double> vertical;  // above the surface
+    for (int k = 0; k < 500; ++k) {
+      // Every fourth one right over the fold, where it belongs to both sides or to none.
+      const double x = k % 4 == 0 ? 0.0 : k % 4 == 1 ? 1e-3 * across(generator) : across(generator);
+      const double d = (k % 2 == 0 ? -1 : 1) * depth(generator);
+      questions.push_back({{x, along(generator), -slope * std::fabs(x) + d}, static_cast<int>(generator() % nodes.size()), -1});
+      vertical.push_back(d);
+    }
+    const auto answers = ask(search, questions);
+    for (std::size_t k = 0; k < answers.size(); ++k) {
+      INFO("slope " << slope << ", slave at x " << questions[k].slave[0] << ", " << vertical[k] << " above");
+      const double to_plane = vertical[k] / std::hypot(1.0, slope);
+      if (vertical[k] < 0) {
+        REQUIRE(answers[k].segment >= 0);
+        CHECK(answers[k].gap < 0);
+        // The nearer face's depth at least; at most the other face's (ridge) or the way to the fold itself (valley).
+        const double other = (vertical[k] - 2 * std::fabs(slope * questions[k].slave[0])) / std::hypot(1.0, slope);
+        CHECK(answers[k].gap <= to_plane + 1e-12);
+        CHECK(answers[k].gap >= std::min(vertical[k], other) - 1e-12);
+      } else if (answers[k].segment >= 0) {
+        CHECK(answers[k].gap > 0);
+      }
+    }
+  }
+}

@@ -119,7 +119,10 @@ Section motion_section() {
       key("parts", &InitialMotion::parts, "what moves").names(whole_part | point).needed(),
       key("velocity", &InitialMotion::velocity, "of the centre").in("m/s"),
       key("angular_velocity", &InitialMotion::angular_velocity, "about the centre").in("rad/s"),
-      key("centre", &InitialMotion::centre, "centre of the rotation").in("m").otherwise("each part's centre of mass"),
+      key("centre", &InitialMotion::centre, "centre of the rotation").in("m").otherwise("the centre of mass of `around`, or of each part"),
+      key("around", &InitialMotion::around, "a node set whose centre of mass is the centre of the rotation: an axle's bore")
+          .names(node_set | whole_part | point)
+          .otherwise("each part's own"),
   };
   section.rule = check_motion;
   return section;

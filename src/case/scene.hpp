@@ -159,7 +159,8 @@ struct InitialMotion : Place {
   std::vector<std::string> parts;  ///< parts and point masses
   Vec3 velocity{0, 0, 0};
   Vec3 angular_velocity{0, 0, 0};  ///< rad/s
-  std::optional<Vec3> centre;      ///< of rotation; absent: the centre of mass of each part
+  std::optional<Vec3> centre;      ///< of rotation; absent: the centre of mass of `around`, or of each part
+  std::string around;              ///< node set whose centre of mass is the centre of rotation, e.g. an axle's bore
 };
 
 /// Static equilibrium by dynamic relaxation before the run; absent: the run starts from the undeformed mesh.

@@ -49,7 +49,8 @@ void reset_to_start(Model& model) {
     zero(contact.master_force);
     zero(contact.status);
     zero(contact.friction_energy);
-    pair.window_until = -1;
+    pair.next_look = -1;
+    pair.slaves_at_layout = {};
   }
   model.time = 0;
   model.step = 0;

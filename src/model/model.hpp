@@ -47,7 +47,9 @@ struct ContactPair {
   const scene::Contact* contact = nullptr;
   ContactArrays arrays;
   ContactWindow window;
-  long window_until = -1;              ///< step before which the window must be laid out anew
+  Array<double* [3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
+  long next_look = -1;                 ///< step at which the window is looked at again
+  long layouts = 0;                    ///< how often it was laid out
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes

@@ -35,36 +35,33 @@ std::vector<double> steps_at_nodes(const Model& model, const std::vector<double>
   return least;
 }
 
-/// How far a contact spring shortens the step of the elements under it. Two rows of elements (axial stiffness k_e, masses
-/// m with m/2 at the ends) joined by a spring k have as highest frequency that of a mode which dies out away from the
-/// contact: omega^2 = (2 + 2 sqrt(1 + 4 beta^2)) k_e / m with beta = k / k_e, against 4 k_e / m of the rows alone.
-double contact_factor(double beta) { return std::sqrt(2 / (1 + std::sqrt(1 + 4 * beta * beta))); }
+/// How far a contact spring k shortens the stable step `step` of the elements under a surface node of mass m. Two rows of
+/// elements (axial stiffness k_e, inner masses 2 m, end masses m) joined at their ends by a spring k have as highest
+/// frequency that of a mode which dies out away from the contact: omega^2 = (1 + sqrt(1 + 4 beta^2)) k_e / m with
+/// beta = k / k_e, against 2 k_e / m = 4 / step^2 of the rows alone. Corner and edge nodes have less mass, so larger beta.
+double contact_step_at(double stiffness, double mass, double step) {
+  const double beta = 0.5 * stiffness * step * step / mass;
+  return step * std::sqrt(2 / (1 + std::sqrt(1 + 4 * beta * beta)));
+}
 
 double contact_step(const Model& model, const ContactPair& pair, const std::vector<double>& node_steps) {
-  const Assembly& assembly = model.assembly;
-  double slave_area = std::numeric_limits<double>::infinity(), slave_step = slave_area;
-  for (const auto& facet : pair.slave_facets) {
-    const auto x = [&](int k) { return assembly.nodes[pair.slave_nodes[facet[k]]]; };
-    slave_area = std::fmin(slave_area, facet_area(x(0), x(1), x(2), x(3)));
-  }
-  for (int n : pair.slave_nodes) slave_step = std::fmin(slave_step, node_steps[n]);
+  double stiffest = 0;
+  for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, k);
   double least = std::numeric_limits<double>::infinity();
-  const auto& faces = assembly.surfaces.at(pair.contact->master);
-  for (std::size_t s = 0; s < faces.size(); ++s) {
-    const auto corner = assembly.face_nodes(faces[s]);
-    const auto& x = assembly.nodes;
-    const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
-    const double volume = hexahedron_volume(corners_of(x, assembly.elements[faces[s].element]));
-    for (const auto& part : assembly.parts) {
-      if (faces[s].element < part.first_element || faces[s].element >= part.first_element + part.element_count) continue;
-      const double speed = wave_speed(model, part);
-      const double axial = model.scene.materials[part.material].density * speed * speed * area * area / volume;
-      // A finer slave surface puts several springs on each segment.
-      const double springs = std::fmax(1.0, area / slave_area);
-      const double beta = springs * pair.segment_stiffness[s] / axial;
-      double step = slave_step;
-      for (int n : corner) step = std::fmin(step, node_steps[n]);
-      least = std::fmin(least, step * contact_factor(beta));
+  for (int n : pair.slave_nodes) least = std::fmin(least, contact_step_at(stiffest, model.mass[n], node_steps[n]));
+
+  // On a finer slave surface several springs press on each master node.
+  const auto area = [&](const std::array<int, 4>& facet, const std::vector<int>& nodes) {
+    const auto x = [&](int k) { return model.assembly.nodes[nodes[facet[k]]]; };
+    return facet_area(x(0), x(1), x(2), x(3));
+  };
+  double slave_area = std::numeric_limits<double>::infinity();
+  for (const auto& facet : pair.slave_facets) slave_area = std::fmin(slave_area, area(facet, pair.slave_nodes));
+  for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
+    const double springs = std::fmax(1.0, area(pair.master_segments[s], pair.master_nodes) / slave_area);
+    for (int m : pair.master_segments[s]) {
+      const int n = pair.master_nodes[m];
+      least = std::fmin(least, contact_step_at(springs * pair.segment_stiffness[s], model.mass[n], node_steps[n]));
     }
   }
   return least;

@@ -11,10 +11,10 @@ namespace {
 
 /// The window reaches this many of the largest segment's diagonals beyond a segment: the relative motion that it allows.
 constexpr double margin_in_segments = 0.5;
-/// Longest life of a window, in steps.
-constexpr long longest_life = 2000;
-/// Relative speed may grow by this factor within a window's life before a node could be missed.
-constexpr double speed_reserve = 2.0;
+/// Steps between looks at how far the surfaces have moved since the window was laid out.
+constexpr long steps_between_looks = 20;
+/// Share of the margin that may be used up at a look; the rest is for the steps until the next one.
+constexpr double usable_margin = 0.5;
 
 struct GatherRows {
   Array<const double* [3]> values;
@@ -25,10 +25,10 @@ struct GatherRows {
   }
 };
 
-Array<double* [3]>::HostMirror rows_to_host(const Array<double* [3]>& values, const Array<int*>& rows) {
+Array<double* [3]> rows_of(const Array<double* [3]>& values, const Array<int*>& rows) {
   const auto result = unset_array<double* [3]>("rows", rows.extent(0));
   Kokkos::parallel_for("gather_rows", Range(0, rows.extent(0)), GatherRows{values, rows, result});
-  return to_host(result);
+  return result;
 }
 
 using Rows = Array<double* [3]>::HostMirror;
@@ -71,17 +71,23 @@ class CellGrid {
   std::unordered_map<long, std::vector<int>> cells_;
 };
 
-double fastest(const Rows& velocity, const std::vector<int>& rows) {
-  double squared = 0;
-  for (int i : rows)
-    squared = std::max(squared, velocity(i, 0) * velocity(i, 0) + velocity(i, 1) * velocity(i, 1) + velocity(i, 2) * velocity(i, 2));
-  return std::sqrt(squared);
-}
+/// Largest squared distance of a surface's nodes from where they were.
+struct SquaredMotion {
+  Array<const double* [3]> position;
+  Array<const int*> nodes;
+  Array<const double* [3]> before;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i, double& largest) const {
+    const Vector3 moved = row(position, nodes(i)) - row(before, i);
+    const double squared = dot(moved, moved);
+    if (!(squared <= largest)) largest = squared;  // a NaN shows too
+  }
+};
 
-std::vector<int> all_rows(const Rows& rows) {
-  std::vector<int> all(rows.extent(0));
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
-  return all;
+double farthest(const Array<double* [3]>& position, const Array<int*>& nodes, const Array<double* [3]>& before) {
+  double squared = 0;
+  Kokkos::parallel_reduce("window_motion", Range(0, nodes.extent(0)), SquaredMotion{position, nodes, before},
+                          Kokkos::Max<double>(squared));
+  return std::sqrt(squared);
 }
 
 /// A node that leaves the window is apart; its arrays must say so.
@@ -97,16 +103,12 @@ struct ClearOutside {
   }
 };
 
-}  // namespace
-
-void lay_out_window(Model& model, ContactPair& pair, const Instant& instant) {
+void lay_out_window(Model& model, ContactPair& pair, double margin) {
   const ContactArrays& contact = pair.arrays;
-  const Rows slaves = rows_to_host(model.nodes.position, contact.slave_nodes);
-  const Rows masters = rows_to_host(model.nodes.position, contact.master_nodes);
-  const Rows slave_velocity = rows_to_host(model.nodes.velocity, contact.slave_nodes);
-  const Rows master_velocity = rows_to_host(model.nodes.velocity, contact.master_nodes);
+  pair.slaves_at_layout = rows_of(model.nodes.position, contact.slave_nodes);
+  pair.masters_at_layout = rows_of(model.nodes.position, contact.master_nodes);
+  const Rows slaves = to_host(pair.slaves_at_layout), masters = to_host(pair.masters_at_layout);
 
-  const double margin = margin_in_segments * pair.segment_size;
   // A slave's projection lies on a segment whose corners are at most a diagonal away from it.
   const double reach = pair.segment_size + 2 * margin;
   const CellGrid grid(masters, reach);
@@ -145,16 +147,22 @@ void lay_out_window(Model& model, ContactPair& pair, const Instant& instant) {
   Kokkos::parallel_for("clear_outside", Range(0, contact.slave_count),
                        ClearOutside{contact, to_device("inside window", inside)});
   Kokkos::deep_copy(contact.master_force, 0.0);
+}
 
-  // Every slave outside is at least `reach` from every master node, so more than `margin` from touching.
-  const double speed = speed_reserve * (fastest(slave_velocity, all_rows(slave_velocity)) +
-                                        fastest(master_velocity, all_rows(master_velocity)));
-  // Velocities of a relaxation are per unit of pseudo-time, one step.
-  const double moved = speed * (instant.settling ? 1.0 : instant.step);
-  long life = moved > 0 ? static_cast<long>(std::min<double>(margin / moved, longest_life)) : longest_life;
-  // From rest, speeds are not known yet.
-  if (model.step < 100 || instant.settling) life = std::min(life, 20L);
-  pair.window_until = model.step + std::max(life, 1L);
+}  // namespace
+
+void keep_window(Model& model, ContactPair& pair) {
+  if (model.step < pair.next_look) return;
+  pair.next_look = model.step + steps_between_looks;
+  // A slave outside is at least a segment and two margins from every master node, so more than a margin from touching.
+  const double margin = margin_in_segments * pair.segment_size;
+  if (pair.slaves_at_layout.extent(0) != 0) {
+    const double moved = farthest(model.nodes.position, pair.arrays.slave_nodes, pair.slaves_at_layout) +
+                         farthest(model.nodes.position, pair.arrays.master_nodes, pair.masters_at_layout);
+    if (moved < usable_margin * margin) return;
+  }
+  lay_out_window(model, pair, margin);
+  ++pair.layouts;
 }
 
 }  // namespace railwave

@@ -3,21 +3,33 @@
 
 namespace railwave {
 
+Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
+                     const Array<double* [3]>& position) {
+  if (motion.centre) return *motion.centre;
+  const auto& nodes = motion.around.empty()
+                          ? model.assembly.node_sets.at(part)
+                          : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
+  const auto host = to_host(position);
+  Vec3 centre{};
+  double mass = 0;
+  for (int n : nodes) {
+    mass += model.mass[n];
+    for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * host(n, i);
+  }
+  for (double& c : centre) c /= mass;
+  return centre;
+}
+
 void set_initial_motion(Model& model) {
   const auto position = to_host(model.nodes.position);
   const auto velocity = to_host(model.nodes.velocity);
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
     for (const std::string& name : motion.parts) {
-      const auto& nodes = model.assembly.node_sets.at(name);
-      Vec3 centre{};
-      double mass = 0;
-      for (int n : nodes) {
-        mass += model.mass[n];
-        for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * position(n, i);
-      }
-      for (int i = 0; i < 3; ++i) centre[i] = motion.centre ? (*motion.centre)[i] : centre[i] / mass;
-      const Vec3& w = motion.angular_velocity;
-      for (int n : nodes) {
+      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.position);
+      // A point mass is moved along, not turned.
+      const bool turns = model.assembly.node_sets.at(name).size() > 1;
+      const Vec3 w = turns ? motion.angular_velocity : Vec3{0, 0, 0};
+      for (int n : model.assembly.node_sets.at(name)) {
         const double r[3] = {position(n, 0) - centre[0], position(n, 1) - centre[1], position(n, 2) - centre[2]};
         for (int i = 0; i < 3; ++i) {
           const int j = (i + 1) % 3, k = (i + 2) % 3;

@@ -62,15 +62,8 @@ std::vector<Vec3> centrifugal_field(const Model& model) {
   for (const scene::InitialMotion& motion : model.scene.initial_motions) {
     const Vec3& w = motion.angular_velocity;
     for (const std::string& name : motion.parts) {
-      const auto& nodes = model.assembly.node_sets.at(name);
-      Vec3 centre{};
-      double mass = 0;
-      for (int n : nodes) {
-        mass += model.mass[n];
-        for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * model.assembly.nodes[n][i];
-      }
-      for (int i = 0; i < 3; ++i) centre[i] = motion.centre ? (*motion.centre)[i] : centre[i] / mass;
-      for (int n : nodes) {
+      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
+      for (int n : model.assembly.node_sets.at(name)) {
         Vec3 r{};
         double along = 0, squared = 0;
         for (int i = 0; i < 3; ++i) {
@@ -114,7 +107,7 @@ void forget_history(Model& model) {
   Kokkos::deep_copy(model.extra.work, 0.0);
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
-    pair.window_until = -1;
+    pair.next_look = -1;
   }
   for (ElementSet& set : model.elements) Kokkos::deep_copy(set.arrays.hourglass_energy, 0.0);
   Kokkos::deep_copy(model.connectors.arrays.energy, 0.0);

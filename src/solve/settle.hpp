@@ -21,6 +21,10 @@ struct SettleReport {
 /// @param go_on told every few steps how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 
+/// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the part's.
+Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
+                     const Array<double* [3]>& position);
+
 /// Adds the scene's initial motions to the velocities, v = V + omega x (x - centre), in the present configuration.
 void set_initial_motion(Model& model);
 

@@ -76,8 +76,8 @@ Stage gather_extra_stage(const Model& model) {
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
   return {"contact " + pair.contact->name + (Friction ? ", friction" : ", frictionless"),
-          [&model, &pair](const Instant& instant) {
-            if (model.step >= pair.window_until) lay_out_window(model, pair, instant);
+          [&model, &pair](const Instant&) {
+            keep_window(model, pair);
             const ContactSearch search{pair.arrays, model.nodes.position};
             Kokkos::parallel_for("contact_force", Range(0, pair.window.slave_count),
                                  ContactForce<Friction>{search, pair.window, model.extra, model.nodes.extra});

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "tests/verify/march.hpp"
+
+namespace railwave::verify {
+
+/// A block on a larger one, both about the z axis: "upper" on "lower", touching planes at z = 0, contact "touch" with the
+/// upper block as slave.
+struct TwoBlocks {
+  Vec3 upper_size{0.04, 0.04, 0.01}, lower_size{0.08, 0.08, 0.02};
+  std::array<int, 3> upper_divisions{8, 8, 2}, lower_divisions{16, 16, 4};
+  double gap = 0;       ///< m, before the run
+  double friction = 0;
+
+  scene::Scene scene(double end) const {
+    scene::Scene made = block_scene(upper_size, upper_divisions, end);
+    made.path = "two blocks";
+    made.parts[0].name = made.parts[0].mesh = made.meshes[0].name = "upper";
+    made.parts.push_back(made.parts[0]);
+    made.meshes.push_back(made.meshes[0]);
+    made.parts[1].name = made.parts[1].mesh = made.meshes[1].name = "lower";
+    made.meshes[1].box.size = lower_size;
+    made.meshes[1].box.divisions = lower_divisions;
+    made.parts[0].position = {-0.5 * upper_size[0], -0.5 * upper_size[1], gap};
+    made.parts[1].position = {-0.5 * lower_size[0], -0.5 * lower_size[1], -lower_size[2]};
+    scene::Contact contact;
+    contact.name = "touch";
+    contact.slave = "upper.z_min";
+    contact.master = "lower.z_max";
+    contact.friction = friction;
+    made.contacts.push_back(contact);
+    return made;
+  }
+};
+
+inline void hold(scene::Scene& scene, const std::string& target, std::array<bool, 3> fixed) {
+  scene::Constraint held;
+  held.name = "held " + target;
+  held.target = target;
+  held.fixed = fixed;
+  scene.constraints.push_back(held);
+}
+
+inline scene::Load& add_force(scene::Scene& scene, const std::string& target, const Vec3& force, const std::string& curve) {
+  scene::Load load;
+  load.name = "force on " + target;
+  load.type = scene::LoadType::nodal_force;
+  load.target = target;
+  load.force = force;
+  load.curve = curve;
+  scene.loads.push_back(load);
+  return scene.loads.back();
+}
+
+inline void add_ramp(scene::Scene& scene, const std::string& name, double start, double duration) {
+  scene::Curve curve;
+  curve.name = name;
+  curve.type = scene::CurveType::cosine_ramp;
+  curve.start = start;
+  curve.duration = duration;
+  scene.curves.push_back(curve);
+}
+
+inline double mass_of(const Model& model, const std::string& set) {
+  double sum = 0;
+  for (int n : model.assembly.node_sets.at(set)) sum += model.mass[n];
+  return sum;
+}
+
+/// How far from equal and opposite a pair's forces are, relative to their size.
+inline double reaction_error(const ContactTotals& totals) {
+  const Vec3 slave = totals.normal_force + totals.tangential_force;
+  return norm(slave) > 0 ? norm(slave + totals.master_force) / norm(slave) : norm(totals.master_force);
+}
+
+}  // namespace railwave::verify

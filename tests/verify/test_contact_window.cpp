@@ -1,0 +1,118 @@
+#include <catch2/catch_test_macros.hpp>
+
+#include "tests/verify/two_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+/// Positions, velocities and contact forces at the end of a run, with the window laid out at its own pace or every step.
+std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& layouts) {
+  Model model;
+  build_model(scene, model);
+  set_initial_motion(model);
+  ContactPair& pair = model.contacts[0];
+  march(model, model.step_count, [&] {
+    if (!every_step) return;
+    pair.next_look = -1;
+    pair.slaves_at_layout = {};
+  });
+  layouts = pair.layouts;
+  std::vector<double> values;
+  for (NodeField field : {NodeField::position, NodeField::velocity, NodeField::acceleration}) {
+    const auto part = node_field(model, field, all_nodes(model)).values;
+    values.insert(values.end(), part.begin(), part.end());
+  }
+  const auto energy = account_energies(model, model.step_size);
+  values.insert(values.end(), {energy.contact, energy.friction, energy.kinetic});
+  return values;
+}
+
+void check_window_is_unseen(const scene::Scene& scene) {
+  long layouts, all;
+  const auto own = outcome(scene, false, layouts), often = outcome(scene, true, all);
+  std::size_t different = 0;
+  for (std::size_t k = 0; k < own.size(); ++k) different += !(own[k] == often[k]);
+  INFO("window laid out " << layouts << " times; values that differ: " << different << " of " << own.size());
+  CHECK(different == 0);
+}
+
+/// Upper block small against the lower one, so that both surfaces' windows move.
+TwoBlocks small_on_large() {
+  TwoBlocks blocks;
+  blocks.upper_size = {0.01, 0.01, 0.005};
+  blocks.upper_divisions = {5, 4, 2};
+  blocks.lower_size = {0.06, 0.03, 0.005};
+  blocks.lower_divisions = {30, 16, 2};
+  blocks.friction = 0.3;
+  return blocks;
+}
+
+}  // namespace
+
+TEST_CASE("how often the contact window is laid out changes no bit of an impact that slides") {
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 1e-4;
+  scene::Scene scene = blocks.scene(1.5e-4);
+  scene::InitialMotion motion;
+  motion.parts = {"upper"};
+  motion.velocity = {60, 10, -8};
+  motion.angular_velocity = {0, 500, 100};
+  scene.initial_motions.push_back(motion);
+  check_window_is_unseen(scene);
+}
+
+TEST_CASE("how often the contact window is laid out changes no bit when a body at rest is set in motion late") {
+  // At rest until 4e-5 s (some 200 steps), then driven across the lower block and onto it.
+  for (double gap : {0.0, 9e-3}) {
+    TwoBlocks blocks = small_on_large();
+    blocks.gap = gap;
+    scene::Scene scene = blocks.scene(4e-4);
+    hold(scene, "lower.z_min", {true, true, true});
+    add_ramp(scene, "late", 4e-5, 2e-5);
+    const double mass = 7800 * 0.01 * 0.01 * 0.005;
+    add_force(scene, "upper", (mass * (gap > 0 ? 3e5 : 4e5)) * Vec3{gap > 0 ? 0.1 : 1.0, 0, -1}, "late");
+    check_window_is_unseen(scene);
+  }
+}
+
+TEST_CASE("slaves outside the window are too far from every segment to touch it") {
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 1e-3;
+  blocks.upper_size = {0.03, 0.01, 0.005};
+  blocks.upper_divisions = {15, 5, 2};
+  scene::Scene scene = blocks.scene(3e-4);
+  scene::InitialMotion motion;
+  motion.parts = {"upper"};
+  motion.velocity = {30, 0, -20};
+  motion.angular_velocity = {0, 3000, 0};  // one end meets the lower block, the other rises 10 mm
+  scene.initial_motions.push_back(motion);
+  Model model;
+  build_model(scene, model);
+  set_initial_motion(model);
+  const ContactPair& pair = model.contacts[0];
+  double nearest = 1e300;
+  int outside = 0, touching = 0;
+  march(model, model.step_count, [&] {
+    const auto window = to_host(pair.window.slaves);
+    std::vector<bool> inside(pair.slave_nodes.size(), false);
+    for (int i = 0; i < pair.window.slave_count; ++i) inside[window(i)] = true;
+    const auto x = to_host(model.nodes.position);
+    touching += contact_totals(pair).nodes_in_contact;
+    for (std::size_t s = 0; s < inside.size(); ++s) {
+      if (inside[s]) continue;
+      ++outside;
+      for (int m : pair.master_nodes) {
+        double squared = 0;
+        for (int i = 0; i < 3; ++i) squared += std::pow(x(pair.slave_nodes[s], i) - x(m, i), 2);
+        nearest = std::min(nearest, std::sqrt(squared));
+      }
+    }
+  });
+  INFO("outside " << outside << ", nearest to a master node " << nearest / pair.segment_size << " segments");
+  CHECK(outside > 0);
+  CHECK(touching > 0);
+  // Where a slave touches a segment, its nearest node is at most half a diagonal away.
+  CHECK(nearest > 0.5 * pair.segment_size);
+}

@@ -1,8 +1,12 @@
 #include "output/progress.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <ostream>
 
 #include "model/model.hpp"
+#include "solve/settle.hpp"
 
 namespace railwave {
 namespace {
@@ -19,6 +23,22 @@ void Progress::begin(const Model& model) {
   plan.interval = model.scene.output.progress_interval;
   for (const auto& contact : model.scene.contacts) plan.contacts.push_back(contact.name);
   table_ = std::make_unique<ProgressTable>(out_, std::move(plan), wall_seconds);
+}
+
+void Progress::settling(const Model& model, const SettleReport& so_far) {
+  const double now = wall_seconds();
+  if (now - last_settling_line_ < model.scene.output.progress_interval) return;
+  last_settling_line_ = now;
+  out_ << fmt::format("settling: step {}, unbalanced force {:.2e} of all forces\n", so_far.steps, so_far.unbalance) << std::flush;
+}
+
+void Progress::settled(const Model& model, const SettleReport& report) {
+  out_ << fmt::format("{} after {} steps, {:.0f} s: unbalanced force {:.2e} of all forces (settle.tolerance {:.2e})\n",
+                      report.settled ? "settled" : "NOT settled", report.steps, report.wall_seconds, report.unbalance,
+                      model.scene.settle.tolerance);
+  if (!report.settled)
+    out_ << "  the run starts from there and will ring; raise settle.max_steps, or hold what can drift away\n";
+  out_ << std::flush;
 }
 
 void Progress::history(const Model&, const HistorySample& sample) { table_->history(sample); }

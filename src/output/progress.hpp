@@ -13,12 +13,15 @@ class Progress : public RunObserver {
   explicit Progress(std::ostream& out) : out_(out) {}
 
   void begin(const Model& model) override;
+  void settling(const Model& model, const SettleReport& so_far) override;
+  void settled(const Model& model, const SettleReport& report) override;
   void history(const Model& model, const HistorySample& sample) override;
   void end(const Model& model, const RunSummary& summary) override;
 
  private:
   std::ostream& out_;
   std::unique_ptr<ProgressTable> table_;
+  double last_settling_line_ = 0;
 };
 
 }  // namespace railwave

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
@@ -76,17 +77,28 @@ double end_mass(const Model& model, const std::string& end) {
   return mass;
 }
 
-/// Step of a spring k and dashpot c on the reduced mass m of its ends: 2/omega (sqrt(1 + zeta^2) - zeta).
-double connector_step(const Model& model, const scene::Connector& connector) {
+/// Squared frequency of a spring k and dashpot c on the reduced mass of its ends, as far as the step is concerned:
+/// 2/step with the stable step 2/omega (sqrt(1 + zeta^2) - zeta) of a damped oscillator; the worst of three axes, 1/s2.
+double connector_frequency_squared(const Model& model, const scene::Connector& connector) {
   const double inverse = 1 / end_mass(model, connector.from) + 1 / end_mass(model, connector.to);
-  double least = std::numeric_limits<double>::infinity();
+  double largest = 0;
   for (int a = 0; a < 3; ++a) {
     const double half_rate = 0.5 * connector.damping[a] * inverse;  // omega zeta
-    const double squared = connector.stiffness[a] * inverse;        // omega^2
-    if (squared + half_rate == 0) continue;
-    least = std::fmin(least, 2 / (std::sqrt(squared + half_rate * half_rate) + half_rate));
+    const double omega = std::sqrt(connector.stiffness[a] * inverse + half_rate * half_rate) + half_rate;
+    largest = std::fmax(largest, omega * omega);
   }
-  return least;
+  return largest;
+}
+
+/// Several connectors on one end add up: the largest sum over the ends, 1/s2.
+double connectors_frequency_squared(const Model& model) {
+  std::map<std::string, double> at_end;
+  for (const scene::Connector& connector : model.scene.connectors)
+    for (const std::string& end : {connector.from, connector.to})
+      if (end != "ground") at_end[end] += connector_frequency_squared(model, connector);
+  double largest = 0;
+  for (const auto& entry : at_end) largest = std::fmax(largest, entry.second);
+  return largest;
 }
 
 }  // namespace
@@ -109,10 +121,10 @@ void build_stable_step(Model& model) {
     limit = std::fmin(limit, stable.contact);
   }
   if (!model.scene.connectors.empty()) {
-    stable.connector = std::numeric_limits<double>::infinity();
-    for (const scene::Connector& connector : model.scene.connectors)
-      stable.connector = std::fmin(stable.connector, connector_step(model, connector));
-    limit = std::fmin(limit, stable.connector);
+    // The highest frequency of a sum is at most the root of the sum of squares.
+    const double squared = connectors_frequency_squared(model);
+    stable.connector = squared > 0 ? 2 / std::sqrt(squared) : std::numeric_limits<double>::infinity();
+    limit = 2 / std::sqrt(4 / (limit * limit) + squared);
   }
   const scene::Time& time = model.scene.time;
   stable.used = time.step > 0 ? time.step : time.step_scale * limit;

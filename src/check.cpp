@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <ostream>
 #include <sstream>
 
@@ -54,11 +53,9 @@ void describe_run(Model& model, std::ostream& out) {
   out << "Parts\n";
   for (const auto& part : model.assembly.parts) {
     const scene::Material& material = model.scene.materials[part.material];
-    const double E = material.youngs_modulus, nu = material.poissons_ratio;
-    const double speed = std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * material.density));
     out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", part.name, part.element_count, part.node_count,
                        part_mass(model, part), material.name);
-    out << indented(describe(mesh_quality(mesh_of(model.assembly, part), speed)));
+    out << indented(describe(mesh_quality(mesh_of(model.assembly, part), material.dilatational_speed())));
   }
   out << fmt::format("  in all: {} elements, {} nodes\n", model.element_count(), model.node_count());
   describe_step(model, out);

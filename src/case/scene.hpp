@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,15 @@ struct Material : Place {
   double youngs_modulus = 0;  ///< Pa
   double poissons_ratio = 0;
   double density = 0;  ///< kg/m3
+
+  /// lambda + 2 mu, Pa
+  double dilatational_modulus() const {
+    return youngs_modulus * (1 - poissons_ratio) / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
+  }
+  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+  double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
+  /// C_d of thesis eq. 2.14b, m/s
+  double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
 };
 
 enum class MeshType { box, wheel, rail, file };
@@ -122,7 +132,7 @@ enum class LoadType { nodal_force, pressure, traction, torque };
 
 struct Load : Place {
   LoadType type = LoadType::nodal_force;
-  std::string target;              ///< `part.node_set` or a point mass (nodal_force, torque); `part.surface` (pressure, traction)
+  std::string target;              ///< `part.node_set` or a point mass (nodal_force), `part.node_set` (torque), `part.surface` (pressure, traction)
   Vec3 force{0, 0, 0};             ///< nodal_force: total, shared by mass over the set, N
   double pressure = 0;             ///< Pa, positive pushes into the body, follows the surface
   Vec3 traction{0, 0, 0};          ///< Pa, fixed direction and reference area

@@ -36,9 +36,7 @@ double penalty_stiffness(const Model& model, const Face& face, double scale) {
   const auto& x = assembly.nodes;
   const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
   const double volume = hexahedron_volume(corners_of(x, assembly.elements[face.element]));
-  const scene::Material& material = material_of(model, face.element);
-  const double bulk = material.youngs_modulus / (3 * (1 - 2 * material.poissons_ratio));
-  return scale * bulk * area * area / volume;
+  return scale * material_of(model, face.element).bulk_modulus() * area * area / volume;
 }
 
 void build_pair(Model& model, const scene::Contact& contact) {

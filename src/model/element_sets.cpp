@@ -49,10 +49,8 @@ void build_elements(Model& model) {
     set.part = range.name;
     set.first_element = range.first_element;
     set.hourglass = part.hourglass;
-    const double E = material.youngs_modulus, nu = material.poissons_ratio;
-    set.constants = {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
-    const double modulus = set.constants.lambda + 2 * set.constants.mu;
-    const double wave_speed = std::sqrt(modulus / material.density);
+    const double modulus = material.dilatational_modulus(), wave_speed = material.dilatational_speed();
+    set.constants = {modulus - 2 * material.shear_modulus(), material.shear_modulus()};
 
     const int count = range.element_count;
     const int tiles = (count + tile_width - 1) / tile_width;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -11,17 +12,11 @@
 namespace railwave {
 namespace {
 
-double wave_speed(const Model& model, const Assembly::PartRange& part) {
-  const scene::Material& material = model.scene.materials[part.material];
-  const double E = material.youngs_modulus, nu = material.poissons_ratio;
-  return std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * material.density));
-}
-
 /// Stable step of each element, V / (A_max C_d).
 std::vector<double> element_steps(const Model& model) {
   std::vector<double> steps(model.element_length.size());
   for (const auto& part : model.assembly.parts) {
-    const double speed = wave_speed(model, part);
+    const double speed = model.scene.materials[part.material].dilatational_speed();
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
       steps[e] = model.element_length[e] / speed;
   }
@@ -77,27 +72,25 @@ double end_mass(const Model& model, const std::string& end) {
   return mass;
 }
 
-/// Squared frequency of a spring k and dashpot c on the reduced mass of its ends, as far as the step is concerned:
-/// 2/step with the stable step 2/omega (sqrt(1 + zeta^2) - zeta) of a damped oscillator; the worst of three axes, 1/s2.
-double connector_frequency_squared(const Model& model, const scene::Connector& connector) {
-  const double inverse = 1 / end_mass(model, connector.from) + 1 / end_mass(model, connector.to);
-  double largest = 0;
-  for (int a = 0; a < 3; ++a) {
-    const double half_rate = 0.5 * connector.damping[a] * inverse;  // omega zeta
-    const double omega = std::sqrt(connector.stiffness[a] * inverse + half_rate * half_rate) + half_rate;
-    largest = std::fmax(largest, omega * omega);
+/// 2/step of the connectors alone, 1/s. Springs k and dashpots c on the reduced masses m of their ends make omega^2 = k/m
+/// and omega zeta = c/2m, and a stable step 2/omega (sqrt(1 + zeta^2) - zeta); connectors that share an end add up.
+double connector_frequency(const Model& model) {
+  struct Sum {
+    double squared = 0, half_rate = 0;
+  };
+  std::map<std::string, Sum> at_end;
+  for (const scene::Connector& connector : model.scene.connectors) {
+    const double inverse = 1 / end_mass(model, connector.from) + 1 / end_mass(model, connector.to);
+    for (const std::string& end : {connector.from, connector.to}) {
+      Sum& sum = at_end[end];
+      sum.squared += inverse * *std::max_element(connector.stiffness.begin(), connector.stiffness.end());
+      sum.half_rate += 0.5 * inverse * *std::max_element(connector.damping.begin(), connector.damping.end());
+    }
   }
-  return largest;
-}
-
-/// Several connectors on one end add up: the largest sum over the ends, 1/s2.
-double connectors_frequency_squared(const Model& model) {
-  std::map<std::string, double> at_end;
-  for (const scene::Connector& connector : model.scene.connectors)
-    for (const std::string& end : {connector.from, connector.to})
-      if (end != "ground") at_end[end] += connector_frequency_squared(model, connector);
   double largest = 0;
-  for (const auto& entry : at_end) largest = std::fmax(largest, entry.second);
+  for (const auto& [end, sum] : at_end)
+    if (end != "ground")
+      largest = std::fmax(largest, std::sqrt(sum.squared + sum.half_rate * sum.half_rate) + sum.half_rate);
   return largest;
 }
 
@@ -121,10 +114,10 @@ void build_stable_step(Model& model) {
     limit = std::fmin(limit, stable.contact);
   }
   if (!model.scene.connectors.empty()) {
+    const double frequency = connector_frequency(model);
+    stable.connector = frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
     // The highest frequency of a sum is at most the root of the sum of squares.
-    const double squared = connectors_frequency_squared(model);
-    stable.connector = squared > 0 ? 2 / std::sqrt(squared) : std::numeric_limits<double>::infinity();
-    limit = 2 / std::sqrt(4 / (limit * limit) + squared);
+    limit = 2 / std::sqrt(4 / (limit * limit) + frequency * frequency);
   }
   const scene::Time& time = model.scene.time;
   stable.used = time.step > 0 ? time.step : time.step_scale * limit;

@@ -79,7 +79,8 @@ struct SquaredMotion {
   KOKKOS_INLINE_FUNCTION void operator()(const int i, double& largest) const {
     const Vector3 moved = row(position, nodes(i)) - row(before, i);
     const double squared = dot(moved, moved);
-    if (!(squared <= largest)) largest = squared;  // a NaN shows too
+    // A NaN counts as far: kept as NaN it would be lost, and with it the motions before it, at the next comparison.
+    if (!(squared <= largest)) largest = squared < 1e300 ? squared : 1e300;
   }
 };
 

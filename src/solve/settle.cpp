@@ -27,9 +27,7 @@ std::vector<double> relaxation_masses(const Model& model) {
   const Assembly& assembly = model.assembly;
   std::vector<double> mass(assembly.nodes.size(), 0);
   for (const auto& part : assembly.parts) {
-    const scene::Material& material = model.scene.materials[part.material];
-    const double E = material.youngs_modulus, nu = material.poissons_ratio;
-    const double modulus = E * (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+    const double modulus = model.scene.materials[part.material].dilatational_modulus();
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
       const auto integrals = hexahedron_shape_integrals(corners_of(assembly.nodes, assembly.elements[e]));
       const double length = safety * model.element_length[e];

@@ -22,11 +22,6 @@ inline scene::Material steel() {
   return material;
 }
 
-inline double dilatational_speed(const scene::Material& m) {
-  const double E = m.youngs_modulus, nu = m.poissons_ratio;
-  return std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * m.density));
-}
-
 /// One box of steel, named "block", with the run's length given.
 inline scene::Scene block_scene(const Vec3& size, const std::array<int, 3>& divisions, double end) {
   scene::Scene scene;

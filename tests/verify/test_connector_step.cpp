@@ -73,7 +73,7 @@ TEST_CASE("a connector on a block's single node is stable at the step chosen") {
     connector.from = "ground";
     connector.to = "block.corner";
     // As stiff as the corner's mass and the elements' step allow, times the share.
-    const double omega = 2 / (0.01 / dilatational_speed(steel()));
+    const double omega = 2 / (0.01 / steel().dilatational_speed());
     const double k = share * omega * omega * 7800 * 1e-6 / 8;
     connector.stiffness = {k, k, k};
     scene.connectors.push_back(connector);

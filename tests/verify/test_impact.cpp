@@ -69,7 +69,7 @@ TEST_CASE("two equal bars held sideways exchange their velocities after twice a 
   TwoBlocks bars;
   bars.upper_size = bars.lower_size = {0.01, 0.01, 0.1};
   bars.upper_divisions = bars.lower_divisions = {2, 2, 80};
-  const double duration = 2 * 0.1 / dilatational_speed(steel());
+  const double duration = 2 * 0.1 / steel().dilatational_speed();
   scene::Scene scene = falling_block(bars, 1.0, 2 * duration);
   hold(scene, "upper", {true, true, false});
   hold(scene, "lower", {true, true, false});

@@ -45,7 +45,7 @@ TEST_CASE("an element's stable step is its smallest height over the speed of dil
   for (const Vec3& size : {Vec3{0.01, 0.01, 0.01}, Vec3{0.01, 0.03, 0.02}}) {
     Model model;
     build_model(block_scene(size, {1, 1, 1}, 1e-3), model);
-    CHECK_THAT(model.stable_step.elements, WithinRel(0.01 / dilatational_speed(steel()), 1e-12));
+    CHECK_THAT(model.stable_step.elements, WithinRel(0.01 / steel().dilatational_speed(), 1e-12));
     CHECK(model.stable_step.contact == 0);
     CHECK(model.stable_step.connector == 0);
     CHECK(model.step_size <= model.stable_step.used * (1 + 1e-9));

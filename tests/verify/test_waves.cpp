@@ -39,7 +39,7 @@ enum class Wave { bar, dilatational, shear };
 double theory(Wave wave, const scene::Material& m) {
   if (wave == Wave::bar) return std::sqrt(m.youngs_modulus / m.density);
   if (wave == Wave::shear) return std::sqrt(m.youngs_modulus / (2 * (1 + m.poissons_ratio) * m.density));
-  return dilatational_speed(m);
+  return m.dilatational_speed();
 }
 
 /// The allowed error of 0.5 % at 20 elements a wavelength is held at any number, by the scheme's second order.

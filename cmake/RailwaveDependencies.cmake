@@ -63,7 +63,8 @@ endif()
 if(RAILWAVE_TESTS)
   find_package(Catch2 3 CONFIG QUIET)
   if(NOT Catch2_FOUND)
-    message(FATAL_ERROR "Catch2 3 was not found. Run scripts/setup --tests, which puts it into .deps/, "
-      "or build without the tests: -DRAILWAVE_TESTS=OFF.")
+    # A machine that only runs cases need not have it: scripts/run sets up without the tests' needs.
+    message(STATUS "Catch2 3 was not found: the tests are left out. scripts/setup --tests puts it into .deps/.")
+    set(RAILWAVE_TESTS OFF)
   endif()
 endif()

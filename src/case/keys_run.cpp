@@ -1,7 +1,7 @@
 #include "case/keys.hpp"
 #include "case/rules.hpp"
 
-// How it is run: title, settling, time, output.
+// How it is run: title, settling, time, solver, output.
 namespace railwave::case_file {
 
 using scene::Scene;
@@ -43,6 +43,24 @@ Section time_section() {
       key("step", &Time::step, "time step; 0 takes it from elements and contact").in("s").within(at_least(0)),
   };
   section.rule = check_time;
+  return section;
+}
+
+Section solver_section() {
+  using scene::Solver;
+  auto section = single_section("solver", &Scene::solver, "How the time loop computes: its numbers and its steps.");
+  section.keys = {
+      key("precision", &Solver::precision,
+          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double")
+          .one_of({"double", "mixed", "float"}),
+      key("step_estimate", &Solver::step_estimate,
+          "what the stable step is taken from: each element's height over the wave speed, each element's highest "
+          "eigenvalue (safe for bodies one element thick), or the whole scene's highest frequency (the longest step)")
+          .one_of({"element", "eigenvalue", "global"}),
+      key("subcycling", &Solver::subcycling, "coarse regions take larger steps than fine ones"),
+      key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")
+          .within(at_least(0)),
+  };
   return section;
 }
 

@@ -186,6 +186,18 @@ struct Time {
   double step = 0;                 ///< s; 0: from elements and contact
 };
 
+enum class Precision { double_precision, mixed, single_precision };
+
+enum class StepEstimate { element, eigenvalue, global };
+
+/// How the time loop computes; what it computes is the other sections' matter.
+struct Solver {
+  Precision precision = Precision::double_precision;  ///< mixed: elements in single, nodes in double precision
+  StepEstimate step_estimate = StepEstimate::element; ///< what the stable step is taken from
+  bool subcycling = false;         ///< coarse regions take larger steps than fine ones
+  int renew_steps = 20000;         ///< steps between renewals of the global estimate; 0: never
+};
+
 struct Output {
   std::string file = "results.h5"; ///< relative to the folder the program runs in unless absolute
   double history_interval = 0;     ///< s; 0: every step
@@ -212,6 +224,7 @@ struct Scene {
   Vec3 gravity{0, 0, 0};           ///< m/s2
   Settle settle;
   Time time;
+  Solver solver;
   Output output;
 };
 

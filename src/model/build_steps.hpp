@@ -5,6 +5,7 @@
 /// The steps of build_model, each in a file of its own.
 namespace railwave {
 
+void refuse_unknown_methods(const scene::Scene& scene);  ///< solver_support.cpp: InputError for [solver] wishes that no code honours
 void build_elements(Model& model);     ///< element_sets.cpp: tiles, corner forces, hourglass scales, lengths, masses
 void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces

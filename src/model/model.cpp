@@ -9,6 +9,7 @@ namespace railwave {
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
 void build_model(const scene::Scene& scene, const Assembly& assembly, Model& model) {
+  refuse_unknown_methods(scene);
   model.scene = scene;
   model.assembly = assembly;
   build_elements(model);

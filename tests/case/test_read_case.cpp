@@ -178,6 +178,12 @@ end = 2e-3
 step_scale = 0.8
 step = 1e-8
 
+[solver]
+precision = "mixed"
+step_estimate = "global"
+subcycling = true
+renew_steps = 500
+
 [output]
 file = "out/everything.h5"
 history_interval = 1e-6
@@ -336,6 +342,10 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.time.end == 2e-3);
   CHECK(scene.time.step_scale == 0.8);
   CHECK(scene.time.step == 1e-8);
+  CHECK(scene.solver.precision == scene::Precision::mixed);
+  CHECK(scene.solver.step_estimate == scene::StepEstimate::global);
+  CHECK(scene.solver.subcycling);
+  CHECK(scene.solver.renew_steps == 500);
   CHECK(scene.output.file == "out/everything.h5");
   CHECK(scene.output.history_interval == 1e-6);
   CHECK(scene.output.field_interval == 1e-4);
@@ -357,6 +367,9 @@ TEST_CASE("what a case does not say keeps scene.hpp's defaults", "[case]") {
   CHECK_FALSE(scene.settle.active);
   CHECK(scene.time.step_scale == 0.9);
   CHECK(scene.time.step == 0);
+  CHECK(scene.solver.precision == scene::Precision::double_precision);
+  CHECK(scene.solver.step_estimate == scene::StepEstimate::element);
+  CHECK_FALSE(scene.solver.subcycling);
   CHECK(scene.output.file == "results.h5");
   CHECK(scene.output.fields.empty());
   CHECK(scene.contacts.empty());

@@ -1,0 +1,27 @@
+#include <fmt/format.h>
+
+#include "case/error.hpp"
+#include "model/build_steps.hpp"
+
+namespace railwave {
+namespace {
+
+[[noreturn]] void refuse(const scene::Scene& scene, const std::string& wish, const std::string& mend) {
+  throw InputError(fmt::format("{}: [solver] {}: this version of railwave has no time loop for it; {}", scene.path, wish, mend));
+}
+
+}  // namespace
+
+void refuse_unknown_methods(const scene::Scene& scene) {
+  const scene::Solver& solver = scene.solver;
+  if (solver.precision != scene::Precision::double_precision)
+    refuse(scene, fmt::format("precision = \"{}\"", solver.precision == scene::Precision::mixed ? "mixed" : "float"),
+           "leave precision out, or set it to \"double\"");
+  if (solver.subcycling) refuse(scene, "subcycling = true", "leave subcycling out, or set it to false");
+  if (solver.step_estimate != scene::StepEstimate::element)
+    refuse(scene, fmt::format("step_estimate = \"{}\"",
+                              solver.step_estimate == scene::StepEstimate::global ? "global" : "eigenvalue"),
+           "leave step_estimate out, or set it to \"element\"");
+}
+
+}  // namespace railwave

@@ -1,132 +1,255 @@
 #pragma once
 
-#include "kernels/elastic.hpp"
 #include "kernels/hourglass.hpp"
-#include "kernels/lanes.hpp"
-#include "kernels/mean_gradient.hpp"
+#include "kernels/patches.hpp"
 
 namespace railwave {
 
-/// One set of elements of one material, in tiles; elements that fill up the last tile repeat the set's last one and are
-/// gathered by nobody.
-struct ElementArrays {
-  int element_count = 0;
-  int tile_count = 0;
-  long force_offset = 0;             ///< where the set's corner forces begin in the model's array
-  Array<int*> corners;               ///< tiled, 8 values: node numbers
-  Array<double*> hourglass_scale;    ///< tiled, 1 value: c (kg/s) or k (N/m) of the hourglass control
-  Array<double*> hourglass_energy;   ///< tiled, 1 value: J, dissipated so far (viscous) or unused
+/// Constants of the elastic material of each patch.
+struct Elastic {
+  Array<const ElasticConstants*> constants;  ///< by row
 
-  int batch_count() const { return tile_count * batches_per_tile; }
-};
-
-/// Coordinates of a batch's corners.
-template <class NodeArray>
-KOKKOS_INLINE_FUNCTION void gather_corners(const NodeArray& values, const Array<int*>& corners, int batch,
-                                           Real (&u)[3][8]) {
-  for (int N = 0; N < 8; ++N) {
-    const int* nodes = corners.data() + tiled(batch, 8, N);
-    for (int i = 0; i < 3; ++i) u[i][N] = gather(values, nodes, i);
-  }
-}
-
-/// Step 1 of the thesis's table 2.1, (b) and (c): internal and hourglass force of each element, as the forces on its
-/// eight corners, stored for the nodes to gather (no atomics: bitwise the same on any number of threads).
-/// f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N
-template <class Hourglass>
-struct ElementForce {
-  ElasticConstants constants;
-  double step;  ///< s, for the dissipated hourglass energy
-  ElementArrays elements;
-  Array<const double* [3]> position, reference, velocity;
-  Array<double*> corner_force;  ///< tiled, 24 values: corner, direction; N
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int batch) const {
-    Real x[3][8], B[3][8], G[3][3], xm[3][4], q[3][4], hourglass_rate;
-    gather_corners(position, elements.corners, batch, x);
-    mean_gradient(x, B);
-    const Real inverse_volume = 1.0 / volume_of(x, B);
-    hourglass_moments(x, xm);
-    const Real scale = load(elements.hourglass_scale.data() + tiled(batch, 1, 0));
-    {
-      Real X[3][8];
-      gather_corners(reference, elements.corners, batch, X);
-      gradient_of(X, B, inverse_volume, G);
-      if constexpr (Hourglass::needs_reference) {
-        Real Xm[3][4];
-        hourglass_moments(X, Xm);
-        Hourglass::generalised_force(scale, xm, Xm, G, q, hourglass_rate);
-      }
-    }
-    if constexpr (Hourglass::needs_velocity) {
-      Real v[3][8], L[3][3], vm[3][4];
-      gather_corners(velocity, elements.corners, batch, v);
-      gradient_of(v, B, inverse_volume, L);
-      hourglass_moments(v, vm);
-      Hourglass::generalised_force(scale, xm, vm, L, q, hourglass_rate);
-    }
-    if constexpr (Hourglass::dissipates) {
-      double* energy = elements.hourglass_energy.data() + tiled(batch, 1, 0);
-      store(energy, load(energy) + step * hourglass_rate);
-    }
-
-    Real h[6], tau[6], T[3][3];
-    hencky_strain(G, h);
-    kirchhoff_stress(constants, h, tau);
-    const Real to_cauchy = determinant(G);
-    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        Real orthogonal = q[i][0] * xm[j][0];
-        for (int M = 1; M < 4; ++M) orthogonal += q[i][M] * xm[j][M];
-        T[i][j] = tau[voigt[i][j]] * to_cauchy - orthogonal * inverse_volume;
-      }
-
-    double* force = corner_force.data() + elements.force_offset;
-    for (int i = 0; i < 3; ++i) {
-      Real hourglass[8];
-      hourglass_at_corners(q[i], hourglass);
-      for (int N = 0; N < 8; ++N) {
-        const Real f = T[i][0] * B[0][N] + T[i][1] * B[1][N] + T[i][2] * B[2][N] + hourglass[N];
-        store(force + tiled(batch, 24, 3 * N + i), -f);
-      }
-    }
+  /// Kirchhoff stress from the Almansi strain, Pa.
+  template <class S, class T>
+  KOKKOS_INLINE_FUNCTION void stress(int row, int /*batch*/, const T (&e)[6], T (&tau)[6]) const {
+    T h[6];
+    hencky_strain(e, h);
+    kirchhoff_stress<S>(constants(row), h, tau);
   }
 };
 
-/// Cauchy stress (6 values, tiled) and energies of each element at the present instant, for outputs and the account.
-template <class Hourglass>
-struct ElementState {
-  ElasticConstants constants;
-  ElementArrays elements;
-  Array<const double* [3]> position, reference;
-  Array<double*> stress;            ///< tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa
-  Array<double*> elastic_energy;    ///< tiled, 1 value, J
-  Array<double*> hourglass_energy;  ///< tiled, 1 value, J: stored (stiffness) or dissipated so far (viscous)
+/// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed at
+/// its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N.
+/// The sums go to `partial`, which the nodes add up in fixed order (no atomics: bitwise the same on any number of threads);
+/// nodes that are the patch's alone are advanced at once where `Advance` says so.
+template <class S, class Material, class Hourglass, bool Advance>
+struct PatchForce {
+  using T = Pack<S>;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int batch) const {
-    Real x[3][8], B[3][8], X[3][8], G[3][3], h[6], tau[6];
-    gather_corners(position, elements.corners, batch, x);
-    gather_corners(reference, elements.corners, batch, X);
-    mean_gradient(x, B);
-    const Real volume = volume_of(x, B);
-    gradient_of(X, B, Real(1.0 / volume), G);
-    hencky_strain(G, h);
-    kirchhoff_stress(constants, h, tau);
-    const Real to_cauchy = determinant(G);
-    for (int c = 0; c < 6; ++c) store(stress.data() + tiled(batch, 6, c), tau[c] * to_cauchy);
-    store(elastic_energy.data() + tiled(batch, 1, 0), volume * to_cauchy * elastic_energy_density(h, tau));
+  Material material;
+  PatchArrays patches;
+  Array<const float*> hourglass_scale;
+  NodeAdvance nodes;
+  double step;              ///< s, for the dissipated hourglass energy
+  Array<S* [3]> partial;    ///< N
+  int first_partial;        ///< row of the patches' first node
 
-    const long at = tiled(batch, 1, 0);
-    if constexpr (Hourglass::dissipates) {
-      store(hourglass_energy.data() + at, load(elements.hourglass_energy.data() + at));
+  /// Scratch memory of a team, bytes.
+  static std::size_t scratch_size(const PatchArrays& patches) {
+    return sizeof(S) * (StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity) + 24u * patch_size) + 64;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
+    const StagedNodes<S> staged(scratch_values<S>(team, StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity)),
+                                patches.most_nodes);
+    S* force = scratch_values<S>(team, 24u * patch_size);
+    const NodeArrays& all = nodes.nodes;
+    staged.template bring<Hourglass::needs_velocity>(team, patches, p, all.position, all.reference, all.velocity);
+
+    const int elements = patches.element_count(p);
+    const int batches = on_device ? elements : (elements + lane_count<S> - 1) / lane_count<S>;
+    if constexpr (Hourglass::stores) {
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches), [&](const int b) { batch_force(p, b, staged, force); });
+      team.team_barrier();
     } else {
-      Real xm[3][4], Xm[3][4], q[3][4], energy;
-      hourglass_moments(x, xm);
-      hourglass_moments(X, Xm);
-      Hourglass::generalised_force(load(elements.hourglass_scale.data() + at), xm, Xm, G, q, energy);
-      store(hourglass_energy.data() + at, energy);
+      double dissipated = 0;
+      Kokkos::parallel_reduce(
+          Kokkos::TeamThreadRange(team, batches),
+          [&](const int b, double& sum) { sum += batch_force(p, b, staged, force); }, dissipated);
+      team.team_barrier();
+      Kokkos::single(Kokkos::PerTeam(team), [&]() { patches.hourglass_energy(p) += step * dissipated; });
     }
+    sum_corners(team, p, force);
+  }
+
+  /// @return power dissipated by hourglass control, W
+  KOKKOS_INLINE_FUNCTION double batch_force(const int p, const int b, const StagedNodes<S>& staged, S* force) const {
+    const int batch = p * (patch_size / lane_count<S>) + b;
+    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
+    T x[3][7], B[3][6], H[3][3], q[3][4], turned[3][3];
+    for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
+    mean_gradient<S>(x, B);
+    const T inverse_volume = S(1) / along(x[0], B[0]);
+    T power = S(0);
+    const T scale = hourglass_scales(batch);
+    if constexpr (Hourglass::needs_velocity) {
+      for (int i = 0; i < 3; ++i) {
+        T v[7], L[3];
+        staged.modes(staged.velocity + i * staged.stride, corners, v);
+        for (int j = 0; j < 3; ++j) L[j] = along(v, B[j]) * inverse_volume;
+        for (int M = 0; M < 4; ++M) {
+          const T speed = hourglass_content(v, L, x, M);
+          q[i][M] = scale * speed;
+          power += q[i][M] * speed;
+        }
+      }
+      moments(q, x, turned);
+    }
+    {
+      T w[3][4];
+      for (int i = 0; i < 3; ++i) {
+        T u[7];
+        staged.modes(staged.displacement + i * staged.stride, corners, u);
+        for (int j = 0; j < 3; ++j) H[i][j] = along(u, B[j]) * inverse_volume;
+        if constexpr (Hourglass::stores)
+          for (int M = 0; M < 4; ++M) w[i][M] = hourglass_content(u, H[i], x, M);
+      }
+      if constexpr (Hourglass::stores) {
+        for (int i = 0; i < 3; ++i)
+          for (int M = 0; M < 4; ++M)
+            q[i][M] = scale * (w[i][M] - (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]));
+        moments(q, x, turned);
+      }
+    }
+
+    T e[6], tau[6];
+    almansi_strain<S>(H, e);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+    const T to_cauchy = determinant(H);
+    material.template stress<S>(patches.material(p), batch, e, tau);
+
+    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int i = 0; i < 3; ++i) {
+      T stress[3], m[7], f[8];
+      for (int j = 0; j < 3; ++j) stress[j] = to_cauchy * tau[voigt[i][j]] - turned[i][j] * inverse_volume;
+      for (int k = 0; k < 6; ++k) m[k] = stress[0] * B[0][k] + stress[1] * B[1][k] + stress[2] * B[2][k];
+      for (int M = 0; M < 3; ++M) m[3 + M] += q[i][M];
+      m[6] = q[i][3];
+      corners_of(m, f);
+      for (int N = 0; N < 8; ++N) store(force + (8 * i + N) * patch_size + b * lane_count<S>, f[N]);
+    }
+    return Hourglass::stores ? 0.0 : sum_of_lanes<S>(power);
+  }
+
+  KOKKOS_INLINE_FUNCTION T hourglass_scales(int batch) const {
+    const float* scales = hourglass_scale.data() + static_cast<long>(batch) * lane_count<S>;
+#ifdef RAILWAVE_SIMD_LANES
+    S lanes[lane_count<S>];
+    for (int lane = 0; lane < lane_count<S>; ++lane) lanes[lane] = static_cast<S>(scales[lane]);
+    return load(lanes);
+#else
+    return static_cast<S>(*scales);
+#endif
+  }
+
+  /// sum over M of q_iM xm_jM
+  KOKKOS_INLINE_FUNCTION static void moments(const T (&q)[3][4], const T (&x)[3][7], T (&result)[3][3]) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        result[i][j] = (q[i][0] * x[j][3] + q[i][1] * x[j][4]) + (q[i][2] * x[j][5] + q[i][3] * x[j][6]);
+  }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const S* force) const {
+    const int first = patches.first_node(p), count = patches.first_node(p + 1) - first;
+    const std::uint16_t* first_corner = patches.first_corner.data() + first + p;
+    const std::uint16_t* place = patches.corner_place.data() + static_cast<long>(p) * 8 * patch_size;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](const int l) {
+      const int begin = first_corner[l], end = first_corner[l + 1] & corner_mask;
+      S sum[3] = {0, 0, 0};
+      for (int c = begin & corner_mask; c < end; ++c) {
+        const S* f = force + place[c];
+        sum[0] -= f[0];
+        sum[1] -= f[8 * patch_size];
+        sum[2] -= f[16 * patch_size];
+      }
+      if (Advance && (begin & advance_bit) != 0) {
+        nodes(patches.node(first + l), {{sum[0], sum[1], sum[2]}});
+      } else {
+        for (int i = 0; i < 3; ++i) partial(first_partial + first + l, i) = sum[i];
+      }
+    });
+  }
+};
+
+/// Stress and energies of a patch's elements at the present instant, for outputs and the account.
+template <class S, class Material, class Hourglass>
+struct PatchState {
+  using T = Pack<S>;
+
+  Material material;
+  PatchArrays patches;
+  Array<const float*> hourglass_scale;
+  NodeArrays nodes;
+  Array<S*> stress;           ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
+  Array<double* [2]> energy;  ///< J, by patch: elastic, stored by hourglass control
+
+  static std::size_t scratch_size(const PatchArrays& patches) {
+    return sizeof(S) * StagedNodes<S>::values(patches.most_nodes, false) + 64;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
+    const int p = team.league_rank();
+    const StagedNodes<S> staged(scratch_values<S>(team, StagedNodes<S>::values(patches.most_nodes, false)), patches.most_nodes);
+    staged.template bring<false>(team, patches, p, nodes.position, nodes.reference, nodes.velocity);
+    const int elements = patches.element_count(p);
+    const int batches = on_device ? elements : (elements + lane_count<S> - 1) / lane_count<S>;
+    double elastic = 0, stored = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, batches),
+        [&](const int b, double& sum) { sum += batch_state(p, b, elements, staged, 0); }, elastic);
+    if constexpr (Hourglass::stores)
+      Kokkos::parallel_reduce(
+          Kokkos::TeamThreadRange(team, batches),
+          [&](const int b, double& sum) { sum += batch_state(p, b, elements, staged, 1); }, stored);
+    Kokkos::single(Kokkos::PerTeam(team), [&]() {
+      energy(p, 0) = elastic;
+      energy(p, 1) = stored;
+    });
+  }
+
+  /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
+  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int b, const int elements, const StagedNodes<S>& staged,
+                                            const int which) const {
+    const int batch = p * (patch_size / lane_count<S>) + b;
+    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
+    T x[3][7], u[3][7], B[3][6], H[3][3], e[6], tau[6];
+    for (int i = 0; i < 3; ++i) {
+      staged.modes(staged.position + i * staged.stride, corners, x[i]);
+      staged.modes(staged.displacement + i * staged.stride, corners, u[i]);
+    }
+    mean_gradient<S>(x, B);
+    const T volume = along(x[0], B[0]), inverse_volume = S(1) / volume;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) H[i][j] = along(u[i], B[j]) * inverse_volume;
+    T value = S(0);
+    if (which == 1) {
+      for (int i = 0; i < 3; ++i)
+        for (int M = 0; M < 4; ++M) {
+          const T w = hourglass_content(u[i], H[i], x, M);
+          value += w * w;
+        }
+      const float* scales = hourglass_scale.data() + static_cast<long>(batch) * lane_count<S>;
+      return sum_of_elements(value, b, elements, [&](int lane) { return 0.5 * static_cast<double>(scales[lane]); });
+    }
+    almansi_strain<S>(H, e);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+    const T to_cauchy = determinant(H);
+    T h[6];
+    hencky_strain(e, h);
+    material.template stress<S>(patches.material(p), batch, e, tau);
+    if (stress.extent(0) != 0)
+      for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(batch, 6, c), T(tau[c] * to_cauchy));
+    value = volume * to_cauchy * elastic_energy_density<S>(h, tau);
+    return sum_of_elements(value, b, elements, [](int) { return 1.0; });
+  }
+
+  template <class Weight>
+  KOKKOS_INLINE_FUNCTION static double sum_of_elements(const T& value, int b, int elements, const Weight& weight) {
+#ifdef RAILWAVE_SIMD_LANES
+    double sum = 0;
+    for (int lane = 0; lane < lane_count<S> && b * lane_count<S> + lane < elements; ++lane)
+      sum += weight(lane) * static_cast<double>(value[lane]);
+    return sum;
+#else
+    (void)b, (void)elements;
+    return weight(0) * static_cast<double>(value);
+#endif
   }
 };
 

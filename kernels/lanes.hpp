@@ -1,46 +1,61 @@
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/spaces.hpp"
 
 #if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(KOKKOS_ENABLE_SYCL)
 #define RAILWAVE_SIMD_LANES
 #include <experimental/simd>
+#if defined(__AVX512F__) || defined(__AVX2__)
+#include <immintrin.h>
+#endif
 #endif
 
-/// The number type that the element kernels are written in: a SIMD pack on a host (one element a lane), a plain number on
-/// a GPU (one element a thread). Element data lie in tiles of `tile_width` elements:
-/// value k of K of element e is at ((e / tile_width) * K + k) * tile_width + e % tile_width.
+/// The number types that the element kernels are written in: a SIMD pack on a host (one element a lane), a plain number on
+/// a GPU (one element a thread). A batch is what one call of an element kernel works on: `lane_count<S>` elements.
 namespace railwave {
 
 #ifdef RAILWAVE_SIMD_LANES
-using Real = std::experimental::native_simd<double>;
-inline constexpr int lane_count = static_cast<int>(Real::size());
-inline constexpr int tile_width = lane_count;
+template <class S>
+using Pack = std::experimental::native_simd<S>;
+template <class S>
+inline constexpr int lane_count = static_cast<int>(Pack<S>::size());
+template <class S>
+inline constexpr int tile_width = lane_count<S>;
 #else
-using Real = double;
+template <class S>
+using Pack = S;
+template <class S>
 inline constexpr int lane_count = 1;
+template <class S>
 inline constexpr int tile_width = 32;
 #endif
 
-/// How many batches (calls of an element kernel) a number of tiles makes.
-inline constexpr int batches_per_tile = tile_width / lane_count;
-
-/// Where value k of K of the batch's first lane lies in a tiled array.
-KOKKOS_INLINE_FUNCTION constexpr long tiled(int batch, int values, int value) {
-  const int tile = batch / batches_per_tile;
-  const int lane = (batch % batches_per_tile) * lane_count;
-  return (static_cast<long>(tile) * values + value) * tile_width + lane;
+/// Element data lie in tiles: value k of K of slot s is at ((s / width) * K + k) * width + s % width, where the width is
+/// that of a pack on a host and of coalesced access on a GPU.
+template <class S>
+KOKKOS_INLINE_FUNCTION constexpr long tiled_slot(int slot, int values, int value) {
+  return (static_cast<long>(slot / tile_width<S>) * values + value) * tile_width<S> + slot % tile_width<S>;
 }
 
-KOKKOS_INLINE_FUNCTION Real load(const double* p) {
+/// Where value k of K of a batch's first lane lies.
+template <class S>
+KOKKOS_INLINE_FUNCTION constexpr long tiled(int batch, int values, int value) {
+  return tiled_slot<S>(batch * lane_count<S>, values, value);
+}
+
+template <class S>
+KOKKOS_INLINE_FUNCTION Pack<S> load(const S* p) {
 #ifdef RAILWAVE_SIMD_LANES
-  return Real(p, std::experimental::element_aligned);
+  return Pack<S>(p, std::experimental::element_aligned);
 #else
   return *p;
 #endif
 }
 
-KOKKOS_INLINE_FUNCTION void store(double* p, const Real& value) {
+template <class S>
+KOKKOS_INLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 #ifdef RAILWAVE_SIMD_LANES
   value.copy_to(p, std::experimental::element_aligned);
 #else
@@ -48,13 +63,87 @@ KOKKOS_INLINE_FUNCTION void store(double* p, const Real& value) {
 #endif
 }
 
-/// Component `component` of a node array at the lanes' nodes.
-template <class NodeArray>
-KOKKOS_INLINE_FUNCTION Real gather(const NodeArray& values, const int* nodes, int component) {
+/// The sum of a pack's lanes, added up in double precision in a fixed order.
+template <class S>
+KOKKOS_INLINE_FUNCTION double sum_of_lanes(const Pack<S>& value) {
 #ifdef RAILWAVE_SIMD_LANES
-  return Real([&](auto lane) { return values(nodes[lane], component); });
+  double sum = 0;
+  for (int lane = 0; lane < lane_count<S>; ++lane) sum += static_cast<double>(value[lane]);
+  return sum;
 #else
-  return values(*nodes, component);
+  return static_cast<double>(value);
+#endif
+}
+
+#ifdef RAILWAVE_SIMD_LANES
+/// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than lane
+/// by lane. (The forms with a mask, because g++ 12 warns of the others.)
+template <class S>
+struct LanePlaces {
+  const std::uint8_t* place;
+  explicit LanePlaces(const std::uint8_t* bytes) : place(bytes) {}
+  Pack<S> gather(const S* values) const {
+    return Pack<S>([&](auto lane) { return values[place[lane]]; });
+  }
+};
+#if defined(__AVX512F__)
+template <>
+struct LanePlaces<double> {
+  __m256i place;
+  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(bytes))) {}
+  Pack<double> gather(const double* values) const {
+    return Pack<double>(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, place, values, 8));
+  }
+};
+template <>
+struct LanePlaces<float> {
+  __m512i place;
+  explicit LanePlaces(const std::uint8_t* bytes)
+      : place(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)))) {}
+  Pack<float> gather(const float* values) const {
+    return Pack<float>(_mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, place, values, 4));
+  }
+};
+#elif defined(__AVX2__)
+template <>
+struct LanePlaces<double> {
+  __m128i place;
+  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm_cvtepu8_epi32(_mm_loadu_si32(bytes))) {}
+  Pack<double> gather(const double* values) const { return Pack<double>(_mm256_i32gather_pd(values, place, 8)); }
+};
+template <>
+struct LanePlaces<float> {
+  __m256i place;
+  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(bytes))) {}
+  Pack<float> gather(const float* values) const { return Pack<float>(_mm256_i32gather_ps(values, place, 4)); }
+};
+#endif
+#endif
+
+/// The eight corners of a batch's elements as places in their patch's list of nodes (below 256).
+/// Stored corner by corner, a pack's lanes together; on a GPU an element's eight bytes are one load.
+template <class S>
+struct BatchCorners {
+#ifdef RAILWAVE_SIMD_LANES
+  const std::uint8_t* bytes;
+  explicit BatchCorners(const std::uint8_t* bytes_) : bytes(bytes_) {}
+  /// values[corner N of each lane]
+  Pack<S> gather(const S* values, int N) const { return LanePlaces<S>(bytes + N * lane_count<S>).gather(values); }
+#else
+  std::uint64_t corners;
+
+  KOKKOS_INLINE_FUNCTION explicit BatchCorners(const std::uint8_t* bytes)
+      : corners(*reinterpret_cast<const std::uint64_t*>(bytes)) {}
+  KOKKOS_INLINE_FUNCTION S gather(const S* values, int N) const { return values[(corners >> (8 * N)) & 255]; }
+#endif
+};
+
+/// a b + c, fused where the machine can: written out so that it is rounded the same way wherever it is inlined.
+KOKKOS_INLINE_FUNCTION double multiply_add(double a, double b, double c) {
+#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMA) || defined(__FMA__)
+  return fma(a, b, c);
+#else
+  return a * b + c;
 #endif
 }
 

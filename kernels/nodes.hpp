@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/spaces.hpp"
+#include "kernels/lanes.hpp"
 
 namespace railwave {
 
@@ -11,8 +11,8 @@ struct NodeArrays {
   Array<double* [3]> position;     ///< m, at t_n
   Array<double* [3]> velocity;     ///< m/s, at t_n - step/2
   Array<double*> mass;             ///< kg, lumped
-  Array<int*> first_corner;        ///< count + 1; a node's corners are corner[first_corner(n)] ... in fixed order
-  Array<long*> corner;             ///< place of the corner's x force in the corner force array; y and z follow by tile_width
+  Array<int*> first_partial;       ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
+  Array<int*> partial_place;       ///< rows of the partial forces: one for each patch that the node belongs to
   Array<int*> extra;               ///< row in the extra forces (loads, connectors, contact), -1: none
   Array<int*> constraint;          ///< row in the constraint table, -1: free
 };
@@ -43,25 +43,57 @@ KOKKOS_INLINE_FUNCTION Vector3 cross(const Vector3& a, const Vector3& b) {
 }
 KOKKOS_INLINE_FUNCTION double norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
 
+/// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the elements.
+struct PartialForces {
+  Array<double* [3]> wide;
+  Array<float* [3]> narrow;
+  bool single_precision = false;
+
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
+    if (single_precision) return {{narrow(place, 0), narrow(place, 1), narrow(place, 2)}};
+    return {{wide(place, 0), wide(place, 1), wide(place, 2)}};
+  }
+};
+
 /// Sum of the element forces on a node and of its extra forces, in fixed order, N.
 struct NodalForce {
   NodeArrays nodes;
-  Array<const double*> corner_force;
+  PartialForces partial;
   Array<const double* [3]> extra_force;
-  int stride;  ///< between the components of a corner force: tile_width
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
     Vector3 force{{0, 0, 0}};
     const int row_of_extra = nodes.extra(n);
     if (row_of_extra >= 0) force = row(extra_force, row_of_extra);
-    for (int c = nodes.first_corner(n); c < nodes.first_corner(n + 1); ++c) {
-      const double* f = corner_force.data() + nodes.corner(c);
-      force[0] += f[0];
-      force[1] += f[stride];
-      force[2] += f[2 * stride];
-    }
+    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c) force = force + partial(nodes.partial_place(c));
     return force;
   }
+};
+
+/// Central difference of the thesis's table 2.1, (i) and (j), eqs. 2.11 and 2.12, for a node whose acceleration is known.
+struct NodeAdvance {
+  NodeArrays nodes;
+  Vector3 gravity;       ///< m/s2
+  double velocity_step;  ///< s: half a step at the first one, which starts from velocities at t = 0
+  double step;           ///< s
+
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration(int n, const Vector3& force) const {
+    const double inverse_mass = 1.0 / nodes.mass(n);
+    Vector3 a;
+    for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, force[i], gravity[i]);
+    return a;
+  }
+
+  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a) const {
+    for (int i = 0; i < 3; ++i) {
+      const double v = multiply_add(velocity_step, a[i], nodes.velocity(n, i));
+      nodes.velocity(n, i) = v;
+      nodes.position(n, i) = multiply_add(step, v, nodes.position(n, i));
+    }
+  }
+
+  /// A node without constraint and extra forces.
+  KOKKOS_INLINE_FUNCTION void operator()(int n, const Vector3& force) const { move(n, acceleration(n, force)); }
 };
 
 /// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7, eqs. 2.31).
@@ -82,24 +114,19 @@ struct NodalAcceleration {
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    return constrain(n, (1.0 / force.nodes.mass(n)) * force(n) + gravity);
+    return constrain(n, NodeAdvance{force.nodes, gravity, 0, 0}.acceleration(n, force(n)));
   }
 };
 
-/// Step 3 of the thesis's table 2.1, (f) to (j): acceleration, constraints, central difference (eqs. 2.11, 2.12).
+/// Step 3 of the thesis's table 2.1, (f) to (j): forces, acceleration, constraints, central difference.
 struct NodeUpdate {
   NodalAcceleration acceleration;
-  double velocity_step;  ///< s: half a step at the first one, which starts from velocities at t = 0
-  double step;           ///< s
+  NodeAdvance advance;
+  Array<const int*> listed;  ///< the nodes concerned; empty: all
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    const NodeArrays& nodes = acceleration.force.nodes;
-    const Vector3 a = acceleration(n);
-    for (int i = 0; i < 3; ++i) {
-      const double v = nodes.velocity(n, i) + velocity_step * a[i];
-      nodes.velocity(n, i) = v;
-      nodes.position(n, i) += step * v;
-    }
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int n = listed.extent(0) == 0 ? i : listed(i);
+    advance.move(n, acceleration(n));
   }
 };
 

@@ -1,10 +1,11 @@
 #pragma once
 
 #include "kernels/nodes.hpp"
+#include "kernels/team.hpp"
 
 namespace railwave {
 
-using Team = Kokkos::TeamPolicy<ExecutionSpace>;
+
 
 /// Node sets with weights (fractions of the set's mass, summing to one) whose mean motion connectors, torques and
 /// histories need.

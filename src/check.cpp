@@ -62,7 +62,7 @@ void describe_run(Model& model, std::ostream& out) {
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,
                      1e6 * megabytes / static_cast<double>(model.element_count()));
-  out << fmt::format("Runs on: {}, {} elements a tile\n", ExecutionSpace::name(), tile_width);
+  out << fmt::format("Runs on: {}, patches of {} elements, {} in a pack\n", ExecutionSpace::name(), patch_size, lane_count<double>);
   out << "A step computes\n";
   for (const Stage& stage : force_stages(model)) out << "  " << stage.name << '\n';
   out << "  nodes: gather, constraints, velocities, positions\n";

@@ -1,5 +1,6 @@
 #include "model/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -7,6 +8,7 @@
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
+#include "model/patch_launch.hpp"
 
 namespace railwave {
 namespace {
@@ -66,6 +68,27 @@ ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const s
   return side;
 }
 
+template <class S>
+HostField stress_in(const Model& model, const std::vector<int>& elements) {
+  HostField result{6, std::vector<double>(6 * elements.size())};
+  for (const ElementGroup& group : model.elements) {
+    const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.patches.count) * patch_size);
+    const auto unused = unset_array<double* [2]>("patch energy", group.patches.count);
+    launch_patches(group.patches,
+                   PatchState<S, Elastic, ViscousHourglass>{{group.constants}, group.patches, group.patches.hourglass_scale,
+                                                            model.nodes, stress, unused});
+    const auto host = to_host(stress);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
+      if (after == group.first_element.begin()) continue;
+      const int p = static_cast<int>(after - group.first_element.begin()) - 1, slot = elements[i] - group.first_element[p];
+      if (slot >= group.element_count[p]) continue;
+      for (int c = 0; c < 6; ++c) result.values[6 * i + c] = host(tiled_slot<S>(p * patch_size + slot, 6, c));
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
@@ -80,23 +103,8 @@ HostField node_field(const Model& model, NodeField field, const std::vector<int>
 }
 
 HostField element_stress(const Model& model, const std::vector<int>& elements) {
-  HostField result{6, std::vector<double>(6 * elements.size())};
-  for (const ElementSet& set : model.elements) {
-    const long slots = static_cast<long>(set.arrays.tile_count) * tile_width;
-    const auto stress = unset_array<double*>("stress", 6 * slots);
-    const auto unused = unset_array<double*>("energy", slots);
-    Kokkos::parallel_for("element_state", Range(0, set.arrays.batch_count()),
-                         ElementState<ViscousHourglass>{set.constants, set.arrays, model.nodes.position,
-                                                        model.nodes.reference, stress, unused, unused});
-    const auto host = to_host(stress);
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      const long e = elements[i] - set.first_element;
-      if (e < 0 || e >= set.arrays.element_count) continue;
-      for (int c = 0; c < 6; ++c)
-        result.values[6 * i + c] = host(((e / tile_width) * 6 + c) * tile_width + e % tile_width);
-    }
-  }
-  return result;
+  return model.scene.solver.precision == scene::Precision::double_precision ? stress_in<double>(model, elements)
+                                                                             : stress_in<float>(model, elements);
 }
 
 ContactState contact_state(const Model& model, int contact) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/build_steps.hpp"
+#include "model/patches.hpp"
 
 namespace railwave {
 
@@ -12,6 +13,8 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   refuse_unknown_methods(scene);
   model.scene = scene;
   model.assembly = assembly;
+  check_elements(model);
+  model.patch_elements = order_in_patches(model.assembly);
   build_elements(model);
   build_contacts(model);
   build_loads(model);
@@ -33,11 +36,12 @@ void zero(const View& view) {
 void reset_to_start(Model& model) {
   Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
   zero(model.nodes.velocity);
-  zero(model.corner_force);
+  zero(model.partial.wide);
+  zero(model.partial.narrow);
   zero(model.extra.force);
   zero(model.extra.contribution);
   zero(model.extra.work);
-  for (auto& set : model.elements) zero(set.arrays.hourglass_energy);
+  for (auto& group : model.elements) zero(group.patches.hourglass_energy);
   zero(model.connectors.arrays.energy);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
@@ -70,12 +74,15 @@ std::size_t bytes(const Views&... views) {
 std::size_t device_bytes(const Model& model) {
   const NodeArrays& n = model.nodes;
   const ExtraForces& x = model.extra;
-  std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_corner, n.corner, n.extra, n.constraint,
-                            model.constraints, model.corner_force, x.force, x.first, x.contribution_of_row, x.contribution,
+  std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
+                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, x.force, x.first, x.contribution_of_row, x.contribution,
                             x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.motion);
-  for (const ElementSet& set : model.elements)
-    total += bytes(set.arrays.corners, set.arrays.hourglass_scale, set.arrays.hourglass_energy, set.settling_hourglass);
+  for (const ElementGroup& group : model.elements) {
+    const PatchArrays& p = group.patches;
+    total += bytes(p.element_count, p.material, p.first_node, p.node, p.frame, p.corner, p.first_corner, p.corner_place,
+                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants);
+  }
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,

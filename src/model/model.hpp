@@ -14,14 +14,15 @@
 
 namespace railwave {
 
-/// The elements of one part.
-struct ElementSet {
-  std::string part;
-  int first_element = 0;              ///< in the assembly's numbering
-  ElasticConstants constants{};
+/// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control.
+struct ElementGroup {
+  std::string parts;                   ///< their names, for the summary
   scene::HourglassType hourglass = scene::HourglassType::viscous;
-  ElementArrays arrays;
-  Array<double*> settling_hourglass;  ///< tiled, N/m: stiffness control while settling, whatever the run's own control is
+  PatchArrays patches;
+  Array<ElasticConstants*> constants;  ///< by the patches' material row
+  int first_partial = 0;               ///< row of the patches' first node in the partial forces
+  std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
+  std::vector<int> element_count;      ///< of each patch
 };
 
 /// A load of fixed direction, a pressure or a torque: its contributions, and the curve it follows.
@@ -78,8 +79,11 @@ struct Model {
 
   NodeArrays nodes;
   Array<double* [3][3]> constraints;
-  Array<double*> corner_force;
-  std::vector<ElementSet> elements;
+  std::vector<int> patch_elements;     ///< first element of each patch of the whole model, and their number
+  std::vector<ElementGroup> elements;
+  PartialForces partial;
+  Array<int*> listed_nodes;            ///< those that no patch advances by itself
+  bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
   ExtraForces extra;
   NodeSets sets;
   std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
@@ -98,7 +102,7 @@ struct Model {
 
   /// Force and acceleration of a node from what the last force phase left in the arrays.
   NodalAcceleration acceleration() const {
-    return {{nodes, corner_force, extra.force, tile_width},
+    return {{nodes, partial, extra.force},
             {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
             constraints};
   }

@@ -51,24 +51,44 @@ void build_constraints(Model& model, std::vector<int>& row_of_node) {
   Kokkos::deep_copy(model.constraints, host);
 }
 
-/// For each node the places of its corner forces, in the order of elements.
+/// For each node the rows of the partial forces that are its own, in the order of patches.
 void build_gather(Model& model) {
   const int count = model.nodes.count;
   std::vector<int> first(count + 1, 0);
-  for (const auto& corners : model.assembly.elements)
-    for (int n : corners) ++first[n + 1];
+  std::vector<std::pair<int, int>> rows;  // node, row
+  for (const ElementGroup& group : model.elements) {
+    const auto nodes = to_host(group.patches.node);
+    for (std::size_t k = 0; k < nodes.extent(0); ++k) {
+      rows.emplace_back(nodes(k), group.first_partial + static_cast<int>(k));
+      ++first[nodes(k) + 1];
+    }
+  }
   for (int n = 0; n < count; ++n) first[n + 1] += first[n];
-  std::vector<int> filled(first.begin(), first.end() - 1);
-  std::vector<long> corner(first.back());
-  for (const ElementSet& set : model.elements)
-    for (int e = 0; e < set.arrays.element_count; ++e)
-      for (int N = 0; N < 8; ++N) {
-        const int n = model.assembly.elements[set.first_element + e][N];
-        const long tile = e / tile_width, lane = e % tile_width;
-        corner[filled[n]++] = set.arrays.force_offset + (tile * 24 + 3 * N) * tile_width + lane;
-      }
-  model.nodes.first_corner = to_device("first corner", first);
-  model.nodes.corner = to_device("corner", corner);
+  std::vector<int> filled(first.begin(), first.end() - 1), place(rows.size());
+  for (const auto& [node, row] : rows) place[filled[node]++] = row;
+  model.nodes.first_partial = to_device("first partial force", first);
+  model.nodes.partial_place = to_device("partial forces of nodes", place);
+}
+
+/// A node of one patch only, on which nothing else acts, is advanced by its patch; the others are listed.
+void share_out_nodes(Model& model) {
+  const auto first = to_host(model.nodes.first_partial);
+  const auto extra = to_host(model.nodes.extra), constraint = to_host(model.nodes.constraint);
+  std::vector<int> listed;
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (first(n + 1) - first(n) != 1 || extra(n) >= 0 || constraint(n) >= 0) listed.push_back(n);
+  std::vector<char> alone(model.nodes.count, 1);
+  for (int n : listed) alone[n] = 0;
+  for (const ElementGroup& group : model.elements) {
+    const PatchArrays& patches = group.patches;
+    const auto nodes = to_host(patches.node), first_node = to_host(patches.first_node);
+    const auto first_corner = to_host(patches.first_corner);
+    for (int p = 0; p < patches.count; ++p)
+      for (int k = first_node(p); k < first_node(p + 1); ++k)
+        if (alone[nodes(k)] != 0) first_corner(k + p) |= advance_bit;
+    Kokkos::deep_copy(patches.first_corner, first_corner);
+  }
+  model.listed_nodes = to_device("listed nodes", listed);
 }
 
 }  // namespace
@@ -89,6 +109,7 @@ void build_node_arrays(Model& model) {
   build_constraints(model, constraint);
   nodes.constraint = to_device("constraint", constraint);
   build_gather(model);
+  share_out_nodes(model);
 }
 
 }  // namespace railwave

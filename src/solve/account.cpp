@@ -6,6 +6,7 @@
 #include "kernels/block_sum.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
+#include "model/patch_launch.hpp"
 
 namespace railwave {
 namespace {
@@ -25,13 +26,14 @@ struct NodalEnergy {
   }
 };
 
-/// Sums the real elements of two tiled arrays of one value each.
-struct ElementEnergy {
+/// Elastic energy of the patches, and what their hourglass control has stored or dissipated.
+struct PatchEnergy {
   static constexpr int values = 2;
-  Array<const double*> elastic, hourglass;
-  KOKKOS_INLINE_FUNCTION void operator()(int e, double* sum) const {
-    sum[0] += elastic(e);
-    sum[1] += hourglass(e);
+  Array<const double* [2]> energy;
+  Array<const double*> dissipated;
+  KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
+    sum[0] += energy(p, 0);
+    sum[1] += energy(p, 1) + dissipated(p);
   }
 };
 
@@ -53,19 +55,23 @@ struct Work {
   KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const { sum[0] += work(c); }
 };
 
-template <class Hourglass>
-void element_energy(const Model& model, const ElementSet& set, EnergyAccount& energy) {
-  const std::size_t slots = static_cast<std::size_t>(set.arrays.tile_count) * tile_width;
-  const auto stress = unset_array<double*>("stress", 6 * slots);
-  const auto elastic = unset_array<double*>("elastic energy", slots);
-  const auto hourglass = unset_array<double*>("hourglass energy", slots);
-  Kokkos::parallel_for("element_state", Range(0, set.arrays.batch_count()),
-                       ElementState<Hourglass>{set.constants, set.arrays, model.nodes.position, model.nodes.reference, stress,
-                                               elastic, hourglass});
+template <class S, class Hourglass>
+void element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy) {
+  const auto patch_energy = unset_array<double* [2]>("patch energy", group.patches.count);
+  launch_patches(group.patches, PatchState<S, Elastic, Hourglass>{{group.constants}, group.patches,
+                                                                  group.patches.hourglass_scale, model.nodes, {}, patch_energy});
   double sum[2];
-  block_sum(ElementEnergy{elastic, hourglass}, set.arrays.element_count, sum);
+  block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
+}
+
+template <class S>
+void element_energies(const Model& model, EnergyAccount& energy) {
+  for (const ElementGroup& group : model.elements) {
+    if (group.hourglass == scene::HourglassType::viscous) element_energy<S, ViscousHourglass>(model, group, energy);
+    else element_energy<S, StiffnessHourglass>(model, group, energy);
+  }
 }
 
 }  // namespace
@@ -76,10 +82,8 @@ EnergyAccount account_energies(const Model& model, double step) {
   block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
-  for (const ElementSet& set : model.elements) {
-    if (set.hourglass == scene::HourglassType::viscous) element_energy<ViscousHourglass>(model, set, energy);
-    else element_energy<StiffnessHourglass>(model, set, energy);
-  }
+  if (model.scene.solver.precision == scene::Precision::double_precision) element_energies<double>(model, energy);
+  else element_energies<float>(model, energy);
   for (const ContactPair& pair : model.contacts) {
     block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum);
     energy.contact += sum[0];

@@ -107,7 +107,7 @@ void forget_history(Model& model) {
     Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
     pair.next_look = -1;
   }
-  for (ElementSet& set : model.elements) Kokkos::deep_copy(set.arrays.hourglass_energy, 0.0);
+  for (ElementGroup& group : model.elements) Kokkos::deep_copy(group.patches.hourglass_energy, 0.0);
   Kokkos::deep_copy(model.connectors.arrays.energy, 0.0);
   model.step = 0;
   model.time = 0;

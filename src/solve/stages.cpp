@@ -2,28 +2,49 @@
 
 #include "kernels/contact_force.hpp"
 #include "kernels/torque.hpp"
+#include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
 
 namespace railwave {
 namespace {
 
-template <class Hourglass>
-void element_forces(const Model& model, const ElementSet& set, const Array<double*>& scale, double step) {
-  ElementArrays arrays = set.arrays;
-  arrays.hourglass_scale = scale;
-  Kokkos::parallel_for("element_force", Range(0, arrays.batch_count()),
-                       ElementForce<Hourglass>{set.constants, step, arrays, model.nodes.position, model.nodes.reference,
-                                               model.nodes.velocity, model.corner_force});
+NodeAdvance node_advance(const Model& model, double step) {
+  // The first velocities are those at t = 0, half a step later than the scheme's own (thesis table 2.1).
+  const Vec3& g = model.scene.gravity;
+  return {model.nodes, {{g[0], g[1], g[2]}}, model.step == 0 ? 0.5 * step : step, step};
 }
 
-Stage element_stage(const Model& model, const ElementSet& set) {
-  const bool viscous = set.hourglass == scene::HourglassType::viscous;
-  const auto run = [&model, &set, viscous](const Instant& instant) {
-    if (instant.settling) element_forces<StiffnessHourglass>(model, set, set.settling_hourglass, 0);
-    else if (viscous) element_forces<ViscousHourglass>(model, set, set.arrays.hourglass_scale, instant.step);
-    else element_forces<StiffnessHourglass>(model, set, set.arrays.hourglass_scale, instant.step);
+template <class S, class Hourglass, bool Advance>
+void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
+  using Force = PatchForce<S, Elastic, Hourglass, Advance>;
+  const auto partial = [&] {
+    if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
+    else return model.partial.narrow;
+  }();
+  launch_patches(group.patches, Force{{group.constants}, group.patches, scale, node_advance(model, instant.step), instant.step,
+                                      partial, group.first_partial});
+}
+
+template <class S>
+void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
+  const PatchArrays& patches = group.patches;
+  const bool viscous = group.hourglass == scene::HourglassType::viscous;
+  if (instant.settling) element_forces<S, StiffnessHourglass, false>(model, group, patches.settling_hourglass, instant);
+  else if (viscous && instant.advancing) element_forces<S, ViscousHourglass, true>(model, group, patches.hourglass_scale, instant);
+  else if (viscous) element_forces<S, ViscousHourglass, false>(model, group, patches.hourglass_scale, instant);
+  else if (instant.advancing) element_forces<S, StiffnessHourglass, true>(model, group, patches.hourglass_scale, instant);
+  else element_forces<S, StiffnessHourglass, false>(model, group, patches.hourglass_scale, instant);
+}
+
+Stage element_stage(Model& model, const ElementGroup& group) {
+  const bool viscous = group.hourglass == scene::HourglassType::viscous;
+  const bool wide = model.scene.solver.precision == scene::Precision::double_precision;
+  const auto run = [&model, &group, wide](const Instant& instant) {
+    if (wide) element_forces<double>(model, group, instant);
+    else element_forces<float>(model, group, instant);
+    model.patches_have_advanced = instant.advancing;
   };
-  return {"elements of " + set.part + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
+  return {"elements of " + group.parts + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
 }
 
 Stage set_motion_stage(const Model& model) {
@@ -90,20 +111,23 @@ Stage contact_stage(Model& model, ContactPair& pair) {
 
 std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages;
-  for (const ElementSet& set : model.elements) stages.push_back(element_stage(model, set));
   if (model.sets.count > 0) stages.push_back(set_motion_stage(model));
   for (const LoadArrays& load : model.loads) stages.push_back(load_stage(model, load));
   if (model.connectors.arrays.count > 0) stages.push_back(connector_stage(model));
   if (model.extra.row_count > 0) stages.push_back(gather_extra_stage(model));
   for (ContactPair& pair : model.contacts)
     stages.push_back(pair.arrays.friction > 0 ? contact_stage<true>(model, pair) : contact_stage<false>(model, pair));
+  // Last: its patches may move their nodes at once, where all else must still find them.
+  for (const ElementGroup& group : model.elements) stages.push_back(element_stage(model, group));
   return stages;
 }
 
 void advance(Model& model, double step) {
-  // The first velocities are those at t = 0, half a step later than the scheme's own (thesis table 2.1).
-  const double velocity_step = model.step == 0 ? 0.5 * step : step;
-  Kokkos::parallel_for("node_update", Range(0, model.nodes.count), NodeUpdate{model.acceleration(), velocity_step, step});
+  const NodeUpdate update{model.acceleration(), node_advance(model, step),
+                          model.patches_have_advanced ? model.listed_nodes : Array<int*>()};
+  const int count = model.patches_have_advanced ? static_cast<int>(model.listed_nodes.extent(0)) : model.nodes.count;
+  Kokkos::parallel_for("node_update", Range(0, count), update);
+  model.patches_have_advanced = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;
 }

@@ -14,6 +14,7 @@ struct Instant {
   double step = 0;           ///< s to the next instant
   double elapsed = 0;        ///< s since the instant before; 0 at the first
   bool settling = false;     ///< pseudo-time of a dynamic relaxation
+  bool advancing = false;    ///< nobody looks at this instant: patches may move the nodes that are theirs alone at once
 };
 
 /// One piece of physics of a step. A scene's list holds only those that it needs.

@@ -79,10 +79,12 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   instant.step = model.step_size;
   while (true) {
     instant.time = model.time = static_cast<double>(model.step) * model.step_size;
+    const bool stopping = stop_requested != 0;
+    const bool looked_at = due.history(model.step) || due.fields(model.step) || due.check(model.step) || stopping;
+    instant.advancing = !looked_at;
     for (const Stage& stage : stages) stage.run(instant);
 
-    const bool stopping = stop_requested != 0;
-    if (due.history(model.step) || due.fields(model.step) || due.check(model.step) || stopping) {
+    if (looked_at) {
       HistorySample sample = take_sample(model, model.step_size);
       if (model.step == 0) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;

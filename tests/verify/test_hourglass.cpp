@@ -15,7 +15,7 @@ double amplitude(const Model& model, int direction, int mode) {
   for (const auto& corners : model.assembly.elements) {
     double sum = 0;
     for (int N = 0; N < 8; ++N)
-      sum += hourglass_base(mode, N) * (x(corners[N], direction) - model.assembly.nodes[corners[N]][direction]);
+      sum += mode_sign(3 + mode, N) * (x(corners[N], direction) - model.assembly.nodes[corners[N]][direction]);
     largest = std::max(largest, std::fabs(sum) / 8);
   }
   return largest;

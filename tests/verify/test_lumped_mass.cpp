@@ -60,7 +60,7 @@ TEST_CASE("lumped masses add up to density times volume, and about the body's ow
       CHECK_THAT(total_mass(model), WithinRel(7800 * solid.volume, 1e-12));
       for (int i = 0; i < 3; ++i) {
         double moment = 0;
-        for (std::size_t k = 0; k < assembly.nodes.size(); ++k) moment += model.mass[k] * assembly.nodes[k][i];
+        for (std::size_t k = 0; k < model.mass.size(); ++k) moment += model.mass[k] * model.assembly.nodes[k][i];
         CHECK_THAT(moment, WithinRel(7800 * solid.moment[i], 1e-11));
       }
       for (double m : model.mass) CHECK(m > 0);

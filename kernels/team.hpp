@@ -1,0 +1,23 @@
+#pragma once
+
+#include "kernels/spaces.hpp"
+
+namespace railwave {
+
+/// A team: a block of threads on a GPU, one thread on a host.
+using Team = Kokkos::TeamPolicy<ExecutionSpace>;
+using Scratch = ExecutionSpace::scratch_memory_space;
+
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+inline constexpr bool on_device = true;
+#else
+inline constexpr bool on_device = false;
+#endif
+
+/// The team's scratch memory for `count` values.
+template <class S, class Member>
+KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count) {
+  return static_cast<S*>(team.team_scratch(0).get_shmem(count * sizeof(S)));
+}
+
+}  // namespace railwave

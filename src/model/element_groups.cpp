@@ -1,0 +1,223 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Stiffness hourglass control of a set whose own control is viscous, while it settles.
+constexpr double settling_coefficient = 0.05;
+
+double viscous_scale(double coefficient, double density, double wave_speed, double volume) {
+  return 0.25 * coefficient * density * wave_speed * std::pow(volume, 2.0 / 3.0);
+}
+
+double stiffness_scale(double coefficient, double modulus, double volume) {
+  return coefficient * modulus * std::cbrt(volume) / 16.0;
+}
+
+/// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
+/// (the inner nodes of MacNeal & Harder's patch have one), and `railwave check` reports it.
+void check_element(const Model& model, const Assembly::PartRange& part, int element, const HexahedronCorners& corners) {
+  const double g = 1 / std::sqrt(3.0);
+  for (const auto& s : hexahedron_corner_signs) {
+    if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
+    throw InputError(fmt::format(
+        "{}: part '{}': element {} (counted from 0 in its mesh) near ({:.6g}, {:.6g}, {:.6g}) m is inverted or flat; "
+        "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the same way",
+        model.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
+  }
+}
+
+int group_of(Model& model, scene::HourglassType hourglass, const std::string& part) {
+  for (std::size_t g = 0; g < model.elements.size(); ++g)
+    if (model.elements[g].hourglass == hourglass) {
+      model.elements[g].parts += ", " + part;
+      return static_cast<int>(g);
+    }
+  model.elements.emplace_back();
+  model.elements.back().hourglass = hourglass;
+  model.elements.back().parts = part;
+  return static_cast<int>(model.elements.size()) - 1;
+}
+
+/// Masses and lengths of a part's elements, and their hourglass scales by element.
+void element_values(Model& model, const Assembly::PartRange& range, const scene::Part& part, std::vector<float>& scale,
+                    std::vector<float>& settling) {
+  const Assembly& assembly = model.assembly;
+  const scene::Material& material = model.scene.materials[range.material];
+  const double modulus = material.dilatational_modulus(), wave_speed = material.dilatational_speed();
+  const bool viscous = part.hourglass == scene::HourglassType::viscous;
+  const double own = part.hourglass_coefficient;
+  for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
+    const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[e]);
+    const auto integrals = hexahedron_shape_integrals(x);
+    double volume = 0;
+    for (double part_of_it : integrals) volume += part_of_it;
+    scale[e] = static_cast<float>(viscous ? viscous_scale(own, material.density, wave_speed, volume)
+                                          : stiffness_scale(own, modulus, volume));
+    settling[e] = static_cast<float>(stiffness_scale(viscous ? settling_coefficient : own, modulus, volume));
+    model.element_length[e] = hexahedron_length(x);
+    // Lumped mass by row sums (thesis 2.2.2).
+    for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
+  }
+}
+
+/// The host side of a group's patches.
+struct PatchLists {
+  std::vector<int> element_count, material, first_node{0}, node;
+  std::vector<std::array<int, 3>> frame;
+  std::vector<std::uint8_t> corner;
+  std::vector<std::uint16_t> first_corner, corner_place;
+  std::vector<float> scale, settling;
+  int most_nodes = 0;
+};
+
+double squared_distance(const Vec3& a, const Vec3& b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+/// Three of the patch's nodes far from each other and from one line.
+std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int>& nodes) {
+  const int a = nodes[0];
+  int b = a, c = a;
+  double farthest = -1, widest = -1;
+  for (int n : nodes)
+    if (squared_distance(x[n], x[a]) > farthest) {
+      farthest = squared_distance(x[n], x[a]);
+      b = n;
+    }
+  for (int n : nodes) {
+    Vec3 u{}, w{};
+    for (int i = 0; i < 3; ++i) {
+      u[i] = x[b][i] - x[a][i];
+      w[i] = x[n][i] - x[a][i];
+    }
+    const Vec3 area{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const double wide = area[0] * area[0] + area[1] * area[1] + area[2] * area[2];
+    if (wide > widest) {
+      widest = wide;
+      c = n;
+    }
+  }
+  return {a, b, c};
+}
+
+/// Appends the patch of elements [first, end).
+void append_patch(const Assembly& assembly, int first, int end, int lanes, PatchLists& lists) {
+  const int count = end - first;
+  std::vector<int> nodes;
+  for (int e = first; e < end; ++e) nodes.insert(nodes.end(), assembly.elements[e].begin(), assembly.elements[e].end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<std::vector<std::uint16_t>> places(nodes.size());
+  std::array<std::uint8_t, 8> local{};
+  for (int slot = 0; slot < patch_size; ++slot) {
+    const int e = first + std::min(slot, count - 1);
+    const std::size_t batch_begin = lists.corner.size() - (slot % lanes == 0 ? 0 : 8u * lanes);
+    if (slot % lanes == 0) lists.corner.resize(lists.corner.size() + 8u * lanes);
+    for (int N = 0; N < 8; ++N) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), assembly.elements[e][N]) - nodes.begin();
+      local[N] = static_cast<std::uint8_t>(place);
+      lists.corner[batch_begin + static_cast<std::size_t>(N) * lanes + slot % lanes] = local[N];
+      if (slot < count) places[place].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
+    }
+  }
+  int corners = 0;
+  for (const auto& of_node : places) {
+    lists.first_corner.push_back(static_cast<std::uint16_t>(corners));
+    lists.corner_place.insert(lists.corner_place.end(), of_node.begin(), of_node.end());
+    corners += static_cast<int>(of_node.size());
+  }
+  lists.first_corner.push_back(static_cast<std::uint16_t>(corners));
+  lists.corner_place.resize(8u * patch_size * (lists.element_count.size() + 1));
+  lists.element_count.push_back(count);
+  lists.node.insert(lists.node.end(), nodes.begin(), nodes.end());
+  lists.first_node.push_back(static_cast<int>(lists.node.size()));
+  lists.frame.push_back(frame_nodes(assembly.nodes, nodes));
+  lists.most_nodes = std::max(lists.most_nodes, static_cast<int>(nodes.size()));
+}
+
+PatchArrays arrays_of(const PatchLists& lists) {
+  PatchArrays patches;
+  patches.count = static_cast<int>(lists.element_count.size());
+  patches.most_nodes = (lists.most_nodes + 15) / 16 * 16;
+  patches.element_count = to_device("patch element count", lists.element_count);
+  patches.material = to_device("patch material", lists.material);
+  patches.first_node = to_device("patch first node", lists.first_node);
+  patches.node = to_device("patch nodes", lists.node);
+  patches.frame = to_device("patch frame", lists.frame);
+  patches.corner = to_device("patch corners", lists.corner);
+  patches.first_corner = to_device("patch first corner", lists.first_corner);
+  patches.corner_place = to_device("patch corner places", lists.corner_place);
+  patches.hourglass_scale = to_device("hourglass scale", lists.scale);
+  patches.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
+  patches.hourglass_energy = Array<double*>("hourglass energy", patches.count);
+  return patches;
+}
+
+}  // namespace
+
+void check_elements(const Model& model) {
+  for (const auto& part : model.assembly.parts)
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      check_element(model, part, e, corners_of(model.assembly.nodes, model.assembly.elements[e]));
+}
+
+void build_elements(Model& model) {
+  const Assembly& assembly = model.assembly;
+  model.mass.assign(assembly.nodes.size(), 0);
+  model.element_length.resize(assembly.elements.size());
+  std::vector<float> scale(assembly.elements.size()), settling(scale.size());
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    element_values(model, assembly.parts[p], model.scene.parts[p], scale, settling);
+  for (std::size_t i = 0; i < model.scene.points.size(); ++i)
+    model.mass[assembly.point_nodes[i]] = model.scene.points[i].mass;
+
+  const bool single = model.scene.solver.precision != scene::Precision::double_precision;
+  const int lanes = single ? lane_count<float> : lane_count<double>;
+  std::vector<PatchLists> lists;
+  std::vector<std::vector<ElasticConstants>> constants;
+  std::size_t part = 0, group = 0;
+  for (std::size_t p = 0; p + 1 < model.patch_elements.size(); ++p) {
+    const int first = model.patch_elements[p], end = model.patch_elements[p + 1];
+    while (part < assembly.parts.size() && first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
+    const auto& range = assembly.parts[part];
+    if (first == range.first_element) {
+      group = group_of(model, model.scene.parts[part].hourglass, range.name);
+      lists.resize(model.elements.size());
+      constants.resize(model.elements.size());
+      const scene::Material& material = model.scene.materials[range.material];
+      constants[group].push_back(
+          {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()});
+    }
+    append_patch(assembly, first, end, lanes, lists[group]);
+    lists[group].material.push_back(static_cast<int>(constants[group].size()) - 1);
+    for (int slot = 0; slot < patch_size; ++slot) {
+      // Slots that only fill up must not dissipate.
+      lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);
+      lists[group].settling.push_back(slot < end - first ? settling[first + slot] : 0.0f);
+    }
+    model.elements[group].first_element.push_back(first);
+    model.elements[group].element_count.push_back(end - first);
+  }
+  int rows = 0;
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    ElementGroup& elements = model.elements[g];
+    elements.patches = arrays_of(lists[g]);
+    elements.constants = to_device("elastic constants", constants[g]);
+    elements.first_partial = rows;
+    rows += lists[g].first_node.back();
+  }
+  model.partial.single_precision = single;
+  if (single) model.partial.narrow = Array<float* [3]>("partial forces", rows);
+  else model.partial.wide = Array<double* [3]>("partial forces", rows);
+}
+
+}  // namespace railwave

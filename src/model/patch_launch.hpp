@@ -1,0 +1,32 @@
+#pragma once
+
+#include "kernels/element_force.hpp"
+
+namespace railwave {
+
+/// Blocks of a multiprocessor that the compiler is asked to leave room for: more of them hide latency, fewer leave each
+/// thread more registers. Measured on an H100.
+template <class S>
+inline constexpr int blocks_at_once = sizeof(S) == sizeof(double) ? 4 : 8;
+
+template <class Functor>
+struct LaunchBoundsOf;
+template <class S, class Material, class Hourglass, bool Advance>
+struct LaunchBoundsOf<PatchForce<S, Material, Hourglass, Advance>> {
+  using type = Kokkos::LaunchBounds<patch_size, blocks_at_once<S>>;
+};
+template <class S, class Material, class Hourglass>
+struct LaunchBoundsOf<PatchState<S, Material, Hourglass>> {
+  using type = Kokkos::LaunchBounds<patch_size, 1>;
+};
+
+/// Runs a functor with one team for each patch.
+template <class Functor>
+void launch_patches(const PatchArrays& patches, const Functor& functor) {
+  using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type>;
+  const int team_size = on_device ? patch_size : 1;
+  Kokkos::parallel_for("patches", Policy(patches.count, team_size).set_scratch_size(0, Kokkos::PerTeam(Functor::scratch_size(patches))),
+                       functor);
+}
+
+}  // namespace railwave

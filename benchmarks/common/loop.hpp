@@ -20,6 +20,7 @@ class Loop {
 
   void step() {
     instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
+    instant_.advancing = true;
     for (const Stage& stage : stages_) stage.run(instant_);
     advance(model_, model_.step_size);
     instant_.elapsed = model_.step_size;
@@ -27,6 +28,7 @@ class Loop {
 
   /// Forces at the present instant, for fields that need them.
   void forces() {
+    instant_.advancing = false;
     instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
     for (const Stage& stage : stages_) stage.run(instant_);
   }
@@ -37,6 +39,7 @@ class Loop {
     std::vector<std::pair<std::string, double>> result;
     for (const Stage& stage : stages_) result.emplace_back(stage.name, 0.0);
     result.emplace_back("nodes", 0.0);
+    instant_.advancing = true;
     for (long k = 0; k < count; ++k) {
       instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
       for (std::size_t s = 0; s < stages_.size(); ++s) result[s].second += seconds_of([&] { stages_[s].run(instant_); });

@@ -10,23 +10,31 @@ double bytes_of(const View& view) {
 }
 
 /// Bytes that one step of the model's element and node kernels must move between memory and processor when every array
-/// that a kernel reads comes in once and every array it writes goes out once: node data that several elements read
-/// count once a kernel (an ideal cache), what a write fetches first does not count. Loads and contact are left out.
+/// that a kernel reads comes in once and every array it writes goes out once: node data that several patches read
+/// count once a kernel (an ideal cache), what a write fetches first does not count. Patches advance the nodes that are
+/// theirs alone; the others' partial forces go out and come in again. Loads and contact are left out.
 inline double step_traffic(const Model& model) {
   const NodeArrays& n = model.nodes;
-  double elements = bytes_of(model.corner_force) + bytes_of(n.position) + bytes_of(n.reference);
+  double bytes = bytes_of(n.position) + bytes_of(n.reference);
   bool velocities = false;
-  for (const ElementSet& set : model.elements) {
-    elements += bytes_of(set.arrays.corners) + bytes_of(set.arrays.hourglass_scale);
-    if (set.hourglass == scene::HourglassType::viscous) {
-      elements += 2 * bytes_of(set.arrays.hourglass_energy);
+  for (const ElementGroup& group : model.elements) {
+    const PatchArrays& p = group.patches;
+    bytes += bytes_of(p.element_count) + bytes_of(p.material) + bytes_of(p.first_node) + bytes_of(p.node) + bytes_of(p.frame) +
+             bytes_of(p.corner) + bytes_of(p.first_corner) + bytes_of(p.corner_place) + bytes_of(p.hourglass_scale);
+    if (group.hourglass == scene::HourglassType::viscous) {
+      bytes += 2 * bytes_of(p.hourglass_energy);
       velocities = true;
     }
   }
-  if (velocities) elements += bytes_of(n.velocity);
-  const double nodes = bytes_of(model.corner_force) + bytes_of(n.corner) + bytes_of(n.first_corner) + bytes_of(n.extra) +
-                       bytes_of(n.constraint) + bytes_of(n.mass) + 2 * bytes_of(n.position) + 2 * bytes_of(n.velocity);
-  return elements + nodes;
+  if (velocities) bytes += bytes_of(n.velocity);
+  const double nodes = n.count, listed = static_cast<double>(model.listed_nodes.extent(0)), alone = nodes - listed;
+  const double rows = static_cast<double>(n.partial_place.extent(0)), listed_rows = rows - alone;
+  const double row_bytes = (bytes_of(model.partial.wide) + bytes_of(model.partial.narrow)) / rows;
+  const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;
+  bytes += alone * (state + mass);                                   // velocities and positions are written, the mass read
+  bytes += listed_rows * (2 * row_bytes + sizeof(int));              // partial forces out and in, and their places
+  bytes += listed * (2 * state + mass + 4 * sizeof(int));            // listed node, first partial, extra row, constraint
+  return bytes;
 }
 
 }  // namespace railwave::bench

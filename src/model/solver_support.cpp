@@ -14,9 +14,8 @@ namespace {
 
 void refuse_unknown_methods(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
-  if (solver.precision != scene::Precision::double_precision)
-    refuse(scene, fmt::format("precision = \"{}\"", solver.precision == scene::Precision::mixed ? "mixed" : "float"),
-           "leave precision out, or set it to \"double\"");
+  if (solver.precision == scene::Precision::single_precision)
+    refuse(scene, "precision = \"float\"", "set it to \"double\" or \"mixed\"");
   if (solver.subcycling) refuse(scene, "subcycling = true", "leave subcycling out, or set it to false");
   if (solver.step_estimate != scene::StepEstimate::element)
     refuse(scene, fmt::format("step_estimate = \"{}\"",

@@ -23,8 +23,6 @@ void refused(const scene::Scene& scene, const std::string& wish, const std::stri
 
 TEST_CASE("a precision that the loop does not have is refused") {
   scene::Scene scene = block();
-  scene.solver.precision = scene::Precision::mixed;
-  refused(scene, "precision = \"mixed\"", "\"double\"");
   scene.solver.precision = scene::Precision::single_precision;
   refused(scene, "precision = \"float\"", "\"double\"");
 }

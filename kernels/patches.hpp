@@ -84,7 +84,7 @@ struct StagedNodes {
   S* velocity;      ///< m/s; absent where no kernel needs it
   int stride;
 
-  static constexpr std::size_t values(int stride, bool with_velocity) { return (with_velocity ? 9u : 6u) * stride; }
+  KOKKOS_INLINE_FUNCTION static constexpr std::size_t values(int stride, bool with_velocity) { return (with_velocity ? 9u : 6u) * stride; }
 
   KOKKOS_INLINE_FUNCTION StagedNodes(S* memory, int stride_)
       : position(memory), displacement(memory + 3 * stride_), velocity(memory + 6 * stride_), stride(stride_) {}

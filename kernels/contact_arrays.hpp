@@ -4,37 +4,48 @@
 
 namespace railwave {
 
-/// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes and segments have a
-/// numbering of their own; `master_nodes` and `slave_nodes` lead to the model's.
+/// What a step must know of a master segment, in two 16-byte loads.
+struct alignas(16) Segment {
+  int node[4];       ///< model node numbers, turned outwards
+  int neighbour[4];  ///< segment beyond the side eta = -1, xi = 1, eta = 1, xi = -1; -1: the surface ends there
+};
+
+/// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes have a numbering of their
+/// own; `master_nodes` and `slave_nodes` lead to the model's.
 struct ContactArrays {
   int slave_count = 0, master_count = 0, segment_count = 0;
   double friction = 0;
+  bool folded_inwards = false;         ///< the master has sharp inner folds: every step searches anew
   Array<int*> slave_nodes;
   Array<int*> master_nodes;
   Array<int* [4]> segments;            ///< master node numbers, turned outwards
   Array<int*> first_segment;           ///< master_count + 1
   Array<int*> segment_of_node;         ///< segments around a master node
+  Array<Segment*> surface;             ///< the same segments by model node numbers, with their neighbours
   Array<double*> segment_stiffness;    ///< N/m, eq. 2.26d
 
   /// What the pair does now, by slave node.
-  Array<int*> closest;                 ///< master node, tracked from step to step
-  Array<int*> segment;                 ///< touched, -1: none
-  Array<double* [2]> place;            ///< xi, eta on that segment
-  Array<double*> gap;                  ///< m, negative: penetration
+  Array<int*> tracked;                 ///< segment that the node was last seen over, touched or not; -1: none yet
+  Array<double* [2]> place;            ///< xi, eta on the tracked segment
+  Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
+  Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far
   Array<double* [3]> normal_force;     ///< N on the slave
   Array<double* [3]> tangential_force; ///< N on the slave
-  Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
   Array<double*> friction_energy;      ///< J dissipated so far
-  Array<double* [3]> master_force;     ///< N, by master node
 };
 
-/// Which nodes can touch until the window is laid out anew.
+/// A slave node in the window.
+struct alignas(16) WindowEntry {
+  int slave;  ///< position among the pair's slave nodes
+  int node;   ///< model node number
+  int near;   ///< 1: it can touch until the next look, and is projected at each step
+  int unused;
+};
+
+/// Which slave nodes can touch until the window is laid out anew, ascending.
 struct ContactWindow {
-  int slave_count = 0, master_count = 0;
-  Array<int*> slaves;       ///< positions among the pair's slave nodes, ascending
-  Array<int*> masters;      ///< master nodes that those slaves can load
-  Array<int*> first;        ///< master_count + 1
-  Array<int*> candidates;   ///< slaves that can touch a segment around the master node, ascending
+  int count = 0;
+  Array<WindowEntry*> entries;
 };
 
 inline constexpr int status_apart = 0, status_sticks = 1, status_slips = 2;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact_search.hpp"
+#include "kernels/contact_track.hpp"
 #include "kernels/extra_force.hpp"
 
 namespace railwave {
@@ -8,25 +9,34 @@ namespace railwave {
 /// Step (d) of the thesis's table 2.1 for one slave node: locate, project, penetrate, push, rub.
 /// Normal: penalty f = -l k n (eq. 2.26). Tangential: Coulomb with the stick trial f* = f_T - k de (eqs. 2.28), de the
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
+/// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27).
 template <bool Friction>
 struct ContactForce {
   ContactSearch search;
   ContactWindow window;
-  ExtraForces extra;
+  ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const ContactArrays& contact = search.contact;
-    const int s = window.slaves(i);
-    const int node = contact.slave_nodes(s);
-    const Vector3 slave = row(search.position, node);
-    const int previous = contact.segment(s);
+    const WindowEntry entry = window.entries(i);
+    if (entry.near == 0) return;
+    const int s = entry.slave;
+    const Vector3 slave = row(search.position, entry.node);
+    const bool touched = contact.status(s) != status_apart;
+    const int tracked = contact.tracked(s);
+    const Vector3 place{{contact.place(s, 0), contact.place(s, 1), 0}};
 
-    contact.closest(s) = search.closest_node(slave, contact.closest(s));
-    const Projection now = search.locate(slave, contact.closest(s), previous);
-    contact.gap(s) = now.segment < 0 ? 1e300 : now.gap;
-    if (now.segment < 0 || now.gap >= 0) {
-      part(s, previous);
+    const Projection now = where(slave, tracked, place, touched);
+    const int previous = touched ? tracked : -1;
+    if (now.segment >= 0) {
+      contact.tracked(s) = now.segment;
+      contact.place(s, 0) = now.xi;
+      contact.place(s, 1) = now.eta;
+    }
+    contact.gap(s) = now.gap;
+    if (!(now.gap < 0)) {
+      if (touched) part(s, previous);
       return;
     }
 
@@ -36,26 +46,45 @@ struct ContactForce {
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
     if constexpr (Friction) {
-      const Vector3 tangential = rub(s, previous, now, stiffness, contact.friction * pressing, status);
+      const Vector3 tangential = rub(s, slave, previous, place, now, stiffness, contact.friction * pressing, status);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
       force = force + tangential;
     }
-    contact.segment(s) = now.segment;
-    contact.place(s, 0) = now.xi;
-    contact.place(s, 1) = now.eta;
     contact.status(s) = status;
-    for (int k = 0; k < 3; ++k) extra.force(extra_row(node), k) += force[k];
+    push(entry.node, contact.surface(now.segment), now, force);
+  }
+
+  /// Where the slave stands now; gap 1e300 where beside the surface. What ends being apart is searched anew, so that it
+  /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
+  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int tracked, const Vector3& place, bool touched) const {
+    Projection now{};
+    now.segment = tracked;
+    now.xi = place[0];
+    now.eta = place[1];
+    double beyond = 1e300;
+    auto verdict = ContactTrack::unknown;
+    if (!search.contact.folded_inwards) verdict = ContactTrack::follow(search, slave, now, beyond);
+    const bool over = verdict == ContactTrack::over_segment;
+    if (verdict == ContactTrack::unknown || (over && now.gap < 0 && !touched)) {
+      double found_beyond;
+      const int start = search.corner_at(now.segment, now.xi, now.eta);
+      const Projection found =
+          search.nearest(slave, search.closest_node(slave, start), touched ? tracked : -1, found_beyond);
+      if (!over || found_beyond <= ContactSearch::outside_tolerance) {
+        now = found;
+        beyond = found_beyond;
+      }
+    }
+    if (beyond > ContactSearch::outside_tolerance) now.gap = 1e300;
+    return now;
   }
 
   KOKKOS_INLINE_FUNCTION void part(int s, int previous) const {
     const ContactArrays& contact = search.contact;
     if constexpr (Friction) {
-      if (previous >= 0) {
-        const Vector3 held = row(contact.tangential_force, s);
-        contact.friction_energy(s) += 0.5 * dot(held, held) / contact.segment_stiffness(previous);
-      }
+      const Vector3 held = row(contact.tangential_force, s);
+      contact.friction_energy(s) += 0.5 * dot(held, held) / contact.segment_stiffness(previous);
     }
-    contact.segment(s) = -1;
     contact.status(s) = status_apart;
     for (int k = 0; k < 3; ++k) {
       contact.normal_force(s, k) = 0;
@@ -63,15 +92,15 @@ struct ContactForce {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, int previous, const Projection& now, double stiffness, double bound,
-                                     int& status) const {
+  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, const Vector3& slave, int previous, const Vector3& place, const Projection& now,
+                                     double stiffness, double bound, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
     if (previous >= 0) {
       Vector3 corner[4];
-      search.corners_of(previous, corner);
-      moved = now.point - segment_point(corner, contact.place(s, 0), contact.place(s, 1));
+      search.corners_from(slave, previous, corner);
+      moved = now.offset - segment_point(corner, place[0], place[1]);
       held = row(contact.tangential_force, s);
     }
     Vector3 trial = held - stiffness * moved;
@@ -84,32 +113,15 @@ struct ContactForce {
         0.5 * dot(held + trial, moved) + 0.5 * (dot(trial, trial) - dot(held, held)) / stiffness;
     return trial;
   }
-};
 
-/// Forces on the master's nodes, eq. 2.27, gathered in fixed order from the slaves that can reach them.
-struct ContactGather {
-  ContactArrays contact;
-  ContactWindow window;
-  ExtraForces extra;
-  Array<const int*> extra_row;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const int m = window.masters(i);
-    Vector3 force{{0, 0, 0}};
-    for (int c = window.first(i); c < window.first(i + 1); ++c) {
-      const int s = window.candidates(c);
-      const int segment = contact.segment(s);
-      if (segment < 0) continue;
-      for (int k = 0; k < 4; ++k)
-        if (contact.segments(segment, k) == m) {
-          const double share = segment_shape(k, contact.place(s, 0), contact.place(s, 1));
-          force = force - share * (row(contact.normal_force, s) + row(contact.tangential_force, s));
-        }
-    }
-    const int r = extra_row(contact.master_nodes(m));
-    for (int k = 0; k < 3; ++k) {
-      contact.master_force(m, k) = force[k];
-      extra.force(r, k) += force[k];
+  /// Equal and opposite to the last bit: the last corner takes what the others leave.
+  KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now, const Vector3& force) const {
+    FixedForce left = extra.fixed(force);
+    extra.add(extra_row(node), left);
+    for (int k = 0; k < 4; ++k) {
+      const FixedForce share = k < 3 ? extra.fixed(segment_shape(k, now.xi, now.eta) * force) : left;
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
+      extra.subtract(extra_row(segment.node[k]), share);
     }
   }
 };

@@ -1,36 +1,20 @@
 #pragma once
 
-#include "kernels/contact_arrays.hpp"
+#include "kernels/contact_projection.hpp"
 
 namespace railwave {
 
-/// Where a slave node stands over the master surface.
-struct Projection {
-  int segment;       ///< -1: beside the surface
-  double xi, eta;
-  double gap;        ///< along the normal, m; negative: penetration
-  Vector3 point;     ///< contact point r(xi, eta)
-  Vector3 normal;    ///< outward unit normal of the master there
-};
-
-/// Search of thesis 2.6.1: closest master node (tracked), the segment around it that holds the slave's projection
-/// (eq. 2.23, last step's segment first), the contact point by Newton iteration (eq. 2.25), the penetration (eq. 2.26a).
-struct ContactSearch {
-  ContactArrays contact;
-  Array<const double* [3]> position;
-
+/// Search of thesis 2.6.1 that knows nothing of the steps before but where to begin: closest master node, the segment around
+/// it that holds the slave's projection (eq. 2.23), the contact point by Newton iteration (eq. 2.25), the penetration
+/// (eq. 2.26a). Its result does not depend on where it begins.
+struct ContactSearch : ContactProjection {
   /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface: on a convex fold
   /// a penetrating node can be outside both neighbours.
   static constexpr double outside_tolerance = 0.05;
-  static constexpr double on_segment = 1e-12;
 
   KOKKOS_INLINE_FUNCTION Vector3 master(int m) const { return row(position, contact.master_nodes(m)); }
 
-  KOKKOS_INLINE_FUNCTION void corners_of(int segment, Vector3 (&corner)[4]) const {
-    for (int k = 0; k < 4; ++k) corner[k] = master(contact.segments(segment, k));
-  }
-
-  /// Walks over the mesh from the last closest node to the nearest one around.
+  /// Walks over the mesh from a master node to the nearest one around; of nodes equally near to the first.
   KOKKOS_INLINE_FUNCTION int closest_node(const Vector3& slave, int start) const {
     int best = start;
     Vector3 d = slave - master(best);
@@ -42,7 +26,7 @@ struct ContactSearch {
           const int m = contact.segments(contact.segment_of_node(s), k);
           d = slave - master(m);
           const double distance = dot(d, d);
-          if (distance < least) {
+          if (distance < least || (distance == least && m < best)) {
             least = distance;
             best = m;
           }
@@ -66,52 +50,6 @@ struct ContactSearch {
     return dot(c1s, m) >= 0 && dot(c1s, cross(s, c2)) >= 0;
   }
 
-  /// Contact point on one segment by Newton iteration on the squared distance (eq. 2.25).
-  KOKKOS_INLINE_FUNCTION Projection project(const Vector3& slave, int segment) const {
-    Vector3 corner[4];
-    corners_of(segment, corner);
-    double xi = 0, eta = 0;
-    Vector3 along_xi, along_eta, r;
-    const Vector3 twist = 0.25 * ((corner[0] - corner[1]) + (corner[2] - corner[3]));
-    for (int iteration = 0; iteration < 12; ++iteration) {
-      r = segment_point(corner, xi, eta);
-      along_xi = (0.25 * (1 - eta)) * (corner[1] - corner[0]) + (0.25 * (1 + eta)) * (corner[2] - corner[3]);
-      along_eta = (0.25 * (1 - xi)) * (corner[3] - corner[0]) + (0.25 * (1 + xi)) * (corner[2] - corner[1]);
-      const Vector3 d = slave - r, n = cross(along_xi, along_eta);
-      // Of d.twist only the part along the normal, all that is left of d at the contact point: with d whole the first
-      // iterations can miss on distorted segments.
-      const double curvature = dot(d, n) * dot(n, twist) / dot(n, n);
-      const double a = dot(along_xi, along_xi), b = dot(along_xi, along_eta) - curvature;
-      const double c = dot(along_eta, along_eta);
-      const double p = dot(along_xi, d), q = dot(along_eta, d);
-      const double step_xi = (c * p - b * q) / (a * c - b * b), step_eta = (a * q - b * p) / (a * c - b * b);
-      // A slave far beside a warped segment must not send the iteration to infinity.
-      xi = std::fmax(-3.0, std::fmin(3.0, xi + step_xi));
-      eta = std::fmax(-3.0, std::fmin(3.0, eta + step_eta));
-      if (std::fabs(step_xi) + std::fabs(step_eta) < 1e-13) break;
-    }
-    return finish(slave, segment, corner, xi, eta);
-  }
-
-  KOKKOS_INLINE_FUNCTION static Projection finish(const Vector3& slave, int segment, const Vector3 (&corner)[4], double xi,
-                                                  double eta) {
-    Projection result;
-    const Vector3 along_xi = (1 - eta) * (corner[1] - corner[0]) + (1 + eta) * (corner[2] - corner[3]);
-    const Vector3 along_eta = (1 - xi) * (corner[3] - corner[0]) + (1 + xi) * (corner[2] - corner[1]);
-    const Vector3 normal = cross(along_xi, along_eta);
-    result.segment = segment;
-    result.xi = xi;
-    result.eta = eta;
-    result.point = segment_point(corner, xi, eta);
-    result.normal = (1.0 / norm(normal)) * normal;
-    result.gap = dot(result.normal, slave - result.point);
-    return result;
-  }
-
-  KOKKOS_INLINE_FUNCTION static double outside(const Projection& p) {
-    return std::fmax(std::fabs(p.xi), std::fabs(p.eta)) - 1.0;
-  }
-
   /// Takes the segment around a node that the slave's projection is least outside of.
   KOKKOS_INLINE_FUNCTION void try_around(const Vector3& slave, int node, int tried, Projection& best, double& least) const {
     for (int s = contact.first_segment(node); s < contact.first_segment(node + 1) && least > on_segment; ++s) {
@@ -124,8 +62,10 @@ struct ContactSearch {
     }
   }
 
+  /// The segment that holds the slave's projection, or the one that it is least outside of; then clamped to its sides.
   /// @param previous segment touched at the last step, -1: none
-  KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int node, int previous) const {
+  /// @param beyond how far outside the projection lies, before it was clamped
+  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int node, int previous, double& beyond) const {
     const int begin = contact.first_segment(node), end = contact.first_segment(node + 1);
     int chosen = -1;
     for (int s = begin; s < end && chosen < 0; ++s)
@@ -134,28 +74,33 @@ struct ContactSearch {
       if (between_edges(slave, node, contact.segment_of_node(s))) chosen = contact.segment_of_node(s);
 
     Projection best{};
-    double least = 1e300;
+    beyond = 1e300;
     if (chosen >= 0) {
       best = project(slave, chosen);
-      least = outside(best);
+      beyond = outside(best);
     }
     // Folds, warped and slender segments: the test with plane edges and the true projection can disagree, and on a
     // disordered mesh the segment that holds the projection need not touch the closest node.
-    if (least > on_segment) try_around(slave, node, chosen, best, least);
-    for (int s = begin; s < end && least > on_segment; ++s)
-      for (int k = 0; k < 4 && least > on_segment; ++k) {
+    if (beyond > on_segment) try_around(slave, node, chosen, best, beyond);
+    for (int s = begin; s < end && beyond > on_segment; ++s)
+      for (int k = 0; k < 4 && beyond > on_segment; ++k) {
         const int other = contact.segments(contact.segment_of_node(s), k);
-        if (other != node) try_around(slave, other, chosen, best, least);
+        if (other != node) try_around(slave, other, chosen, best, beyond);
       }
-    if (least > outside_tolerance) {
-      best.segment = -1;
-    } else if (least > 0) {
-      Vector3 corner[4];
-      corners_of(best.segment, corner);
-      best = finish(slave, best.segment, corner, std::fmax(-1.0, std::fmin(1.0, best.xi)),
-                    std::fmax(-1.0, std::fmin(1.0, best.eta)));
-    }
-    return best;
+    return beyond > 0 ? clamped(slave, best) : best;
+  }
+
+  /// The same, with segment -1 where the slave stands beside the surface.
+  KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int node, int previous) const {
+    double beyond;
+    Projection result = nearest(slave, node, previous, beyond);
+    if (beyond > outside_tolerance) result.segment = -1;
+    return result;
+  }
+
+  /// Master node of a segment's corner next to a place on it: where a walk begins.
+  KOKKOS_INLINE_FUNCTION int corner_at(int segment, double xi, double eta) const {
+    return contact.segments(segment, eta < 0 ? (xi < 0 ? 0 : 1) : (xi < 0 ? 3 : 2));
   }
 };
 

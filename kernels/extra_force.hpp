@@ -4,12 +4,12 @@
 
 namespace railwave {
 
-/// Forces that few nodes feel: loads and connectors. Every load writes its own contributions, the nodes concerned gather
-/// them in fixed order; contact adds its own afterwards.
+/// Forces that few nodes feel. Loads and connectors write contributions of their own, which the nodes concerned gather in
+/// fixed order; contact adds to its part of the sum in whole quanta.
 struct ExtraForces {
   int row_count = 0;                 ///< nodes that can feel any extra force
   int contribution_count = 0;
-  Array<double* [3]> force;          ///< by row, N
+  ExtraForceSum sum;
   Array<int*> first;                 ///< row_count + 1
   Array<int*> contribution_of_row;   ///< contribution numbers, row by row
   Array<double* [3]> contribution;   ///< N
@@ -22,7 +22,7 @@ struct GatherExtraForce {
   KOKKOS_INLINE_FUNCTION void operator()(const int r) const {
     Vector3 sum{{0, 0, 0}};
     for (int c = extra.first(r); c < extra.first(r + 1); ++c) sum = sum + row(extra.contribution, extra.contribution_of_row(c));
-    for (int i = 0; i < 3; ++i) extra.force(r, i) = sum[i];
+    for (int i = 0; i < 3; ++i) extra.sum.load(r, i) = sum[i];
   }
 };
 

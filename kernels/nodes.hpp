@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/extra_force_sum.hpp"
 #include "kernels/lanes.hpp"
 
 namespace railwave {
@@ -17,32 +18,6 @@ struct NodeArrays {
   Array<int*> constraint;          ///< row in the constraint table, -1: free
 };
 
-/// A vector of three at a node.
-struct Vector3 {
-  double x[3];
-  KOKKOS_INLINE_FUNCTION double& operator[](int i) { return x[i]; }
-  KOKKOS_INLINE_FUNCTION double operator[](int i) const { return x[i]; }
-};
-
-template <class NodeArray>
-KOKKOS_INLINE_FUNCTION Vector3 row(const NodeArray& values, int n) {
-  return {{values(n, 0), values(n, 1), values(n, 2)}};
-}
-KOKKOS_INLINE_FUNCTION Vector3 operator+(const Vector3& a, const Vector3& b) {
-  return {{a[0] + b[0], a[1] + b[1], a[2] + b[2]}};
-}
-KOKKOS_INLINE_FUNCTION Vector3 operator-(const Vector3& a, const Vector3& b) {
-  return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
-}
-KOKKOS_INLINE_FUNCTION Vector3 operator*(double s, const Vector3& a) { return {{s * a[0], s * a[1], s * a[2]}}; }
-KOKKOS_INLINE_FUNCTION double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-KOKKOS_INLINE_FUNCTION Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
-}
-KOKKOS_INLINE_FUNCTION double norm(const Vector3& a) { return std::sqrt(dot(a, a)); }
-
 /// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the elements.
 struct PartialForces {
   Array<double* [3]> wide;
@@ -59,12 +34,15 @@ struct PartialForces {
 struct NodalForce {
   NodeArrays nodes;
   PartialForces partial;
-  Array<const double* [3]> extra_force;
+  ExtraForceSum extra;
+
+  KOKKOS_INLINE_FUNCTION Vector3 extra_force(int n) const {
+    const int r = nodes.extra(n);
+    return r >= 0 ? extra.force(r) : Vector3{{0, 0, 0}};
+  }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    Vector3 force{{0, 0, 0}};
-    const int row_of_extra = nodes.extra(n);
-    if (row_of_extra >= 0) force = row(extra_force, row_of_extra);
+    Vector3 force = extra_force(n);
     for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c) force = force + partial(nodes.partial_place(c));
     return force;
   }
@@ -118,7 +96,8 @@ struct NodalAcceleration {
   }
 };
 
-/// Step 3 of the thesis's table 2.1, (f) to (j): forces, acceleration, constraints, central difference.
+/// Step 3 of the thesis's table 2.1, (f) to (j): forces, acceleration, constraints, central difference. Contact
+/// forces, once used, are cleared for the next instant.
 struct NodeUpdate {
   NodalAcceleration acceleration;
   NodeAdvance advance;
@@ -127,6 +106,7 @@ struct NodeUpdate {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = listed.extent(0) == 0 ? i : listed(i);
     advance.move(n, acceleration(n));
+    if (advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
   }
 };
 

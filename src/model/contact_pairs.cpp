@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
@@ -37,6 +38,63 @@ double penalty_stiffness(const Model& model, const Face& face, double scale) {
   const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
   const double volume = hexahedron_volume(corners_of(x, assembly.elements[face.element]));
   return scale * material_of(model, face.element).bulk_modulus() * area * area / volume;
+}
+
+/// Whether two sorted lists share a number.
+bool common(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> shared;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(shared));
+  return !shared.empty();
+}
+
+/// Cosine of the angle between two segments from which an inner fold counts as sharp: 60 degrees.
+constexpr double sharp_fold = 0.5;
+
+Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double product(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Outward normal, twice the area long, and the centre.
+struct Facet {
+  Vec3 normal{}, centre{};
+  Facet(const std::vector<Vec3>& x, const int (&corner)[4]) {
+    const Vec3 p = difference(x[corner[2]], x[corner[0]]), q = difference(x[corner[3]], x[corner[1]]);
+    normal = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 3; ++i) centre[i] += 0.25 * x[corner[k]][i];
+  }
+};
+
+bool folded_inwards(const Facet& a, const Facet& b) {
+  const double along = product(a.normal, b.normal);
+  return product(a.normal, difference(b.centre, a.centre)) > 0 &&
+         along < sharp_fold * std::sqrt(product(a.normal, a.normal) * product(b.normal, b.normal));
+}
+
+/// The master's segments with their neighbours, and whether sharp inner folds lie between them.
+std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector<Face>& master, bool& folded) {
+  std::vector<Segment> segments;
+  std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
+  for (const Face& face : master) {
+    const auto corner = assembly.face_nodes(face);
+    Segment segment{};
+    for (int k = 0; k < 4; ++k) {
+      segment.node[k] = corner[k];
+      segment.neighbour[k] = -1;
+      const std::array<int, 2> ends{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])};
+      sides[ends].push_back({static_cast<int>(segments.size()), k});
+    }
+    segments.push_back(segment);
+  }
+  folded = false;
+  for (const auto& [ends, pair] : sides) {
+    // Where more than two segments meet there is no such thing as the neighbour.
+    if (pair.size() != 2) continue;
+    const auto& [a, b] = std::pair{pair[0], pair[1]};
+    segments[a[0]].neighbour[a[1]] = b[0];
+    segments[b[0]].neighbour[b[1]] = a[0];
+    folded = folded || folded_inwards({assembly.nodes, segments[a[0]].node}, {assembly.nodes, segments[b[0]].node});
+  }
+  return segments;
 }
 
 void build_pair(Model& model, const scene::Contact& contact) {
@@ -85,15 +143,15 @@ void build_pair(Model& model, const scene::Contact& contact) {
   arrays.first_segment = to_device("first segment", first);
   arrays.segment_of_node = to_device("segment of node", around);
   arrays.segment_stiffness = to_device("segment stiffness", pair.segment_stiffness);
-  arrays.closest = Array<int*>("closest", arrays.slave_count);
-  arrays.segment = Array<int*>("segment", arrays.slave_count);
+  arrays.surface = to_device("surface", linked_segments(assembly, master, arrays.folded_inwards));
+  arrays.tracked = Array<int*>("tracked", arrays.slave_count);
   arrays.place = Array<double* [2]>("place", arrays.slave_count);
   arrays.gap = Array<double*>("gap", arrays.slave_count);
   arrays.normal_force = Array<double* [3]>("normal force", arrays.slave_count);
   arrays.tangential_force = Array<double* [3]>("tangential force", arrays.slave_count);
   arrays.status = Array<int*>("status", arrays.slave_count);
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
-  arrays.master_force = Array<double* [3]>("master force", masters);
+  pair.missed = Array<int*>("missed", 1);
   model.contacts.push_back(pair);
 }
 
@@ -101,6 +159,10 @@ void build_pair(Model& model, const scene::Contact& contact) {
 
 void build_contacts(Model& model) {
   for (const scene::Contact& contact : model.scene.contacts) build_pair(model, contact);
+  for (ContactPair& pair : model.contacts)
+    for (const ContactPair& other : model.contacts)
+      if (&other != &pair && (common(pair.master_nodes, other.slave_nodes) || common(pair.master_nodes, other.master_nodes)))
+        pair.own_master = false;
 }
 
 }  // namespace railwave

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/contact_force.hpp"
+#include "kernels/contact_search.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
@@ -89,6 +89,31 @@ HostField stress_in(const Model& model, const std::vector<int>& elements) {
   return result;
 }
 
+/// Gaps of all nodes in the window; those far from the master are not followed at each step.
+struct PresentGap {
+  ContactSearch search;
+  ContactWindow window;
+  Array<double*> gap;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const WindowEntry entry = window.entries(i);
+    if (entry.near != 0) return;
+    const ContactArrays& contact = search.contact;
+    const int s = entry.slave;
+    const Vector3 slave = row(search.position, entry.node);
+    const int start = search.corner_at(contact.tracked(s), contact.place(s, 0), contact.place(s, 1));
+    const Projection found = search.locate(slave, search.closest_node(slave, start), -1);
+    gap(s) = found.segment < 0 ? 1e300 : found.gap;
+  }
+};
+
+Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& pair) {
+  const auto gap = unset_array<double*>("present gap", pair.arrays.slave_count);
+  Kokkos::deep_copy(gap, pair.arrays.gap);
+  Kokkos::parallel_for("present_gap", Range(0, pair.window.count),
+                       PresentGap{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, gap});
+  return to_host(gap);
+}
+
 }  // namespace
 
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
@@ -117,9 +142,9 @@ ContactState contact_state(const Model& model, int contact) {
 
   const auto normal = to_host(pair.arrays.normal_force);
   const auto tangential = to_host(pair.arrays.tangential_force);
-  const auto gap = to_host(pair.arrays.gap);
+  const auto gap = present_gaps(model, pair);
   const auto status = to_host(pair.arrays.status);
-  const auto segment = to_host(pair.arrays.segment);
+  const auto segment = to_host(pair.arrays.tracked);
   const auto place = to_host(pair.arrays.place);
   const int count = pair.arrays.slave_count;
   state.gap.assign(count, std::numeric_limits<double>::quiet_NaN());
@@ -128,7 +153,7 @@ ContactState contact_state(const Model& model, int contact) {
   for (int s = 0; s < count; ++s) {
     if (gap(s) < 1e299) state.gap[s] = gap(s);
     state.slipping[s] = status(s);
-    if (segment(s) < 0) continue;
+    if (status(s) == status_apart) continue;
     Vec3 slip{}, n{};
     double size = 0;
     for (int i = 0; i < 3; ++i) {

@@ -165,6 +165,16 @@ void build_sets(Collector& collector) {
   sets.motion = Array<double* [6]>("set motion", sets.count);
 }
 
+/// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa on the
+/// segment, whatever the penalty's scale) is the largest that the sum of contact forces must hold.
+double contact_quantum(const Model& model) {
+  double largest = 1e-30;
+  for (const ContactPair& pair : model.contacts)
+    for (double stiffness : pair.segment_stiffness)
+      largest = std::max(largest, 0.1 * pair.segment_size * stiffness / std::min(1.0, pair.contact->penalty_scale));
+  return std::exp2(std::ceil(std::log2(largest / ExtraForceSum::largest)));
+}
+
 /// Numbers the nodes that can feel extra forces, and lists each one's contributions.
 void build_extra(const Collector& collector) {
   Model& model = collector.model;
@@ -188,7 +198,9 @@ void build_extra(const Collector& collector) {
   ExtraForces& extra = model.extra;
   extra.row_count = rows;
   extra.contribution_count = collector.contributions();
-  extra.force = Array<double* [3]>("extra force", rows);
+  extra.sum.load = Array<double* [3]>("load on row", rows);
+  extra.sum.contact = Array<unsigned long long* [3]>("contact force on row", rows);
+  extra.sum.quantum = contact_quantum(model);
   extra.first = to_device("first contribution", first);
   extra.contribution_of_row = to_device("contribution of row", of_row);
   extra.contribution = Array<double* [3]>("contribution", extra.contribution_count);

@@ -38,20 +38,20 @@ void reset_to_start(Model& model) {
   zero(model.nodes.velocity);
   zero(model.partial.wide);
   zero(model.partial.narrow);
-  zero(model.extra.force);
+  zero(model.extra.sum.load);
+  zero(model.extra.sum.contact);
   zero(model.extra.contribution);
   zero(model.extra.work);
   for (auto& group : model.elements) zero(group.patches.hourglass_energy);
   zero(model.connectors.arrays.energy);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
-    Kokkos::deep_copy(contact.segment, -1);
+    Kokkos::deep_copy(contact.tracked, -1);
     Kokkos::deep_copy(contact.gap, 1e300);
-    zero(contact.closest);
+    zero(pair.missed);
     zero(contact.place);
     zero(contact.normal_force);
     zero(contact.tangential_force);
-    zero(contact.master_force);
     zero(contact.status);
     zero(contact.friction_energy);
     pair.next_look = -1;
@@ -60,6 +60,7 @@ void reset_to_start(Model& model) {
   model.time = 0;
   model.step = 0;
   model.velocity_lag = 0;
+  model.contact_uncleared = false;
 }
 
 namespace {
@@ -75,7 +76,8 @@ std::size_t device_bytes(const Model& model) {
   const NodeArrays& n = model.nodes;
   const ExtraForces& x = model.extra;
   std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
-                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, x.force, x.first, x.contribution_of_row, x.contribution,
+                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes,
+                            x.sum.load, x.sum.contact, x.first, x.contribution_of_row, x.contribution,
                             x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.motion);
   for (const ElementGroup& group : model.elements) {
@@ -86,8 +88,8 @@ std::size_t device_bytes(const Model& model) {
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
-                   c.closest, c.segment, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
-                   c.master_force);
+                   c.surface, c.tracked, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
+                   pair.window.entries, pair.slaves_at_layout, pair.masters_at_layout);
   }
   return total;
 }

@@ -50,7 +50,11 @@ struct ContactPair {
   ContactWindow window;
   Array<double* [3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
   long next_look = -1;                 ///< step at which the window is looked at again
+  long next_near_look = -1;            ///< step at which the nodes that can touch are picked out of it again
   long layouts = 0;                    ///< how often it was laid out
+  long looks = 0;                      ///< how often it was looked at, the host waiting
+  bool own_master = true;              ///< no other pair's forces reach the master's nodes
+  Array<int*> missed;                  ///< one: see ContactLook
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes
@@ -96,13 +100,14 @@ struct Model {
   double time = 0;
   long step = 0;
   double velocity_lag = 0;
+  bool contact_uncleared = false;      ///< contact forces are in the sum that no node update has used and cleared
 
   int node_count() const { return nodes.count; }
   long element_count() const { return static_cast<long>(assembly.elements.size()); }
 
   /// Force and acceleration of a node from what the last force phase left in the arrays.
   NodalAcceleration acceleration() const {
-    return {{nodes, partial, extra.force},
+    return {{nodes, partial, extra.sum},
             {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
             constraints};
   }

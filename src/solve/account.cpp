@@ -43,9 +43,39 @@ struct ContactEnergy {
   ContactArrays contact;
   KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
     sum[1] += contact.friction_energy(s);
-    if (contact.segment(s) < 0) return;
+    if (contact.status(s) == status_apart) return;
     const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
-    sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / contact.segment_stiffness(contact.segment(s));
+    sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / contact.segment_stiffness(contact.tracked(s));
+  }
+};
+
+/// Sums over the slave's nodes: normal force, tangential force, what the shape functions pass on to the master; nodes in
+/// contact, nodes that slip.
+struct SlaveSums {
+  static constexpr int values = 11;
+  ContactArrays contact;
+  KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
+    if (contact.status(s) == status_apart) return;
+    double shares = 0;
+    for (int k = 0; k < 4; ++k) shares += segment_shape(k, contact.place(s, 0), contact.place(s, 1));
+    for (int i = 0; i < 3; ++i) {
+      sum[i] += contact.normal_force(s, i);
+      sum[3 + i] += contact.tangential_force(s, i);
+      sum[6 + i] -= shares * (contact.normal_force(s, i) + contact.tangential_force(s, i));
+    }
+    sum[9] += 1;
+    if (contact.status(s) == status_slips) sum[10] += 1;
+  }
+};
+
+/// Contact forces found on the master's nodes.
+struct MasterSums {
+  static constexpr int values = 3;
+  ExtraForceSum extra;
+  Array<const int*> extra_row, nodes;
+  KOKKOS_INLINE_FUNCTION void operator()(int m, double* sum) const {
+    const Vector3 force = extra.contact_force(extra_row(nodes(m)));
+    for (int i = 0; i < 3; ++i) sum[i] += force[i];
   }
 };
 
@@ -112,23 +142,18 @@ double largest_energy(const EnergyAccount& energy) {
                    std::fabs(energy.damping), std::fabs(energy.external_work)});
 }
 
-ContactTotals contact_totals(const ContactPair& pair) {
+ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
+  double slave[11], master[3];
+  block_sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, slave);
+  block_sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, master);
   ContactTotals totals;
-  const auto normal = to_host(pair.arrays.normal_force);
-  const auto tangential = to_host(pair.arrays.tangential_force);
-  const auto master = to_host(pair.arrays.master_force);
-  const auto status = to_host(pair.arrays.status);
-  for (int s = 0; s < pair.arrays.slave_count; ++s) {
-    if (status(s) == status_apart) continue;
-    ++totals.nodes_in_contact;
-    if (status(s) == status_slips) ++totals.nodes_slipping;
-    for (int i = 0; i < 3; ++i) {
-      totals.normal_force[i] += normal(s, i);
-      totals.tangential_force[i] += tangential(s, i);
-    }
+  for (int i = 0; i < 3; ++i) {
+    totals.normal_force[i] = slave[i];
+    totals.tangential_force[i] = slave[3 + i];
+    totals.master_force[i] = pair.own_master ? master[i] : slave[6 + i];
   }
-  for (int m = 0; m < pair.arrays.master_count; ++m)
-    for (int i = 0; i < 3; ++i) totals.master_force[i] += master(m, i);
+  totals.nodes_in_contact = static_cast<int>(slave[9]);
+  totals.nodes_slipping = static_cast<int>(slave[10]);
   return totals;
 }
 
@@ -155,7 +180,7 @@ HistorySample take_sample(const Model& model, double step) {
   sample.time = model.time;
   sample.step = model.step;
   sample.energy = account_energies(model, step);
-  for (const ContactPair& pair : model.contacts) sample.contacts.push_back(contact_totals(pair));
+  for (const ContactPair& pair : model.contacts) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
   return sample;
 }

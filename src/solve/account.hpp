@@ -17,7 +17,7 @@ double balance_total(const EnergyAccount& energy);
 /// The largest of the account's entries.
 double largest_energy(const EnergyAccount& energy);
 
-ContactTotals contact_totals(const ContactPair& pair);
+ContactTotals contact_totals(const Model& model, const ContactPair& pair);
 MeanMotion mean_motion(const Model& model, int set);
 
 /// Everything that a history row holds, at the present instant.

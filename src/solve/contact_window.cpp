@@ -4,17 +4,24 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "kernels/contact_look.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
 namespace {
 
-/// The window reaches this many of the largest segment's diagonals beyond a segment: the relative motion that it allows.
+/// The window reaches this many of the largest segment's diagonals beyond a segment.
 constexpr double margin_in_segments = 0.5;
-/// Steps between looks at how far the surfaces have moved since the window was laid out.
-constexpr long steps_between_looks = 20;
-/// Share of the margin that may be used up at a look; the rest is for the steps until the next one.
-constexpr double usable_margin = 0.5;
+/// Most steps between two measurements of how far the surfaces have moved since the window was laid out.
+constexpr long most_steps_between_looks = 512;
+/// A layout is made early rather than followed by another look so soon.
+constexpr long least_steps_between_looks = 16;
+/// Steps between two choices of the nodes that can touch.
+constexpr long steps_between_near_looks = 64, steps_between_near_looks_settling = 16;
+
+/// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels: the
+/// surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
+constexpr double sudden_share = 0.005;
 
 struct GatherRows {
   Array<const double* [3]> values;
@@ -71,33 +78,79 @@ class CellGrid {
   std::unordered_map<long, std::vector<int>> cells_;
 };
 
-/// Largest squared distance of a surface's nodes from where they were.
-struct SquaredMotion {
-  Array<const double* [3]> position;
+/// Largest squared distance of a surface's nodes from where they were, and largest squared speed, in blocks.
+struct SurfaceMotion {
+  static constexpr int block = 256;
+  Array<const double* [3]> position, velocity;
   Array<const int*> nodes;
   Array<const double* [3]> before;
-  KOKKOS_INLINE_FUNCTION void operator()(const int i, double& largest) const {
-    const Vector3 moved = row(position, nodes(i)) - row(before, i);
-    const double squared = dot(moved, moved);
-    // A NaN counts as far: kept as NaN it would be lost, and with it the motions before it, at the next comparison.
-    if (!(squared <= largest)) largest = squared < 1e300 ? squared : 1e300;
+  Array<double* [2]> largest;
+  int first_block;
+
+  /// A NaN counts as far: kept as NaN it would be lost at the next comparison.
+  KOKKOS_INLINE_FUNCTION static void raise(double& value, double other) {
+    if (!(other <= value)) value = other < 1e300 ? other : 1e300;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
+    double moved = 0, speed = 0;
+    const int count = static_cast<int>(nodes.extent(0)), end = (b + 1) * block < count ? (b + 1) * block : count;
+    for (int i = b * block; i < end; ++i) {
+      const Vector3 way = row(position, nodes(i)) - row(before, i), v = row(velocity, nodes(i));
+      raise(moved, dot(way, way));
+      raise(speed, dot(v, v));
+    }
+    largest(first_block + b, 0) = moved;
+    largest(first_block + b, 1) = speed;
   }
 };
 
-double farthest(const Array<double* [3]>& position, const Array<int*>& nodes, const Array<double* [3]>& before) {
-  double squared = 0;
-  Kokkos::parallel_reduce("window_motion", Range(0, nodes.extent(0)), SquaredMotion{position, nodes, before},
-                          Kokkos::Max<double>(squared));
-  return std::sqrt(squared);
+struct Motion {
+  double moved = 0;  ///< m, at most of the slave's nodes and of the master's, added
+  double speed = 0;  ///< m/s, the same
+};
+
+/// The only place where the host waits for the device.
+Motion measure(const Model& model, const ContactPair& pair) {
+  const auto blocks = [](const Array<int*>& nodes) {
+    return static_cast<int>((nodes.extent(0) + SurfaceMotion::block - 1) / SurfaceMotion::block);
+  };
+  const ContactArrays& contact = pair.arrays;
+  const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
+  const auto largest = unset_array<double* [2]>("largest motion", slave_blocks + master_blocks);
+  const NodeArrays& nodes = model.nodes;
+  Kokkos::parallel_for("slave_motion", Range(0, slave_blocks),
+                       SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
+  Kokkos::parallel_for("master_motion", Range(0, master_blocks),
+                       SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout, largest,
+                                     slave_blocks});
+  const auto host = to_host(largest);
+  Motion motion;
+  for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
+    double moved = 0, speed = 0;
+    for (int b = begin; b < end; ++b) {
+      moved = std::max(moved, host(b, 0));
+      speed = std::max(speed, host(b, 1));
+    }
+    motion.moved += std::sqrt(moved);
+    motion.speed += std::sqrt(speed);
+  }
+  return motion;
 }
 
-/// A node that leaves the window is apart; its arrays must say so.
-struct ClearOutside {
+/// A node that leaves the window is apart, and its arrays must say so; one that enters needs a place to begin at.
+struct EnterOrLeave {
   ContactArrays contact;
-  Array<const int*> inside;
+  Array<const int*> inside, nearest;
   KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
-    if (inside(s) != 0) return;
-    contact.segment(s) = -1;
+    if (inside(s) != 0) {
+      if (contact.tracked(s) < 0) {
+        contact.tracked(s) = contact.segment_of_node(contact.first_segment(nearest(s)));
+        contact.place(s, 0) = contact.place(s, 1) = 0;
+      }
+      return;
+    }
+    contact.tracked(s) = -1;
     contact.status(s) = status_apart;
     contact.gap(s) = 1e300;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = contact.tangential_force(s, k) = 0;
@@ -114,8 +167,11 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
   const double reach = pair.segment_size + 2 * margin;
   const CellGrid grid(masters, reach);
 
-  std::vector<int> window, nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
-  std::vector<std::vector<int>> candidates(contact.master_count);
+  std::vector<WindowEntry> entries;
+  std::vector<int> near(contact.slave_count, 1);
+  const auto before = to_host(pair.window.entries);
+  for (int i = 0; i < pair.window.count; ++i) near[before(i).slave] = before(i).near;
+  std::vector<int> nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
   for (int s = 0; s < contact.slave_count; ++s) {
     const double x[3] = {slaves(s, 0), slaves(s, 1), slaves(s, 2)};
     double least = reach * reach * 1.01;
@@ -124,46 +180,60 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
         least = squared;
         nearest[s] = m;
       }
-      candidates[m].push_back(s);
     });
     if (least > reach * reach) continue;
-    window.push_back(s);
+    entries.push_back({s, pair.slave_nodes[s], near[s], 0});
     inside[s] = 1;
   }
+  pair.window.count = static_cast<int>(entries.size());
+  pair.window.entries = to_device("window", entries);
+  Kokkos::parallel_for("enter_or_leave", Range(0, contact.slave_count),
+                       EnterOrLeave{contact, to_device("inside window", inside), to_device("nearest", nearest)});
+}
 
-  std::vector<int> loaded, first{0}, listed;
-  for (int m = 0; m < contact.master_count; ++m) {
-    if (candidates[m].empty()) continue;
-    loaded.push_back(m);
-    listed.insert(listed.end(), candidates[m].begin(), candidates[m].end());
-    first.push_back(static_cast<int>(listed.size()));
+/// Whether the window was laid out anew.
+bool renew_window(Model& model, ContactPair& pair, double step, double sudden) {
+  // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so more
+  // than two margins from touching.
+  const double margin = margin_in_segments * pair.segment_size;
+  ++pair.looks;
+  const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
+  if (!laid_out) lay_out_window(model, pair, margin);
+  Motion motion = measure(model, pair);
+  const auto steps_left = [&] { return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden); };
+  bool anew = !laid_out;
+  if (laid_out && steps_left() < least_steps_between_looks && motion.moved < 1e100) {
+    lay_out_window(model, pair, margin);
+    motion.moved = 0;
+    anew = true;
   }
-  pair.window.slave_count = static_cast<int>(window.size());
-  pair.window.master_count = static_cast<int>(loaded.size());
-  pair.window.slaves = to_device("window slaves", window);
-  pair.window.masters = to_device("window masters", loaded);
-  pair.window.first = to_device("window first", first);
-  pair.window.candidates = to_device("window candidates", listed);
-  Kokkos::deep_copy(contact.closest, to_device("nearest", nearest));
-  Kokkos::parallel_for("clear_outside", Range(0, contact.slave_count),
-                       ClearOutside{contact, to_device("inside window", inside)});
-  Kokkos::deep_copy(contact.master_force, 0.0);
+  if (anew) ++pair.layouts;
+  pair.next_look = model.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_looks)));
+  return anew;
+}
+
+/// m in a step.
+double sudden_motion(const Model& model, const ContactPair& pair, const Instant& instant) {
+  // Settling scales masses such that a wave travels a share of each element in a step.
+  if (instant.settling) return sudden_share * pair.segment_size;
+  double fastest = 0;
+  for (const scene::Material& material : model.scene.materials) fastest = std::max(fastest, material.dilatational_speed());
+  return sudden_share * fastest * instant.step;
 }
 
 }  // namespace
 
-void keep_window(Model& model, ContactPair& pair) {
-  if (model.step < pair.next_look) return;
-  pair.next_look = model.step + steps_between_looks;
-  // A slave outside is at least a segment and two margins from every master node, so more than a margin from touching.
-  const double margin = margin_in_segments * pair.segment_size;
-  if (pair.slaves_at_layout.extent(0) != 0) {
-    const double moved = farthest(model.nodes.position, pair.arrays.slave_nodes, pair.slaves_at_layout) +
-                         farthest(model.nodes.position, pair.arrays.master_nodes, pair.masters_at_layout);
-    if (moved < usable_margin * margin) return;
-  }
-  lay_out_window(model, pair, margin);
-  ++pair.layouts;
+void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
+  const bool look = model.step >= pair.next_look;
+  if (!look && model.step < pair.next_near_look) return;
+  const double sudden = sudden_motion(model, pair, instant);
+  if (look) renew_window(model, pair, instant.step, sudden);
+  const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  pair.next_near_look = model.step + steps;
+  const double interval = static_cast<double>(steps) * instant.step;
+  Kokkos::parallel_for("contact_look", ContactRange(0, pair.window.count),
+                       ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
+                                   interval, static_cast<double>(steps) * sudden, pair.missed});
 }
 
 }  // namespace railwave

@@ -1,12 +1,19 @@
 #pragma once
 
 #include "model/model.hpp"
+#include "solve/stages.hpp"
 
 namespace railwave {
 
-/// Keeps a pair's window true: lists the slave nodes that can touch the master in the steps to come, and for each master
-/// node the slaves that can load it, and does so anew when the surfaces have moved far enough since the last time. Nodes
-/// outside the window are surely apart, so the result does not depend on how often it is laid out.
-void keep_window(Model& model, ContactPair& pair);
+/// Few threads a block, so that few nodes spread over all of a GPU's multiprocessors; and launched with the functor as a
+/// kernel argument, where Kokkos would copy one of this size to constant memory and wait for the copy before.
+using ContactRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>,
+                                         Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+
+/// Keeps a pair's window true, at two distances. The window lists the slave nodes that could touch the master in the next
+/// hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out of it the
+/// nodes that can touch in the next few dozen steps are picked on the device, nothing returning to the host. All others
+/// are surely apart, so the result does not depend on how often either is done.
+void keep_window(Model& model, ContactPair& pair, const Instant& instant);
 
 }  // namespace railwave

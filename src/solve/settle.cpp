@@ -95,7 +95,7 @@ struct Unbalance {
     sum[0] += norm(row(update.unbalanced, n));
     Vector3 applied = nodes.mass(n) * (update.acceleration.gravity + row(update.body_acceleration, n));
     sum[1] += norm(applied);
-    if (nodes.extra(n) >= 0) sum[1] += norm(row(update.acceleration.force.extra_force, nodes.extra(n)));
+    sum[1] += norm(update.acceleration.force.extra_force(n));
   }
 };
 

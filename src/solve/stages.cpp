@@ -96,14 +96,16 @@ Stage gather_extra_stage(const Model& model) {
 
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
+  const bool first = &pair == &model.contacts.front();
   return {"contact " + pair.contact->name + (Friction ? ", friction" : ", frictionless"),
-          [&model, &pair](const Instant&) {
-            keep_window(model, pair);
-            const ContactSearch search{pair.arrays, model.nodes.position};
-            Kokkos::parallel_for("contact_force", Range(0, pair.window.slave_count),
-                                 ContactForce<Friction>{search, pair.window, model.extra, model.nodes.extra});
-            Kokkos::parallel_for("contact_gather", Range(0, pair.window.master_count),
-                                 ContactGather{pair.arrays, pair.window, model.extra, model.nodes.extra});
+          [&model, &pair, first](const Instant& instant) {
+            // The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
+            if (first && model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, 0ULL);
+            model.contact_uncleared = true;
+            keep_window(model, pair, instant);
+            Kokkos::parallel_for("contact_force", ContactRange(0, pair.window.count),
+                                 ContactForce<Friction>{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window,
+                                                        model.extra.sum, model.nodes.extra});
           }};
 }
 
@@ -130,6 +132,7 @@ void advance(Model& model, double step) {
   model.patches_have_advanced = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;
+  model.contact_uncleared = false;
 }
 
 }  // namespace railwave

@@ -13,6 +13,24 @@ namespace {
 using Point = std::array<double, 3>;
 using Quad = std::array<int, 4>;
 
+/// Quadrilaterals with their neighbours.
+std::vector<Segment> linked(const std::vector<Quad>& quads) {
+  std::vector<Segment> segments;
+  for (const Quad& quad : quads) {
+    Segment segment;
+    for (int k = 0; k < 4; ++k) {
+      segment.node[k] = quad[k];
+      segment.neighbour[k] = -1;
+      for (std::size_t other = 0; other < quads.size(); ++other)
+        for (int j = 0; j < 4; ++j)
+          if (quads[other][j] == quad[(k + 1) % 4] && quads[other][(j + 1) % 4] == quad[k])
+            segment.neighbour[k] = static_cast<int>(other);
+    }
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
 /// A master surface of its own, every node a master node.
 ContactSearch search_on(const std::vector<Point>& nodes, const std::vector<Quad>& quads) {
   std::vector<int> first(nodes.size() + 1, 0), around, identity;
@@ -29,6 +47,7 @@ ContactSearch search_on(const std::vector<Point>& nodes, const std::vector<Quad>
   search.contact.master_nodes = to_device("master nodes", identity);
   search.contact.segments = to_device("segments", quads);
   search.contact.first_segment = to_device("first segment", first);
+  search.contact.surface = to_device("surface", linked(quads));
   search.contact.segment_of_node = to_device("segment of node", around);
   search.position = to_device("position", nodes);
   return search;
@@ -57,7 +76,7 @@ struct Ask {
     const Vector3 x = row(slave, i);
     const int closest = search.closest_node(x, from(i, 0));
     const Projection p = only >= 0 ? search.project(x, only) : search.locate(x, closest, from(i, 1));
-    answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, p.point, p.normal};
+    answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, x + p.offset, p.normal};
   }
 };
 
@@ -73,7 +92,7 @@ struct Travel {
       closest = search.closest_node(x, closest);
       const Projection p = search.locate(x, closest, previous);
       previous = p.segment;
-      answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, p.point, p.normal};
+      answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, x + p.offset, p.normal};
     }
   }
 };

@@ -95,11 +95,11 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
   double nearest = 1e300;
   int outside = 0, touching = 0;
   march(model, model.step_count, [&] {
-    const auto window = to_host(pair.window.slaves);
+    const auto window = to_host(pair.window.entries);
     std::vector<bool> inside(pair.slave_nodes.size(), false);
-    for (int i = 0; i < pair.window.slave_count; ++i) inside[window(i)] = true;
+    for (int i = 0; i < pair.window.count; ++i) inside[window(i).slave] = true;
     const auto x = to_host(model.nodes.position);
-    touching += contact_totals(pair).nodes_in_contact;
+    touching += contact_totals(model, pair).nodes_in_contact;
     for (std::size_t s = 0; s < inside.size(); ++s) {
       if (inside[s]) continue;
       ++outside;

@@ -52,7 +52,7 @@ Impact impact(const scene::Scene& scene, double speed) {
     const double total = balance_total(account_energies(model, model.step_size));
     if (model.step == 0) first = total;
     result.imbalance = std::max(result.imbalance, std::fabs(total - first) / (0.5 * mass * speed * speed));
-    const ContactTotals totals = contact_totals(model.contacts[0]);
+    const ContactTotals totals = contact_totals(model, model.contacts[0]);
     result.reaction = std::max(result.reaction, reaction_error(totals));
     if (totals.nodes_in_contact == 0) return;
     if (result.first_contact < 0) result.first_contact = model.time;

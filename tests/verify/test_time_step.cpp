@@ -91,7 +91,7 @@ TEST_CASE("matched blocks pressed together stay calm for 20000 steps of the prog
     march(model, steps, [&] {
       if (model.step % 100 != 0) return;
       fastest = std::max(fastest, largest_speed(model));
-      mean_force = mean_force + (1.0 / (steps / 100 + 1)) * contact_totals(model.contacts[0]).normal_force;
+      mean_force = mean_force + (1.0 / (steps / 100 + 1)) * contact_totals(model, model.contacts[0]).normal_force;
     });
     INFO("hourglass type " << static_cast<int>(hourglass) << ": fastest node " << fastest << " m/s, mean contact force / weight "
                            << mean_force[2] / weight << ", contact step / element step "

@@ -11,11 +11,14 @@ struct Elastic {
 
   /// Kirchhoff stress from the Almansi strain, Pa.
   template <class S, class T>
-  KOKKOS_INLINE_FUNCTION void stress(int row, int /*batch*/, const T (&e)[6], T (&tau)[6]) const {
+  KOKKOS_INLINE_FUNCTION static void stress(const ElasticConstants& patch_constants, int /*batch*/, const T (&e)[6], T (&tau)[6]) {
     T h[6];
     hencky_strain(e, h);
-    kirchhoff_stress<S>(constants(row), h, tau);
+    kirchhoff_stress<S>(patch_constants, h, tau);
   }
+
+  template <class S>
+  KOKKOS_INLINE_FUNCTION ElasticConstants constants_of(int row) const { return constants(row); }
 };
 
 /// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed at
@@ -36,7 +39,7 @@ struct PatchForce {
 
   /// Scratch memory of a team, bytes.
   static std::size_t scratch_size(const PatchArrays& patches) {
-    return sizeof(S) * (StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity) + 24u * patch_size) + 64;
+    return sizeof(S) * (StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity) + 3u * component_stride + patch_size) + 64;
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
@@ -45,28 +48,34 @@ struct PatchForce {
   KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
     const StagedNodes<S> staged(scratch_values<S>(team, StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity)),
                                 patches.most_nodes);
-    S* force = scratch_values<S>(team, 24u * patch_size);
+    S* force = scratch_values<S>(team, 3u * component_stride);
+    S* power = scratch_values<S>(team, patch_size);
     const NodeArrays& all = nodes.nodes;
+    const int elements = patches.element_count(p), row = patches.material(p);
+    const auto constants = material.template constants_of<S>(row);
     staged.template bring<Hourglass::needs_velocity>(team, patches, p, all.position, all.reference, all.velocity);
 
-    const int elements = patches.element_count(p);
     const int batches = on_device ? elements : (elements + lane_count<S> - 1) / lane_count<S>;
-    if constexpr (Hourglass::stores) {
-      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches), [&](const int b) { batch_force(p, b, staged, force); });
-      team.team_barrier();
-    } else {
-      double dissipated = 0;
-      Kokkos::parallel_reduce(
-          Kokkos::TeamThreadRange(team, batches),
-          [&](const int b, double& sum) { sum += batch_force(p, b, staged, force); }, dissipated);
-      team.team_barrier();
-      Kokkos::single(Kokkos::PerTeam(team), [&]() { patches.hourglass_energy(p) += step * dissipated; });
-    }
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches),
+                         [&](const int b) { batch_force(p, b, constants, staged, force, power); });
+    if (!on_device)
+      for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
+    team.team_barrier();
     sum_corners(team, p, force);
+    if constexpr (!Hourglass::stores)
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, power_sums), [&](const int k) {
+        constexpr int share = patch_size / power_sums;
+        double sum = 0;
+        for (int s = k * share; s < (k + 1) * share && s < elements; ++s) sum += static_cast<double>(power[s]);
+        patches.hourglass_energy(p * power_sums + k) += step * sum;
+      });
   }
 
-  /// @return power dissipated by hourglass control, W
-  KOKKOS_INLINE_FUNCTION double batch_force(const int p, const int b, const StagedNodes<S>& staged, S* force) const {
+  /// @param force corner forces with their sign turned, N
+  /// @param power dissipated by hourglass control, W
+  template <class Constants>
+  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const Constants& constants, const StagedNodes<S>& staged,
+                                          S* force, S* power_of_slot) const {
     const int batch = p * (patch_size / lane_count<S>) + b;
     const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
     T x[3][7], B[3][6], H[3][3], q[3][4], turned[3][3];
@@ -110,7 +119,7 @@ struct PatchForce {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
     const T to_cauchy = determinant(H);
-    material.template stress<S>(patches.material(p), batch, e, tau);
+    material.template stress<S>(constants, batch, e, tau);
 
     constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int i = 0; i < 3; ++i) {
@@ -120,9 +129,9 @@ struct PatchForce {
       for (int M = 0; M < 3; ++M) m[3 + M] += q[i][M];
       m[6] = q[i][3];
       corners_of(m, f);
-      for (int N = 0; N < 8; ++N) store(force + (8 * i + N) * patch_size + b * lane_count<S>, f[N]);
+      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * patch_size + b * lane_count<S>, f[N]);
     }
-    return Hourglass::stores ? 0.0 : sum_of_lanes<S>(power);
+    if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
   }
 
   KOKKOS_INLINE_FUNCTION T hourglass_scales(int batch) const {
@@ -145,24 +154,28 @@ struct PatchForce {
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const S* force) const {
+    constexpr int lanes = lane_count<S>;
     const int first = patches.first_node(p), count = patches.first_node(p + 1) - first;
-    const std::uint16_t* first_corner = patches.first_corner.data() + first + p;
-    const std::uint16_t* place = patches.corner_place.data() + static_cast<long>(p) * 8 * patch_size;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](const int l) {
-      const int begin = first_corner[l], end = first_corner[l + 1] & corner_mask;
-      S sum[3] = {0, 0, 0};
-      for (int c = begin & corner_mask; c < end; ++c) {
-        const S* f = force + place[c];
-        sum[0] -= f[0];
-        sum[1] -= f[8 * patch_size];
-        sum[2] -= f[16 * patch_size];
-      }
-      if (Advance && (begin & advance_bit) != 0) {
-        nodes(patches.node(first + l), {{sum[0], sum[1], sum[2]}});
-      } else {
-        for (int i = 0; i < 3; ++i) partial(first_partial + first + l, i) = sum[i];
-      }
+    const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs), [&](const int k) {
+      const int begin = patches.first_place(first_pack + k), end = patches.first_place(first_pack + k + 1);
+      T sum[3] = {S(0), S(0), S(0)};
+      for (int c = begin; c < end; c += lanes)
+        for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, patches.place.data() + c);
+      S lane_sum[3][lanes];
+      for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
+      for (int lane = 0; lane < lanes && k * lanes + lane < count; ++lane)
+        hand_over(first + k * lanes + lane, {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}});
     });
+  }
+
+  KOKKOS_INLINE_FUNCTION void hand_over(const int place, const Vector3& force) const {
+    const int n = patches.node(place);
+    if (Advance && n < 0) {
+      nodes(n & ~advance_bit, force);
+    } else {
+      for (int i = 0; i < 3; ++i) partial(first_partial + place, i) = static_cast<S>(force[i]);
+    }
   }
 };
 
@@ -232,7 +245,7 @@ struct PatchState {
     const T to_cauchy = determinant(H);
     T h[6];
     hencky_strain(e, h);
-    material.template stress<S>(patches.material(p), batch, e, tau);
+    material.template stress<S>(material.template constants_of<S>(patches.material(p)), batch, e, tau);
     if (stress.extent(0) != 0)
       for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(batch, 6, c), T(tau[c] * to_cauchy));
     value = volume * to_cauchy * elastic_energy_density<S>(h, tau);

@@ -78,47 +78,62 @@ KOKKOS_INLINE_FUNCTION double sum_of_lanes(const Pack<S>& value) {
 #ifdef RAILWAVE_SIMD_LANES
 /// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than lane
 /// by lane. (The forms with a mask, because g++ 12 warns of the others.)
-template <class S>
+template <class S, class Index>
 struct LanePlaces {
-  const std::uint8_t* place;
-  explicit LanePlaces(const std::uint8_t* bytes) : place(bytes) {}
+  const Index* place;
+  explicit LanePlaces(const Index* places) : place(places) {}
   Pack<S> gather(const S* values) const {
     return Pack<S>([&](auto lane) { return values[place[lane]]; });
   }
 };
 #if defined(__AVX512F__)
-template <>
-struct LanePlaces<double> {
+template <class Index>
+struct LanePlaces<double, Index> {
   __m256i place;
-  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(bytes))) {}
+  explicit LanePlaces(const std::uint8_t* p) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(p))) {}
+  explicit LanePlaces(const std::uint16_t* p) : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
   Pack<double> gather(const double* values) const {
     return Pack<double>(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, place, values, 8));
   }
 };
-template <>
-struct LanePlaces<float> {
+template <class Index>
+struct LanePlaces<float, Index> {
   __m512i place;
-  explicit LanePlaces(const std::uint8_t* bytes)
-      : place(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes)))) {}
+  explicit LanePlaces(const std::uint8_t* p)
+      : place(_mm512_maskz_cvtepu8_epi32(0xffff, _mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
+  explicit LanePlaces(const std::uint16_t* p)
+      : place(_mm512_maskz_cvtepu16_epi32(0xffff, _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))) {}
   Pack<float> gather(const float* values) const {
     return Pack<float>(_mm512_mask_i32gather_ps(_mm512_setzero_ps(), 0xffff, place, values, 4));
   }
 };
 #elif defined(__AVX2__)
-template <>
-struct LanePlaces<double> {
+template <class Index>
+struct LanePlaces<double, Index> {
   __m128i place;
-  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm_cvtepu8_epi32(_mm_loadu_si32(bytes))) {}
+  explicit LanePlaces(const std::uint8_t* p) : place(_mm_cvtepu8_epi32(_mm_loadu_si32(p))) {}
+  explicit LanePlaces(const std::uint16_t* p) : place(_mm_cvtepu16_epi32(_mm_loadu_si64(p))) {}
   Pack<double> gather(const double* values) const { return Pack<double>(_mm256_i32gather_pd(values, place, 8)); }
 };
-template <>
-struct LanePlaces<float> {
+template <class Index>
+struct LanePlaces<float, Index> {
   __m256i place;
-  explicit LanePlaces(const std::uint8_t* bytes) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(bytes))) {}
+  explicit LanePlaces(const std::uint8_t* p) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(p))) {}
+  explicit LanePlaces(const std::uint16_t* p) : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
   Pack<float> gather(const float* values) const { return Pack<float>(_mm256_i32gather_ps(values, place, 4)); }
 };
 #endif
 #endif
+
+/// The values at a pack's places.
+template <class S, class Index>
+KOKKOS_INLINE_FUNCTION Pack<S> gather(const S* values, const Index* places) {
+#ifdef RAILWAVE_SIMD_LANES
+  return LanePlaces<S, Index>(places).gather(values);
+#else
+  return values[*places];
+#endif
+}
 
 /// The eight corners of a batch's elements as places in their patch's list of nodes (below 256).
 /// Stored corner by corner, a pack's lanes together; on a GPU an element's eight bytes are one load.
@@ -128,7 +143,7 @@ struct BatchCorners {
   const std::uint8_t* bytes;
   explicit BatchCorners(const std::uint8_t* bytes_) : bytes(bytes_) {}
   /// values[corner N of each lane]
-  Pack<S> gather(const S* values, int N) const { return LanePlaces<S>(bytes + N * lane_count<S>).gather(values); }
+  Pack<S> gather(const S* values, int N) const { return railwave::gather(values, bytes + N * lane_count<S>); }
 #else
   std::uint64_t corners;
 

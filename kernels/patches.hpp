@@ -13,25 +13,32 @@ namespace railwave {
 inline constexpr int patch_size = 128;
 inline constexpr int patch_nodes = 256;
 /// A patch's node that no other patch touches and no load, contact or constraint concerns can be advanced by the patch's
-/// own team: this bit of `first_corner` says so.
-inline constexpr std::uint16_t advance_bit = 0x8000, corner_mask = 0x7fff;
+/// own team: its number in the patch's list then carries this bit.
+inline constexpr int advance_bit = static_cast<int>(0x80000000u);
+/// Corner forces lie in scratch memory component by component; one place after them holds a zero.
+inline constexpr int component_stride = 8 * patch_size + 16, zero_place = 8 * patch_size;
+/// The power that hourglass control dissipates is added up in so many parts of a patch.
+inline constexpr int power_sums = 16;
 
-/// The patches of one model; slot s of patch p is element p patch_size + s. Slots beyond a patch's elements repeat its last
-/// one and are gathered by nobody.
+/// The patches of one group of elements; slot s of patch p is element p patch_size + s. Slots beyond a patch's elements
+/// repeat its last one and are gathered by nobody.
 struct PatchArrays {
   int count = 0;
   int most_nodes = 0;                  ///< of any patch, a multiple of the pack width
   Array<int*> element_count;
   Array<int*> material;                ///< row of the constants
   Array<int*> first_node;              ///< count + 1: a patch's nodes are node[first_node(p)] ...
-  Array<int*> node;                    ///< model node numbers, patch by patch
+  Array<int*> node;                    ///< model node numbers, patch by patch, by how many corners meet there
   Array<int* [3]> frame;               ///< three of a patch's nodes (model numbers) that span a plane
   Array<std::uint8_t*> corner;         ///< by batch: eight places in the patch's nodes, corner by corner
-  Array<std::uint16_t*> first_corner;  ///< patch p's entries begin at first_node(p) + p; one more than it has nodes
-  Array<std::uint16_t*> corner_place;  ///< patch p's begin at 8 patch_size p: corner patch_size + slot of each corner force
+  Array<int*> first_pack;              ///< count + 1: packs of nodes whose corner forces are summed together
+  Array<int*> first_place;             ///< by pack, and one more: where its corner places begin
+  Array<std::uint16_t*> place;         ///< of the corner forces that meet at the pack's nodes, a pack's lanes together
   Array<float*> hourglass_scale;       ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;    ///< by slot, N/m: stiffness control while settling, whatever the run's own control
-  Array<double*> hourglass_energy;     ///< by patch: J dissipated so far
+  Array<double*> hourglass_energy;     ///< power_sums for each patch: J dissipated so far
+
+  KOKKOS_INLINE_FUNCTION int node_number(int k) const { return node(k) & ~advance_bit; }
 };
 
 /// A patch's turn: three nodes' frame now against that of the reference.
@@ -95,7 +102,7 @@ struct StagedNodes {
     const PatchFrame frame = patch::frame_of<S>(patches, p, x, X);
     const int first = patches.first_node(p), count = patches.first_node(p + 1) - first;
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](const int l) {
-      const int n = patches.node(first + l);
+      const int n = patches.node_number(first + l);
       const Vector3 now = row(x, n) - frame.now, before = row(X, n) - frame.before;
       for (int i = 0; i < 3; ++i) {
         double rigid = before[i];

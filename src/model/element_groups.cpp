@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
@@ -71,10 +72,10 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
 
 /// The host side of a group's patches.
 struct PatchLists {
-  std::vector<int> element_count, material, first_node{0}, node;
+  std::vector<int> element_count, material, first_node{0}, node, first_pack{0}, first_place{0};
   std::vector<std::array<int, 3>> frame;
   std::vector<std::uint8_t> corner;
-  std::vector<std::uint16_t> first_corner, corner_place;
+  std::vector<std::uint16_t> place;
   std::vector<float> scale, settling;
   int most_nodes = 0;
 };
@@ -109,34 +110,59 @@ std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int
   return {a, b, c};
 }
 
-/// Appends the patch of elements [first, end).
-void append_patch(const Assembly& assembly, int first, int end, int lanes, PatchLists& lists) {
-  const int count = end - first;
-  std::vector<int> nodes;
-  for (int e = first; e < end; ++e) nodes.insert(nodes.end(), assembly.elements[e].begin(), assembly.elements[e].end());
+/// A patch's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and in the
+/// mesh's own order among those, which lies well in memory.
+std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, int first, int end, std::vector<int>& corners) {
+  std::vector<int> all;
+  for (int e = first; e < end; ++e) all.insert(all.end(), assembly.elements[e].begin(), assembly.elements[e].end());
+  std::sort(all.begin(), all.end());
+  std::vector<std::array<int, 3>> nodes;  // corners, number in the mesh, number
+  for (std::size_t k = 0; k < all.size();) {
+    std::size_t same = k;
+    while (same < all.size() && all[same] == all[k]) ++same;
+    nodes.push_back({static_cast<int>(same - k), order.mesh_number[all[k]], all[k]});
+    k = same;
+  }
   std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::vector<int> result;
+  for (const auto& node : nodes) {
+    corners.push_back(node[0]);
+    result.push_back(node[2]);
+  }
+  return result;
+}
+
+/// The sums over corners, a pack of nodes at a time.
+void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lanes, PatchLists& lists) {
+  for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
+    const std::size_t end = std::min(places.size(), begin + lanes);
+    std::size_t longest = 0;
+    for (std::size_t l = begin; l < end; ++l) longest = std::max(longest, places[l].size());
+    for (std::size_t c = 0; c < longest; ++c)
+      for (std::size_t l = begin; l < begin + lanes; ++l)
+        lists.place.push_back(l < end && c < places[l].size() ? places[l][c] : zero_place);
+    lists.first_place.push_back(static_cast<int>(lists.place.size()));
+  }
+  lists.first_pack.push_back(static_cast<int>(lists.first_place.size()) - 1);
+}
+
+/// Appends the patch of elements [first, end).
+void append_patch(const Assembly& assembly, const PatchOrder& order, int first, int end, int lanes, PatchLists& lists) {
+  const int count = end - first;
+  std::vector<int> corners;
+  const std::vector<int> nodes = local_nodes(assembly, order, first, end, corners);
+  std::unordered_map<int, int> local;
+  for (std::size_t l = 0; l < nodes.size(); ++l) local[nodes[l]] = static_cast<int>(l);
   std::vector<std::vector<std::uint16_t>> places(nodes.size());
-  std::array<std::uint8_t, 8> local{};
-  for (int slot = 0; slot < patch_size; ++slot) {
-    const int e = first + std::min(slot, count - 1);
-    const std::size_t batch_begin = lists.corner.size() - (slot % lanes == 0 ? 0 : 8u * lanes);
-    if (slot % lanes == 0) lists.corner.resize(lists.corner.size() + 8u * lanes);
+  const std::size_t base = lists.corner.size();
+  lists.corner.resize(base + 8u * patch_size);
+  for (int slot = 0; slot < patch_size; ++slot)
     for (int N = 0; N < 8; ++N) {
-      const auto place = std::lower_bound(nodes.begin(), nodes.end(), assembly.elements[e][N]) - nodes.begin();
-      local[N] = static_cast<std::uint8_t>(place);
-      lists.corner[batch_begin + static_cast<std::size_t>(N) * lanes + slot % lanes] = local[N];
-      if (slot < count) places[place].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
+      const int l = local[assembly.elements[first + std::min(slot, count - 1)][N]];
+      lists.corner[base + (static_cast<std::size_t>(slot / lanes) * 8 + N) * lanes + slot % lanes] = static_cast<std::uint8_t>(l);
+      if (slot < count) places[l].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
     }
-  }
-  int corners = 0;
-  for (const auto& of_node : places) {
-    lists.first_corner.push_back(static_cast<std::uint16_t>(corners));
-    lists.corner_place.insert(lists.corner_place.end(), of_node.begin(), of_node.end());
-    corners += static_cast<int>(of_node.size());
-  }
-  lists.first_corner.push_back(static_cast<std::uint16_t>(corners));
-  lists.corner_place.resize(8u * patch_size * (lists.element_count.size() + 1));
+  append_packs(places, lanes, lists);
   lists.element_count.push_back(count);
   lists.node.insert(lists.node.end(), nodes.begin(), nodes.end());
   lists.first_node.push_back(static_cast<int>(lists.node.size()));
@@ -154,11 +180,12 @@ PatchArrays arrays_of(const PatchLists& lists) {
   patches.node = to_device("patch nodes", lists.node);
   patches.frame = to_device("patch frame", lists.frame);
   patches.corner = to_device("patch corners", lists.corner);
-  patches.first_corner = to_device("patch first corner", lists.first_corner);
-  patches.corner_place = to_device("patch corner places", lists.corner_place);
+  patches.first_pack = to_device("patch first pack", lists.first_pack);
+  patches.first_place = to_device("pack first place", lists.first_place);
+  patches.place = to_device("corner places", lists.place);
   patches.hourglass_scale = to_device("hourglass scale", lists.scale);
   patches.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
-  patches.hourglass_energy = Array<double*>("hourglass energy", patches.count);
+  patches.hourglass_energy = Array<double*>("hourglass energy", static_cast<std::size_t>(patches.count) * power_sums);
   return patches;
 }
 
@@ -185,8 +212,8 @@ void build_elements(Model& model) {
   std::vector<PatchLists> lists;
   std::vector<std::vector<ElasticConstants>> constants;
   std::size_t part = 0, group = 0;
-  for (std::size_t p = 0; p + 1 < model.patch_elements.size(); ++p) {
-    const int first = model.patch_elements[p], end = model.patch_elements[p + 1];
+  for (std::size_t p = 0; p + 1 < model.order.first_element.size(); ++p) {
+    const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
     while (part < assembly.parts.size() && first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
     const auto& range = assembly.parts[part];
     if (first == range.first_element) {
@@ -197,7 +224,7 @@ void build_elements(Model& model) {
       constants[group].push_back(
           {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()});
     }
-    append_patch(assembly, first, end, lanes, lists[group]);
+    append_patch(assembly, model.order, first, end, lanes, lists[group]);
     lists[group].material.push_back(static_cast<int>(constants[group].size()) - 1);
     for (int slot = 0; slot < patch_size; ++slot) {
       // Slots that only fill up must not dissipate.

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "model/build_steps.hpp"
-#include "model/patches.hpp"
 
 namespace railwave {
 
@@ -14,7 +13,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.scene = scene;
   model.assembly = assembly;
   check_elements(model);
-  model.patch_elements = order_in_patches(model.assembly);
+  model.order = order_in_patches(model.assembly);
   build_elements(model);
   build_contacts(model);
   build_loads(model);
@@ -82,7 +81,7 @@ std::size_t device_bytes(const Model& model) {
                             model.sets.motion);
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
-    total += bytes(p.element_count, p.material, p.first_node, p.node, p.frame, p.corner, p.first_corner, p.corner_place,
+    total += bytes(p.element_count, p.material, p.first_node, p.node, p.frame, p.corner, p.first_pack, p.first_place, p.place,
                    p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants);
   }
   for (const ContactPair& pair : model.contacts) {

@@ -11,6 +11,7 @@
 #include "kernels/nodes.hpp"
 #include "kernels/set_motion.hpp"
 #include "model/assembly.hpp"
+#include "model/patches.hpp"
 
 namespace railwave {
 
@@ -83,7 +84,7 @@ struct Model {
 
   NodeArrays nodes;
   Array<double* [3][3]> constraints;
-  std::vector<int> patch_elements;     ///< first element of each patch of the whole model, and their number
+  PatchOrder order;
   std::vector<ElementGroup> elements;
   PartialForces partial;
   Array<int*> listed_nodes;            ///< those that no patch advances by itself

@@ -80,13 +80,10 @@ void share_out_nodes(Model& model) {
   std::vector<char> alone(model.nodes.count, 1);
   for (int n : listed) alone[n] = 0;
   for (const ElementGroup& group : model.elements) {
-    const PatchArrays& patches = group.patches;
-    const auto nodes = to_host(patches.node), first_node = to_host(patches.first_node);
-    const auto first_corner = to_host(patches.first_corner);
-    for (int p = 0; p < patches.count; ++p)
-      for (int k = first_node(p); k < first_node(p + 1); ++k)
-        if (alone[nodes(k)] != 0) first_corner(k + p) |= advance_bit;
-    Kokkos::deep_copy(patches.first_corner, first_corner);
+    const auto nodes = to_host(group.patches.node);
+    for (std::size_t k = 0; k < nodes.extent(0); ++k)
+      if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
+    Kokkos::deep_copy(group.patches.node, nodes);
   }
   model.listed_nodes = to_device("listed nodes", listed);
 }

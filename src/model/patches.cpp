@@ -122,10 +122,17 @@ std::vector<int> node_order(const Assembly& assembly, const std::vector<int>& el
     int next = part.first_node;
     for (int p = 0; p < patches; ++p) {
       const bool own = first[p] >= part.first_element && first[p] < part.first_element + part.element_count;
-      for (int pass = 0; own && pass < 2; ++pass)
-        for (int k = first[p]; k < first[p + 1]; ++k)
-          for (int n : assembly.elements[elements[k]])
-            if (number[n] < 0 && (shared[n] != 0) == (pass == 0)) number[n] = next++;
+      if (!own) continue;
+      std::vector<int> fresh;
+      for (int k = first[p]; k < first[p + 1]; ++k)
+        for (int n : assembly.elements[elements[k]])
+          if (number[n] == -1) {
+            number[n] = -2;
+            fresh.push_back(n);
+          }
+      std::sort(fresh.begin(), fresh.end(),
+                [&](int a, int b) { return shared[a] != shared[b] ? shared[a] > shared[b] : a < b; });
+      for (int n : fresh) number[n] = next++;
     }
     for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
       if (number[n] < 0) number[n] = next++;  // of no element; refused later, with its place
@@ -154,15 +161,20 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
 
 }  // namespace
 
-std::vector<int> order_in_patches(Assembly& assembly) {
-  std::vector<int> elements(assembly.elements.size()), first;
+PatchOrder order_in_patches(Assembly& assembly) {
+  std::vector<int> elements(assembly.elements.size());
+  PatchOrder order;
+  auto& first = order.first_element;
   for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = static_cast<int>(e);
   Divider divider(assembly);
   for (const auto& part : assembly.parts)
     if (part.element_count > 0) divider.divide(elements, part.first_element, part.first_element + part.element_count, first);
   first.push_back(static_cast<int>(elements.size()));
-  renumber(assembly, elements, node_order(assembly, elements, first));
-  return first;
+  const auto number = node_order(assembly, elements, first);
+  order.mesh_number.resize(number.size());
+  for (std::size_t n = 0; n < number.size(); ++n) order.mesh_number[number[n]] = static_cast<int>(n);
+  renumber(assembly, elements, number);
+  return order;
 }
 
 }  // namespace railwave

@@ -33,7 +33,8 @@ struct PatchEnergy {
   Array<const double*> dissipated;
   KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
     sum[0] += energy(p, 0);
-    sum[1] += energy(p, 1) + dissipated(p);
+    sum[1] += energy(p, 1);
+    for (int k = 0; k < power_sums; ++k) sum[1] += dissipated(p * power_sums + k);
   }
 };
 

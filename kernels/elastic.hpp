@@ -17,7 +17,7 @@ struct ElasticConstants {
 /// @param H H[i][j] = du_i/dx_j
 /// @param e result: xx, yy, zz, xy, yz, zx (tensor components)
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION void almansi_strain(const T (&H)[3][3], T (&e)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION void almansi_strain(const T (&H)[3][3], T (&e)[6]) {
   constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
   for (int c = 0; c < 6; ++c) {
     const int j = row[c], k = column[c];
@@ -29,7 +29,7 @@ KOKKOS_INLINE_FUNCTION void almansi_strain(const T (&H)[3][3], T (&e)[6]) {
 /// h = e + e.e + 4/3 e.e.e + ...; the term left out is below 4/3 |e|^3 (1e-7 at 0.5 % strain).
 /// Needs no polar decomposition and is zero to rounding under any rotation.
 template <class T>
-KOKKOS_INLINE_FUNCTION void hencky_strain(const T (&e)[6], T (&h)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION void hencky_strain(const T (&e)[6], T (&h)[6]) {
   h[0] = e[0] + (e[0] * e[0] + e[3] * e[3] + e[5] * e[5]);
   h[1] = e[1] + (e[3] * e[3] + e[1] * e[1] + e[4] * e[4]);
   h[2] = e[2] + (e[5] * e[5] + e[4] * e[4] + e[2] * e[2]);
@@ -39,14 +39,14 @@ KOKKOS_INLINE_FUNCTION void hencky_strain(const T (&e)[6], T (&h)[6]) {
 }
 
 template <class T>
-KOKKOS_INLINE_FUNCTION T determinant(const T (&G)[3][3]) {
+KOKKOS_FORCEINLINE_FUNCTION T determinant(const T (&G)[3][3]) {
   return G[0][0] * (G[1][1] * G[2][2] - G[1][2] * G[2][1]) - G[0][1] * (G[1][0] * G[2][2] - G[1][2] * G[2][0]) +
          G[0][2] * (G[1][0] * G[2][1] - G[1][1] * G[2][0]);
 }
 
 /// Kirchhoff stress lambda tr(h) I + 2 mu h, in Pa; the Cauchy stress is this over J = det F.
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION void kirchhoff_stress(const ElasticConstants& constants, const T (&h)[6], T (&tau)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION void kirchhoff_stress(const ElasticConstants& constants, const T (&h)[6], T (&tau)[6]) {
   const T pressure_part = S(constants.lambda) * (h[0] + h[1] + h[2]);
   for (int c = 0; c < 6; ++c) tau[c] = S(2 * constants.mu) * h[c];
   for (int c = 0; c < 3; ++c) tau[c] += pressure_part;
@@ -54,7 +54,7 @@ KOKKOS_INLINE_FUNCTION void kirchhoff_stress(const ElasticConstants& constants, 
 
 /// Energy for each reference volume, h : tau / 2, J/m3.
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION T elastic_energy_density(const T (&h)[6], const T (&tau)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION T elastic_energy_density(const T (&h)[6], const T (&tau)[6]) {
   return S(0.5) * (h[0] * tau[0] + h[1] * tau[1] + h[2] * tau[2]) + (h[3] * tau[3] + h[4] * tau[4] + h[5] * tau[5]);
 }
 

@@ -11,7 +11,7 @@ struct Elastic {
 
   /// Kirchhoff stress from the Almansi strain, Pa.
   template <class S, class T>
-  KOKKOS_INLINE_FUNCTION static void stress(const ElasticConstants& patch_constants, int /*batch*/, const T (&e)[6], T (&tau)[6]) {
+  KOKKOS_FORCEINLINE_FUNCTION static void stress(const ElasticConstants& patch_constants, int /*batch*/, const T (&e)[6], T (&tau)[6]) {
     T h[6];
     hencky_strain(e, h);
     kirchhoff_stress<S>(patch_constants, h, tau);
@@ -78,56 +78,53 @@ struct PatchForce {
                                           S* force, S* power_of_slot) const {
     const int batch = p * (patch_size / lane_count<S>) + b;
     const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
-    T x[3][7], B[3][6], H[3][3], q[3][4], turned[3][3];
+    T x[3][7], B[3][6], H[3][3], cauchy[6];
     for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
     mean_gradient<S>(x, B);
     const T inverse_volume = S(1) / along(x[0], B[0]);
-    T power = S(0);
+    [[maybe_unused]] T w[3][4];
+    for (int i = 0; i < 3; ++i) {
+      T u[7];
+      staged.modes(staged.displacement + i * staged.stride, corners, u);
+      for (int j = 0; j < 3; ++j) H[i][j] = along(u, B[j]) * inverse_volume;
+      if constexpr (Hourglass::stores)
+        for (int M = 0; M < 4; ++M) w[i][M] = hourglass_content(u, H[i], x, M);
+    }
+    {
+      T e[6];
+      almansi_strain<S>(H, e);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+      material.template stress<S>(constants, batch, e, cauchy);
+      const T to_cauchy = determinant(H);
+      for (int c = 0; c < 6; ++c) cauchy[c] *= to_cauchy;
+    }
+
+    // Row by row, so that few values are needed at a time.
     const T scale = hourglass_scales(batch);
-    if constexpr (Hourglass::needs_velocity) {
-      for (int i = 0; i < 3; ++i) {
+    T power = S(0);
+    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int i = 0; i < 3; ++i) {
+      T q[4], stress[3], m[7], f[8];
+      if constexpr (Hourglass::stores) {
+        for (int M = 0; M < 4; ++M) q[M] = scale * (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]);
+      } else {
         T v[7], L[3];
         staged.modes(staged.velocity + i * staged.stride, corners, v);
         for (int j = 0; j < 3; ++j) L[j] = along(v, B[j]) * inverse_volume;
         for (int M = 0; M < 4; ++M) {
           const T speed = hourglass_content(v, L, x, M);
-          q[i][M] = scale * speed;
-          power += q[i][M] * speed;
+          q[M] = scale * speed;
+          power += q[M] * speed;
         }
       }
-      moments(q, x, turned);
-    }
-    {
-      T w[3][4];
-      for (int i = 0; i < 3; ++i) {
-        T u[7];
-        staged.modes(staged.displacement + i * staged.stride, corners, u);
-        for (int j = 0; j < 3; ++j) H[i][j] = along(u, B[j]) * inverse_volume;
-        if constexpr (Hourglass::stores)
-          for (int M = 0; M < 4; ++M) w[i][M] = hourglass_content(u, H[i], x, M);
+      for (int j = 0; j < 3; ++j) {
+        const T moment = (q[0] * x[j][3] + q[1] * x[j][4]) + (q[2] * x[j][5] + q[3] * x[j][6]);
+        stress[j] = cauchy[voigt[i][j]] - moment * inverse_volume;
       }
-      if constexpr (Hourglass::stores) {
-        for (int i = 0; i < 3; ++i)
-          for (int M = 0; M < 4; ++M)
-            q[i][M] = scale * (w[i][M] - (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]));
-        moments(q, x, turned);
-      }
-    }
-
-    T e[6], tau[6];
-    almansi_strain<S>(H, e);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
-    const T to_cauchy = determinant(H);
-    material.template stress<S>(constants, batch, e, tau);
-
-    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    for (int i = 0; i < 3; ++i) {
-      T stress[3], m[7], f[8];
-      for (int j = 0; j < 3; ++j) stress[j] = to_cauchy * tau[voigt[i][j]] - turned[i][j] * inverse_volume;
       for (int k = 0; k < 6; ++k) m[k] = stress[0] * B[0][k] + stress[1] * B[1][k] + stress[2] * B[2][k];
-      for (int M = 0; M < 3; ++M) m[3 + M] += q[i][M];
-      m[6] = q[i][3];
+      for (int M = 0; M < 3; ++M) m[3 + M] += q[M];
+      m[6] = q[3];
       corners_of(m, f);
       for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * patch_size + b * lane_count<S>, f[N]);
     }
@@ -143,13 +140,6 @@ struct PatchForce {
 #else
     return static_cast<S>(*scales);
 #endif
-  }
-
-  /// sum over M of q_iM xm_jM
-  KOKKOS_INLINE_FUNCTION static void moments(const T (&q)[3][4], const T (&x)[3][7], T (&result)[3][3]) {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        result[i][j] = (q[i][0] * x[j][3] + q[i][1] * x[j][4]) + (q[i][2] * x[j][5] + q[i][3] * x[j][6]);
   }
 
   template <class Member>

@@ -10,7 +10,7 @@
 namespace railwave {
 
 /// The sign of a mode at a corner.
-KOKKOS_INLINE_FUNCTION constexpr int mode_sign(int mode, int corner) {
+KOKKOS_FORCEINLINE_FUNCTION constexpr int mode_sign(int mode, int corner) {
   constexpr int sign[7][8] = {{-1, 1, 1, -1, -1, 1, 1, -1}, {-1, -1, 1, 1, -1, -1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1},
                               {1, 1, -1, -1, -1, -1, 1, 1}, {1, -1, -1, 1, -1, 1, 1, -1}, {1, -1, 1, -1, 1, -1, 1, -1},
                               {-1, 1, -1, 1, 1, -1, 1, -1}};
@@ -19,7 +19,7 @@ KOKKOS_INLINE_FUNCTION constexpr int mode_sign(int mode, int corner) {
 
 /// m[mode] = sum over corners of u times the mode's sign.
 template <class T>
-KOKKOS_INLINE_FUNCTION void modes_of(const T (&u)[8], T (&m)[7]) {
+KOKKOS_FORCEINLINE_FUNCTION void modes_of(const T (&u)[8], T (&m)[7]) {
   const T sum01 = u[0] + u[1], sum23 = u[2] + u[3], sum45 = u[4] + u[5], sum67 = u[6] + u[7];
   const T d10 = u[1] - u[0], d23 = u[2] - u[3], d54 = u[5] - u[4], d67 = u[6] - u[7];
   const T bottom = d10 + d23, top = d54 + d67;
@@ -36,7 +36,7 @@ KOKKOS_INLINE_FUNCTION void modes_of(const T (&u)[8], T (&m)[7]) {
 
 /// f[corner] = sum over modes of m times the mode's sign.
 template <class T>
-KOKKOS_INLINE_FUNCTION void corners_of(const T (&m)[7], T (&f)[8]) {
+KOKKOS_FORCEINLINE_FUNCTION void corners_of(const T (&m)[7], T (&f)[8]) {
   const T xi_below = m[0] - m[4], xi_above = m[0] + m[4], turn_below = m[5] - m[6], turn_above = m[5] + m[6];
   const T eta_below = m[1] - m[3], eta_above = m[1] + m[3];
   const T below_minus = xi_below - turn_below, below_plus = xi_below + turn_below;
@@ -60,7 +60,7 @@ KOKKOS_INLINE_FUNCTION void corners_of(const T (&m)[7], T (&f)[8]) {
 /// @param x modes of the coordinates [direction][mode], m
 /// @param B result [direction][mode], m2
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION void mean_gradient(const T (&x)[3][7], T (&B)[3][6]) {
+KOKKOS_FORCEINLINE_FUNCTION void mean_gradient(const T (&x)[3][7], T (&B)[3][6]) {
   constexpr S linear = S(1) / 64, warped = S(1) / 192;
   for (int i = 0; i < 3; ++i) {
     const T(&y)[7] = x[(i + 1) % 3];
@@ -77,7 +77,7 @@ KOKKOS_INLINE_FUNCTION void mean_gradient(const T (&x)[3][7], T (&B)[3][6]) {
 
 /// sum over modes of u times B; with B = dV/dx and u = x of the same direction, the volume.
 template <class T>
-KOKKOS_INLINE_FUNCTION T along(const T (&u)[7], const T (&B)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION T along(const T (&u)[7], const T (&B)[6]) {
   return (u[0] * B[0] + u[1] * B[1] + u[2] * B[2]) + (u[3] * B[3] + u[4] * B[4] + u[5] * B[5]);
 }
 

@@ -10,7 +10,7 @@
 namespace railwave {
 
 template <class T>
-KOKKOS_INLINE_FUNCTION T hourglass_content(const T (&u)[7], const T (&gradient)[3], const T (&x)[3][7], int M) {
+KOKKOS_FORCEINLINE_FUNCTION T hourglass_content(const T (&u)[7], const T (&gradient)[3], const T (&x)[3][7], int M) {
   return u[3 + M] - (gradient[0] * x[0][3 + M] + gradient[1] * x[1][3 + M] + gradient[2] * x[2][3 + M]);
 }
 

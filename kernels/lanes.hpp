@@ -46,7 +46,7 @@ KOKKOS_INLINE_FUNCTION constexpr long tiled(int batch, int values, int value) {
 }
 
 template <class S>
-KOKKOS_INLINE_FUNCTION Pack<S> load(const S* p) {
+KOKKOS_FORCEINLINE_FUNCTION Pack<S> load(const S* p) {
 #ifdef RAILWAVE_SIMD_LANES
   return Pack<S>(p, std::experimental::element_aligned);
 #else
@@ -55,7 +55,7 @@ KOKKOS_INLINE_FUNCTION Pack<S> load(const S* p) {
 }
 
 template <class S>
-KOKKOS_INLINE_FUNCTION void store(S* p, const Pack<S>& value) {
+KOKKOS_FORCEINLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 #ifdef RAILWAVE_SIMD_LANES
   value.copy_to(p, std::experimental::element_aligned);
 #else
@@ -127,7 +127,7 @@ struct LanePlaces<float, Index> {
 
 /// The values at a pack's places.
 template <class S, class Index>
-KOKKOS_INLINE_FUNCTION Pack<S> gather(const S* values, const Index* places) {
+KOKKOS_FORCEINLINE_FUNCTION Pack<S> gather(const S* values, const Index* places) {
 #ifdef RAILWAVE_SIMD_LANES
   return LanePlaces<S, Index>(places).gather(values);
 #else

@@ -117,7 +117,7 @@ struct StagedNodes {
   }
 
   /// The modes of one component over a batch's elements.
-  KOKKOS_INLINE_FUNCTION void modes(const S* component, const BatchCorners<S>& corners, Pack<S> (&m)[7]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void modes(const S* component, const BatchCorners<S>& corners, Pack<S> (&m)[7]) const {
     Pack<S> u[8];
     for (int N = 0; N < 8; ++N) u[N] = corners.gather(component, N);
     modes_of(u, m);

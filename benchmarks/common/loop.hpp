@@ -26,6 +26,15 @@ class Loop {
     instant_.elapsed = model_.step_size;
   }
 
+  /// A step at whose instant somebody looks, when the forces are known.
+  template <class Look>
+  void watched_step(const Look& look) {
+    forces();
+    look();
+    advance(model_, model_.step_size);
+    instant_.elapsed = model_.step_size;
+  }
+
   /// Forces at the present instant, for fields that need them.
   void forces() {
     instant_.advancing = false;

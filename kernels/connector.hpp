@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/extra_force.hpp"
 #include "kernels/set_motion.hpp"
 
 namespace railwave {
@@ -20,16 +19,20 @@ struct ConnectorArrays {
 
 struct ConnectorForce {
   ConnectorArrays connectors;
-  NodeSets sets;
+  SetMotion sets;
   double elapsed;         ///< s since the last step
   double damping_factor;  ///< 1; 0 while settling, where velocities have no physical meaning
 
   KOKKOS_INLINE_FUNCTION void operator()(const int c) const {
-    double relative[6];
-    for (int i = 0; i < 6; ++i) {
-      relative[i] = i < 3 ? -connectors.rest(c, i) : 0.0;
-      if (connectors.set(c, 1) >= 0) relative[i] += sets.motion(connectors.set(c, 1), i);
-      if (connectors.set(c, 0) >= 0) relative[i] -= sets.motion(connectors.set(c, 0), i);
+    Vector3 relative = -1.0 * row(connectors.rest, c), velocity{{0, 0, 0}};
+    const int from = connectors.set(c, 0), to = connectors.set(c, 1);
+    if (to >= 0) {
+      relative = relative + sets.mean_position(to);
+      velocity = velocity + sets.mean_velocity(to);
+    }
+    if (from >= 0) {
+      relative = relative - sets.mean_position(from);
+      velocity = velocity - sets.mean_velocity(from);
     }
     Vector3 force = row(connectors.preload, c);
     double stored = 0, power = 0;
@@ -38,7 +41,7 @@ struct ConnectorForce {
       double stretch = 0, rate = 0;
       for (int i = 0; i < 3; ++i) {
         stretch += connectors.axes(c, a, i) * relative[i];
-        rate += connectors.axes(c, a, i) * relative[3 + i];
+        rate += connectors.axes(c, a, i) * velocity[i];
       }
       const double k = connectors.stiffness(c, a), d = damping_factor * connectors.damping(c, a);
       stored += 0.5 * k * stretch * stretch;
@@ -48,19 +51,6 @@ struct ConnectorForce {
     connectors.energy(c, 0) = stored;
     connectors.energy(c, 1) += elapsed * power;
     for (int i = 0; i < 3; ++i) connectors.force(c, i) = force[i];
-  }
-};
-
-/// Shares a connector's force over the nodes of its two ends by weight.
-struct ConnectorContribution {
-  ExtraForces extra;
-  ConnectorArrays connectors;
-  int first;                       ///< contributions first, first + 1, ...
-  Array<const int*> connector;     ///< of each contribution
-  Array<const double*> share;      ///< weight, negative at `from`
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    for (int k = 0; k < 3; ++k) extra.contribution(first + i, k) = share(i) * connectors.force(connector(i), k);
   }
 };
 

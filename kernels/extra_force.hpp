@@ -4,26 +4,31 @@
 
 namespace railwave {
 
-/// Forces that few nodes feel. Loads and connectors write contributions of their own, which the nodes concerned gather in
-/// fixed order; contact adds to its part of the sum in whole quanta.
+/// One of a row's contributions.
+struct alignas(16) RowShare {
+  int contribution;
+  int law;         ///< `given`, or a connector's number, or the number of connectors plus that of a torque
+  double weight;   ///< of the node in its set; negative at a connector's `from`
+
+  static constexpr int given = -1;  ///< its load's own kernel has put its value in place
+};
+
+/// A row with contributions: shares(first) ... shares(last - 1), in fixed order.
+struct alignas(16) LoadedRow {
+  int row, node, first, last;
+};
+
+/// Forces that few nodes feel: those of loads and connectors are contributions, gathered by row in fixed order; contact adds
+/// to its part of the sum in whole quanta.
 struct ExtraForces {
   int row_count = 0;                 ///< nodes that can feel any extra force
-  int contribution_count = 0;
+  int contribution_count = 0, loaded_count = 0;
   ExtraForceSum sum;
-  Array<int*> first;                 ///< row_count + 1
-  Array<int*> contribution_of_row;   ///< contribution numbers, row by row
+  Array<LoadedRow*> loaded;
+  Array<RowShare*> shares;
   Array<double* [3]> contribution;   ///< N
   Array<int*> contribution_node;
   Array<double*> work;               ///< J, done so far by each contribution
-};
-
-struct GatherExtraForce {
-  ExtraForces extra;
-  KOKKOS_INLINE_FUNCTION void operator()(const int r) const {
-    Vector3 sum{{0, 0, 0}};
-    for (int c = extra.first(r); c < extra.first(r + 1); ++c) sum = sum + row(extra.contribution, extra.contribution_of_row(c));
-    for (int i = 0; i < 3; ++i) extra.sum.load(r, i) = sum[i];
-  }
 };
 
 /// Puts a load's new value in place and books the work done since the last step, by the trapezoidal rule over the motion

@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
@@ -12,7 +15,10 @@ namespace {
 struct Collector {
   Model& model;
   std::vector<std::vector<int>> sets;
+  std::vector<std::string> set_names;
   std::vector<int> contribution_node;
+  std::vector<Vec3> torque_axis;
+  std::vector<int> torque_set;
 
   std::vector<double> weights(const std::vector<int>& nodes) const {
     double total = 0;
@@ -24,7 +30,10 @@ struct Collector {
 
   int set(const scene::Place& entry, const std::string& key, const std::string& name) {
     if (name == "ground") return -1;
+    const auto known = std::find(set_names.begin(), set_names.end(), name);
+    if (known != set_names.end()) return static_cast<int>(known - set_names.begin());
     sets.push_back(find_node_set(model.scene, model.assembly, entry, key, name));
+    set_names.push_back(name);
     return static_cast<int>(sets.size()) - 1;
   }
 
@@ -72,6 +81,13 @@ void build_load(Collector& collector, const scene::Load& load) {
   arrays.first = collector.contributions();
   if (load.type == scene::LoadType::torque) {
     arrays.set = collector.set(load, "target", load.target);
+    arrays.torque = static_cast<int>(collector.torque_set.size());
+    const Vec3& a = load.axis;
+    collector.torque_axis.push_back(scaled(1 / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), a));
+    collector.torque_set.push_back(arrays.set);
+    if (collector.torque_set.size() > TorqueArrays::most)
+      throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", model.scene.path, load.line,
+                                   load.name, TorqueArrays::most));
     for (int n : collector.sets[arrays.set]) collector.contribution_node.push_back(n);
     arrays.count = static_cast<int>(collector.sets[arrays.set].size());
   } else if (load.type == scene::LoadType::pressure) {
@@ -144,25 +160,64 @@ void build_connectors(Collector& collector) {
   Kokkos::deep_copy(arrays.axes, axes);
   arrays.force = Array<double* [3]>("connector force", count);
   arrays.energy = Array<double* [2]>("connector energy", count);
-  stage.connector = to_device("connector of contribution", connector);
-  stage.share = to_device("share of contribution", share);
+  stage.connector = connector;
+  stage.share = share;
 }
 
-void build_sets(Collector& collector) {
-  std::vector<int> first{0}, nodes;
+/// @param moving sets that connectors and torques need; histories need the rest
+void build_sets(const Collector& collector, int moving) {
+  std::vector<int> first{0}, first_chunk{0}, nodes;
+  std::vector<SetChunk> chunks;
   std::vector<double> weight;
-  for (const auto& set : collector.sets) {
-    const auto own = collector.weights(set);
-    nodes.insert(nodes.end(), set.begin(), set.end());
+  for (std::size_t s = 0; s < collector.sets.size(); ++s) {
+    const auto own = collector.weights(collector.sets[s]);
+    const int begin = first.back(), end = begin + static_cast<int>(own.size());
+    nodes.insert(nodes.end(), collector.sets[s].begin(), collector.sets[s].end());
     weight.insert(weight.end(), own.begin(), own.end());
-    first.push_back(static_cast<int>(nodes.size()));
+    first.push_back(end);
+    if (static_cast<int>(s) >= moving) continue;
+    for (int k = begin; k < end; k += SetChunk::size)
+      chunks.push_back({static_cast<int>(s), k, std::min(k + SetChunk::size, end), 0});
+    first_chunk.push_back(static_cast<int>(chunks.size()));
   }
   NodeSets& sets = collector.model.sets;
   sets.count = static_cast<int>(collector.sets.size());
+  sets.moving = moving;
   sets.first = to_device("first of set", first);
   sets.nodes = to_device("nodes of set", nodes);
   sets.weight = to_device("weight in set", weight);
-  sets.motion = Array<double* [6]>("set motion", sets.count);
+  sets.first_chunk = to_device("first chunk of set", first_chunk);
+  sets.chunks = to_device("chunks of sets", chunks);
+  sets.partial = Array<double* [NodeSets::values]>("sums of chunks", chunks.size());
+  sets.sums = Array<double* [NodeSets::values]>("sums of sets", moving);
+}
+
+void build_torques(const Collector& collector) {
+  TorqueArrays& torques = collector.model.torques;
+  torques.count = static_cast<int>(collector.torque_set.size());
+  torques.set = to_device("torque set", collector.torque_set);
+  torques.axis = to_device("torque axis", collector.torque_axis);
+  torques.now = Array<double* [4]>("torque now", torques.count);
+}
+
+/// What each contribution is worth at each step.
+std::vector<RowShare> contribution_shares(const Collector& collector) {
+  const Model& model = collector.model;
+  std::vector<RowShare> shares(collector.contribution_node.size());
+  for (std::size_t c = 0; c < shares.size(); ++c) shares[c] = {static_cast<int>(c), RowShare::given, 1};
+  for (std::size_t i = 0; i < model.connectors.connector.size(); ++i) {
+    shares[model.connectors.first + i].law = model.connectors.connector[i];
+    shares[model.connectors.first + i].weight = model.connectors.share[i];
+  }
+  for (const LoadArrays& load : model.loads) {
+    if (load.torque < 0) continue;
+    const auto weight = collector.weights(collector.sets[load.set]);
+    for (int k = 0; k < load.count; ++k) {
+      shares[load.first + k].law = model.connectors.arrays.count + load.torque;
+      shares[load.first + k].weight = weight[k];
+    }
+  }
+  return shares;
 }
 
 /// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa on the
@@ -192,8 +247,13 @@ void build_extra(const Collector& collector) {
   std::vector<int> first(rows + 1, 0);
   for (int n : collector.contribution_node) ++first[row_of_node[n] + 1];
   for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
-  std::vector<int> filled(first.begin(), first.end() - 1), of_row(collector.contribution_node.size());
-  for (int c = 0; c < collector.contributions(); ++c) of_row[filled[row_of_node[collector.contribution_node[c]]]++] = c;
+  std::vector<int> filled(first.begin(), first.end() - 1);
+  std::vector<RowShare> sorted(collector.contribution_node.size());
+  for (const RowShare& share : contribution_shares(collector))
+    sorted[filled[row_of_node[collector.contribution_node[share.contribution]]]++] = share;
+  std::vector<LoadedRow> loaded;
+  for (int r = 0; r < rows; ++r)
+    if (first[r + 1] > first[r]) loaded.push_back({r, concerned[r], first[r], first[r + 1]});
 
   ExtraForces& extra = model.extra;
   extra.row_count = rows;
@@ -201,8 +261,9 @@ void build_extra(const Collector& collector) {
   extra.sum.load = Array<double* [3]>("load on row", rows);
   extra.sum.contact = Array<unsigned long long* [3]>("contact force on row", rows);
   extra.sum.quantum = contact_quantum(model);
-  extra.first = to_device("first contribution", first);
-  extra.contribution_of_row = to_device("contribution of row", of_row);
+  extra.loaded_count = static_cast<int>(loaded.size());
+  extra.loaded = to_device("loaded rows", loaded);
+  extra.shares = to_device("shares of rows", sorted);
   extra.contribution = Array<double* [3]>("contribution", extra.contribution_count);
   extra.contribution_node = to_device("node of contribution", collector.contribution_node);
   extra.work = Array<double*>("work of contribution", extra.contribution_count);
@@ -212,12 +273,14 @@ void build_extra(const Collector& collector) {
 }  // namespace
 
 void build_loads(Model& model) {
-  Collector collector{model, {}, {}};
+  Collector collector{model, {}, {}, {}, {}, {}};
   for (const scene::Load& load : model.scene.loads) build_load(collector, load);
   build_connectors(collector);
+  const int moving = static_cast<int>(collector.sets.size());
   for (const std::string& name : model.scene.output.history_sets)
     model.history_sets.push_back(collector.set({"history_sets", 0}, "output", name));
-  build_sets(collector);
+  build_sets(collector, moving);
+  build_torques(collector);
   build_extra(collector);
 }
 

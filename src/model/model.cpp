@@ -76,9 +76,9 @@ std::size_t device_bytes(const Model& model) {
   const ExtraForces& x = model.extra;
   std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
                             model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes,
-                            x.sum.load, x.sum.contact, x.first, x.contribution_of_row, x.contribution,
+                            x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
                             x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
-                            model.sets.motion);
+                            model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums);
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.material, p.first_node, p.node, p.frame, p.corner, p.first_pack, p.first_place, p.place,

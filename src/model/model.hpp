@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/connector.hpp"
 #include "kernels/contact_arrays.hpp"
 #include "kernels/element_force.hpp"
-#include "kernels/extra_force.hpp"
 #include "kernels/nodes.hpp"
-#include "kernels/set_motion.hpp"
+#include "kernels/set_loads.hpp"
 #include "model/assembly.hpp"
 #include "model/patches.hpp"
 
@@ -35,14 +33,15 @@ struct LoadArrays {
   Array<double* [3]> amplitude;         ///< dead loads, N
   Array<int* [4]> facets;               ///< pressure
   int set = -1;                         ///< torque
+  int torque = -1;                      ///< its number among the torques
 };
 
 /// Connectors of a scene, with the contributions by which their ends feel them.
 struct ConnectorStage {
   ConnectorArrays arrays;
-  int first = 0;
-  Array<int*> connector;
-  Array<double*> share;
+  int first = 0;                        ///< contribution
+  std::vector<int> connector;           ///< of each contribution
+  std::vector<double> share;            ///< weight, negative at `from`
 };
 
 struct ContactPair {
@@ -94,6 +93,7 @@ struct Model {
   std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;
+  TorqueArrays torques;
   std::vector<ContactPair> contacts;
   std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute
 

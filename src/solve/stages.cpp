@@ -1,7 +1,6 @@
 #include "solve/stages.hpp"
 
 #include "kernels/contact_force.hpp"
-#include "kernels/torque.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
 
@@ -47,24 +46,11 @@ Stage element_stage(Model& model, const ElementGroup& group) {
   return {"elements of " + group.parts + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
 }
 
-Stage set_motion_stage(const Model& model) {
-  return {"mean motion of node sets", [&model](const Instant&) {
-            Kokkos::parallel_for("set_motion", Team(model.sets.count, Kokkos::AUTO),
-                                 SetMotion{model.sets, model.nodes.position, model.nodes.velocity});
-          }};
-}
-
+/// A load that puts the values of its contributions in place by a kernel of its own.
 void apply_load(const Model& model, const LoadArrays& load, const Instant& instant) {
   const double factor = curve_value(load.curve, instant.time);
   const NodeArrays& nodes = model.nodes;
-  if (load.load->type == scene::LoadType::torque) {
-    const Vec3& a = load.load->axis;
-    const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    const Vector3 axis{{a[0] / length, a[1] / length, a[2] / length}};
-    Kokkos::parallel_for("torque", Team(1, Kokkos::AUTO),
-                         Torque{model.extra, model.sets, nodes.position, nodes.velocity, load.set, load.first, axis,
-                                factor * load.load->moment, instant.elapsed});
-  } else if (load.load->type == scene::LoadType::pressure) {
+  if (load.load->type == scene::LoadType::pressure) {
     Kokkos::parallel_for("pressure", Range(0, load.count),
                          PressureLoad{model.extra, nodes.position, nodes.velocity, load.first, load.facets,
                                       factor * load.load->pressure, instant.elapsed});
@@ -78,19 +64,34 @@ Stage load_stage(const Model& model, const LoadArrays& load) {
   return {"load " + load.load->name, [&model, &load](const Instant& instant) { apply_load(model, load, instant); }};
 }
 
-Stage connector_stage(const Model& model) {
-  return {"connectors", [&model](const Instant& instant) {
-            const ConnectorStage& stage = model.connectors;
-            Kokkos::parallel_for("connector_force", Range(0, stage.arrays.count),
-                                 ConnectorForce{stage.arrays, model.sets, instant.elapsed, instant.settling ? 0.0 : 1.0});
-            Kokkos::parallel_for("connector_contribution", Range(0, stage.connector.extent(0)),
-                                 ConnectorContribution{model.extra, stage.arrays, stage.first, stage.connector, stage.share});
-          }};
-}
+using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>,
+                                    Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+using RowRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 
-Stage gather_extra_stage(const Model& model) {
-  return {"gather of extra forces", [&model](const Instant&) {
-            Kokkos::parallel_for("gather_extra_force", Range(0, model.extra.row_count), GatherExtraForce{model.extra});
+/// More rows than this are not for one team.
+constexpr int most_rows_of_a_team = 4096;
+
+/// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
+Stage set_load_stage(const Model& model) {
+  constexpr bool on_host = std::is_same_v<MemorySpace, Kokkos::HostSpace>;
+  const bool sets = model.sets.moving > 0, many = model.extra.loaded_count > most_rows_of_a_team;
+  std::string name = "gather of loads";
+  if (model.torques.count > 0) name = "torques, " + name;
+  if (model.connectors.arrays.count > 0) name = "connectors, " + name;
+  return {name, [&model, sets, many](const Instant& instant) {
+            const NodeArrays& nodes = model.nodes;
+            const SetMotion motion{model.sets, nodes.position, nodes.velocity};
+            const RowLoads rows{model.extra, model.connectors.arrays, model.torques, nodes.position, nodes.velocity,
+                                instant.elapsed};
+            if (sets) {
+              TorqueNow torques{model.torques, motion};
+              for (const LoadArrays& load : model.loads)
+                if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
+              const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
+              Kokkos::parallel_for("set_loads", LoadTeam(1, on_host ? 1 : 512),
+                                   SetLoads{motion, connectors, torques, rows, many ? 0 : model.extra.loaded_count});
+            }
+            if (!sets || many) Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), rows);
           }};
 }
 
@@ -113,10 +114,9 @@ Stage contact_stage(Model& model, ContactPair& pair) {
 
 std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages;
-  if (model.sets.count > 0) stages.push_back(set_motion_stage(model));
-  for (const LoadArrays& load : model.loads) stages.push_back(load_stage(model, load));
-  if (model.connectors.arrays.count > 0) stages.push_back(connector_stage(model));
-  if (model.extra.row_count > 0) stages.push_back(gather_extra_stage(model));
+  for (const LoadArrays& load : model.loads)
+    if (load.torque < 0) stages.push_back(load_stage(model, load));
+  if (model.extra.loaded_count > 0) stages.push_back(set_load_stage(model));
   for (ContactPair& pair : model.contacts)
     stages.push_back(pair.arrays.friction > 0 ? contact_stage<true>(model, pair) : contact_stage<false>(model, pair));
   // Last: its patches may move their nodes at once, where all else must still find them.

@@ -37,31 +37,40 @@ struct PatchForce {
   Array<S* [3]> partial;    ///< N
   int first_partial;        ///< row of the patches' first node
 
+  using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance>;
+
   /// Scratch memory of a team, bytes.
   static std::size_t scratch_size(const PatchArrays& patches) {
-    return sizeof(S) * (StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity) + 3u * component_stride + patch_size) + 64;
+    return Staged::scratch_size(patches.node_stride) + sizeof(S) * (3u * component_stride + patch_size) + 4 * scratch_alignment +
+           (on_device ? sizeof(std::uint16_t) * (patches.pack_stride + patches.place_stride) : 0);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
-    const StagedNodes<S> staged(scratch_values<S>(team, StagedNodes<S>::values(patches.most_nodes, Hourglass::needs_velocity)),
-                                patches.most_nodes);
+    const Staged staged(team, patches.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, patch_size);
-    const NodeArrays& all = nodes.nodes;
-    const int elements = patches.element_count(p), row = patches.material(p);
-    const auto constants = material.template constants_of<S>(row);
-    staged.template bring<Hourglass::needs_velocity>(team, patches, p, all.position, all.reference, all.velocity);
-
-    const int batches = on_device ? elements : (elements + lane_count<S> - 1) / lane_count<S>;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches),
-                         [&](const int b) { batch_force(p, b, constants, staged, force, power); });
-    if (!on_device)
+    const int elements = patches.element_count(p);
+    const auto constants = material.template constants_of<S>(patches.material(p));
+    const SumLists lists = sum_lists(team, p);
+    if constexpr (on_device) {
+      // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
+      const int e = team.team_rank();
+      const BatchCorners<S> corners = corners_of_batch(p, e);
+      const T scale = hourglass_scales(p, e);
+      staged.bring(team, patches, p, nodes.nodes);
+      team.team_barrier();
+      if (e < elements) batch_force(p, e, corners, scale, constants, staged, force, power);
+      team.team_barrier();
+    } else {
+      staged.bring(team, patches, p, nodes.nodes);
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
-    team.team_barrier();
-    sum_corners(team, p, force);
+      for (int b = 0; b * lane_count<S> < elements; ++b)
+        batch_force(p, b, corners_of_batch(p, b), hourglass_scales(p, b), constants, staged, force, power);
+    }
+    sum_corners(team, p, lists, staged, force);
     if constexpr (!Hourglass::stores)
       Kokkos::parallel_for(Kokkos::TeamThreadRange(team, power_sums), [&](const int k) {
         constexpr int share = patch_size / power_sums;
@@ -71,13 +80,39 @@ struct PatchForce {
       });
   }
 
+  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (patch_size / lane_count<S>) + b; }
+
+  KOKKOS_INLINE_FUNCTION BatchCorners<S> corners_of_batch(int p, int b) const {
+    return BatchCorners<S>(patches.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
+  }
+
+  /// Where the corner forces lie that meet at each pack of nodes.
+  struct SumLists {
+    const std::uint16_t* first_place;
+    const std::uint16_t* place;
+  };
+
+  /// On a device in scratch memory: with the nodes they come in while there is time.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION SumLists sum_lists(const Member& team, const int p) const {
+    const SumLists lists{patches.first_place.data() + static_cast<long>(p) * patches.pack_stride,
+                         patches.place.data() + static_cast<long>(p) * patches.place_stride};
+    if constexpr (!on_device) return lists;
+    auto* copy = scratch_values<std::uint16_t>(team, patches.pack_stride + patches.place_stride);
+    const int first_chunks = patches.pack_stride / places_at_once, chunks = patches.place_stride / places_at_once;
+    auto* to = reinterpret_cast<Chunk*>(copy);
+    const auto* first = reinterpret_cast<const Chunk*>(lists.first_place);
+    const auto* place = reinterpret_cast<const Chunk*>(lists.place);
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first_chunks + chunks),
+                         [&](const int c) { to[c] = c < first_chunks ? first[c] : place[c - first_chunks]; });
+    return {copy, copy + patches.pack_stride};
+  }
+
   /// @param force corner forces with their sign turned, N
   /// @param power dissipated by hourglass control, W
   template <class Constants>
-  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const Constants& constants, const StagedNodes<S>& staged,
-                                          S* force, S* power_of_slot) const {
-    const int batch = p * (patch_size / lane_count<S>) + b;
-    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
+  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const BatchCorners<S>& corners, const T& scale,
+                                          const Constants& constants, const Staged& staged, S* force, S* power_of_slot) const {
     T x[3][7], B[3][6], H[3][3], cauchy[6];
     for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
     mean_gradient<S>(x, B);
@@ -95,13 +130,12 @@ struct PatchForce {
       almansi_strain<S>(H, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
-      material.template stress<S>(constants, batch, e, cauchy);
+      material.template stress<S>(constants, batch_number(p, b), e, cauchy);
       const T to_cauchy = determinant(H);
       for (int c = 0; c < 6; ++c) cauchy[c] *= to_cauchy;
     }
 
     // Row by row, so that few values are needed at a time.
-    const T scale = hourglass_scales(batch);
     T power = S(0);
     constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
     for (int i = 0; i < 3; ++i) {
@@ -131,8 +165,8 @@ struct PatchForce {
     if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
   }
 
-  KOKKOS_INLINE_FUNCTION T hourglass_scales(int batch) const {
-    const float* scales = hourglass_scale.data() + static_cast<long>(batch) * lane_count<S>;
+  KOKKOS_INLINE_FUNCTION T hourglass_scales(int p, int b) const {
+    const float* scales = hourglass_scale.data() + static_cast<long>(batch_number(p, b)) * lane_count<S>;
 #ifdef RAILWAVE_SIMD_LANES
     S lanes[lane_count<S>];
     for (int lane = 0; lane < lane_count<S>; ++lane) lanes[lane] = static_cast<S>(scales[lane]);
@@ -143,29 +177,32 @@ struct PatchForce {
   }
 
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const S* force) const {
+  KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const SumLists& lists, const Staged& staged,
+                                          const S* force) const {
     constexpr int lanes = lane_count<S>;
-    const int first = patches.first_node(p), count = patches.first_node(p + 1) - first;
-    const int first_pack = patches.first_pack(p), packs = patches.first_pack(p + 1) - first_pack;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, packs), [&](const int k) {
-      const int begin = patches.first_place(first_pack + k), end = patches.first_place(first_pack + k + 1);
+    const int count = patches.node_count(p);
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, (count + lanes - 1) / lanes), [&](const int k) {
+      const int end = lists.first_place[k + 1];
       T sum[3] = {S(0), S(0), S(0)};
-      for (int c = begin; c < end; c += lanes)
-        for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, patches.place.data() + c);
+      for (int c = lists.first_place[k]; c < end; c += lanes)
+        for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, lists.place + c);
       S lane_sum[3][lanes];
       for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
       for (int lane = 0; lane < lanes && k * lanes + lane < count; ++lane)
-        hand_over(first + k * lanes + lane, {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}});
+        hand_over(p, k * lanes + lane, staged, {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}});
     });
   }
 
-  KOKKOS_INLINE_FUNCTION void hand_over(const int place, const Vector3& force) const {
-    const int n = patches.node(place);
-    if (Advance && n < 0) {
-      nodes(n & ~advance_bit, force);
-    } else {
-      for (int i = 0; i < 3; ++i) partial(first_partial + place, i) = static_cast<S>(force[i]);
+  KOKKOS_INLINE_FUNCTION void hand_over(const int p, const int l, const Staged& staged, const Vector3& force) const {
+    const int place = p * patches.node_stride + l;
+    if constexpr (Advance) {
+      const int n = patches.node(place);
+      if (n < 0) {
+        nodes.move(n & ~advance_bit, nodes.acceleration(staged.inverse_mass[l], force));
+        return;
+      }
     }
+    for (int i = 0; i < 3; ++i) partial(first_partial + place, i) = static_cast<S>(force[i]);
   }
 };
 
@@ -181,16 +218,17 @@ struct PatchState {
   Array<S*> stress;           ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
   Array<double* [2]> energy;  ///< J, by patch: elastic, stored by hourglass control
 
-  static std::size_t scratch_size(const PatchArrays& patches) {
-    return sizeof(S) * StagedNodes<S>::values(patches.most_nodes, false) + 64;
-  }
+  using Staged = StagedNodes<S, false, false>;
+
+  static std::size_t scratch_size(const PatchArrays& patches) { return Staged::scratch_size(patches.node_stride); }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
     const int p = team.league_rank();
-    const StagedNodes<S> staged(scratch_values<S>(team, StagedNodes<S>::values(patches.most_nodes, false)), patches.most_nodes);
-    staged.template bring<false>(team, patches, p, nodes.position, nodes.reference, nodes.velocity);
+    const Staged staged(team, patches.node_stride);
+    staged.bring(team, patches, p, nodes);
+    team.team_barrier();
     const int elements = patches.element_count(p);
-    const int batches = on_device ? elements : (elements + lane_count<S> - 1) / lane_count<S>;
+    const int batches = (elements + lane_count<S> - 1) / lane_count<S>;
     double elastic = 0, stored = 0;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, batches),
@@ -206,7 +244,7 @@ struct PatchState {
   }
 
   /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
-  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int b, const int elements, const StagedNodes<S>& staged,
+  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int b, const int elements, const Staged& staged,
                                             const int which) const {
     const int batch = p * (patch_size / lane_count<S>) + b;
     const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);

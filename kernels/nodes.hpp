@@ -55,8 +55,7 @@ struct NodeAdvance {
   double velocity_step;  ///< s: half a step at the first one, which starts from velocities at t = 0
   double step;           ///< s
 
-  KOKKOS_INLINE_FUNCTION Vector3 acceleration(int n, const Vector3& force) const {
-    const double inverse_mass = 1.0 / nodes.mass(n);
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration(double inverse_mass, const Vector3& force) const {
     Vector3 a;
     for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, force[i], gravity[i]);
     return a;
@@ -69,9 +68,6 @@ struct NodeAdvance {
       nodes.position(n, i) = multiply_add(step, v, nodes.position(n, i));
     }
   }
-
-  /// A node without constraint and extra forces.
-  KOKKOS_INLINE_FUNCTION void operator()(int n, const Vector3& force) const { move(n, acceleration(n, force)); }
 };
 
 /// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7, eqs. 2.31).
@@ -92,7 +88,7 @@ struct NodalAcceleration {
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    return constrain(n, NodeAdvance{force.nodes, gravity, 0, 0}.acceleration(n, force(n)));
+    return constrain(n, NodeAdvance{force.nodes, gravity, 0, 0}.acceleration(1.0 / force.nodes.mass(n), force(n)));
   }
 };
 

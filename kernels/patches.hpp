@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/elastic.hpp"
+#include "kernels/element_modes.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/nodes.hpp"
 #include "kernels/team.hpp"
@@ -20,100 +21,125 @@ inline constexpr int component_stride = 8 * patch_size + 16, zero_place = 8 * pa
 /// The power that hourglass control dissipates is added up in so many parts of a patch.
 inline constexpr int power_sums = 16;
 
+/// Where a group of values that a thread reads at once begins and how long it is: 16 bytes of place numbers.
+inline constexpr int places_at_once = 8;
+
 /// The patches of one group of elements; slot s of patch p is element p patch_size + s. Slots beyond a patch's elements
-/// repeat its last one and are gathered by nobody.
+/// repeat its last one and are gathered by nobody. Lists have the same length for every patch, so that a team finds its own
+/// without looking up where they begin.
 struct PatchArrays {
   int count = 0;
-  int most_nodes = 0;                  ///< of any patch, a multiple of the pack width
+  int node_stride = 0;                 ///< room for the nodes of any patch, a multiple of the pack width
+  int pack_stride = 0;                 ///< room for first_place
+  int place_stride = 0;                ///< room for the corner places
   Array<int*> element_count;
+  Array<int*> node_count;
   Array<int*> material;                ///< row of the constants
-  Array<int*> first_node;              ///< count + 1: a patch's nodes are node[first_node(p)] ...
-  Array<int*> node;                    ///< model node numbers, patch by patch, by how many corners meet there
-  Array<int* [3]> frame;               ///< three of a patch's nodes (model numbers) that span a plane
+  Array<int*> node;                    ///< node_stride for each patch: model node numbers, by how many corners meet there;
+                                       ///< filled up with the patch's first
+  Array<int* [3]> frame_node;          ///< three of a patch's nodes (model numbers) that span a plane
+  Array<double* [15]> frame;           ///< see PatchFrame; empty in double precision
   Array<std::uint8_t*> corner;         ///< by batch: eight places in the patch's nodes, corner by corner
-  Array<int*> first_pack;              ///< count + 1: packs of nodes whose corner forces are summed together
-  Array<int*> first_place;             ///< by pack, and one more: where its corner places begin
-  Array<std::uint16_t*> place;         ///< of the corner forces that meet at the pack's nodes, a pack's lanes together
+  Array<std::uint16_t*> first_place;   ///< pack_stride for each patch, by pack of nodes: where its corner places begin
+  Array<std::uint16_t*> place;         ///< place_stride for each patch: the corner forces that meet at a pack's nodes, its
+                                       ///< lanes together
   Array<float*> hourglass_scale;       ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;    ///< by slot, N/m: stiffness control while settling, whatever the run's own control
   Array<double*> hourglass_energy;     ///< power_sums for each patch: J dissipated so far
-
-  KOKKOS_INLINE_FUNCTION int node_number(int k) const { return node(k) & ~advance_bit; }
 };
 
-/// A patch's turn: three nodes' frame now against that of the reference.
+/// The rigid motion from which single precision measures a patch's displacements: u = (x - now) - turn (X - before). Any
+/// turn and any point near the patch's own will do, so the frames are renewed only now and then; what they take out is
+/// what would cost digits.
 struct PatchFrame {
   double turn[3][3];
-  Vector3 now, before;  ///< m, the patch's first frame node
-};
+  Vector3 now, before;  ///< m
 
-namespace patch {
-
-struct Axes {
-  Vector3 a[3];
-};
-
-template <class Nodes>
-KOKKOS_INLINE_FUNCTION Axes axes_of(const Nodes& x, int n0, int n1, int n2) {
-  const Vector3 origin = row(x, n0);
-  Vector3 u = row(x, n1) - origin, w = row(x, n2) - origin;
-  u = (1 / norm(u)) * u;
-  w = w - dot(w, u) * u;
-  w = (1 / norm(w)) * w;
-  return {{u, w, cross(u, w)}};
-}
-
-/// The frame in which single precision measures displacements; in double precision the reference's own will do.
-template <class S, class Positions, class References>
-KOKKOS_INLINE_FUNCTION PatchFrame frame_of(const PatchArrays& patches, int p, const Positions& position,
-                                           const References& reference) {
-  PatchFrame frame;
-  const int n0 = patches.frame(p, 0);
-  frame.now = row(position, n0);
-  frame.before = row(reference, n0);
-  if constexpr (sizeof(S) < sizeof(double)) {
-    const Axes now = axes_of(position, n0, patches.frame(p, 1), patches.frame(p, 2));
-    const Axes before = axes_of(reference, n0, patches.frame(p, 1), patches.frame(p, 2));
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        frame.turn[i][j] = now.a[0][i] * before.a[0][j] + now.a[1][i] * before.a[1][j] + now.a[2][i] * before.a[2][j];
+  KOKKOS_INLINE_FUNCTION static PatchFrame of(const Array<const double* [15]>& frames, int p) {
+    PatchFrame frame;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) frame.turn[i][j] = frames(p, 3 * i + j);
+      frame.now[i] = frames(p, 9 + i);
+      frame.before[i] = frames(p, 12 + i);
+    }
+    return frame;
   }
-  return frame;
-}
+};
 
-}  // namespace patch
+/// Lays the frames along three of each patch's nodes as they stand now.
+struct RenewFrames {
+  PatchArrays patches;
+  Array<const double* [3]> position, reference;
+
+  struct Axes {
+    Vector3 a[3];
+  };
+
+  KOKKOS_INLINE_FUNCTION Axes axes(const Array<const double* [3]>& x, int p) const {
+    const Vector3 origin = row(x, patches.frame_node(p, 0));
+    Vector3 u = row(x, patches.frame_node(p, 1)) - origin, w = row(x, patches.frame_node(p, 2)) - origin;
+    u = (1 / norm(u)) * u;
+    w = w - dot(w, u) * u;
+    w = (1 / norm(w)) * w;
+    return {{u, w, cross(u, w)}};
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
+    const Axes now = axes(position, p), before = axes(reference, p);
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j)
+        patches.frame(p, 3 * i + j) =
+            now.a[0][i] * before.a[0][j] + now.a[1][i] * before.a[1][j] + now.a[2][i] * before.a[2][j];
+      patches.frame(p, 9 + i) = position(patches.frame_node(p, 0), i);
+      patches.frame(p, 12 + i) = reference(patches.frame_node(p, 0), i);
+    }
+  }
+};
 
 /// A patch's nodes in scratch memory, component by component.
-template <class S>
+template <class S, bool WithVelocity, bool WithMass>
 struct StagedNodes {
-  S* position;      ///< m, from the patch's frame node
-  S* displacement;  ///< m, from the frame's rigid motion
-  S* velocity;      ///< m/s; absent where no kernel needs it
+  S* position;           ///< m; in single precision from the frame's point
+  S* displacement;       ///< m, from the reference, in single precision from the frame's rigid motion
+  S* velocity;           ///< m/s
+  double* inverse_mass;  ///< 1/kg
   int stride;
 
-  KOKKOS_INLINE_FUNCTION static constexpr std::size_t values(int stride, bool with_velocity) { return (with_velocity ? 9u : 6u) * stride; }
+  static std::size_t scratch_size(int stride) {
+    return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) + 2 * scratch_alignment;
+  }
 
-  KOKKOS_INLINE_FUNCTION StagedNodes(S* memory, int stride_)
-      : position(memory), displacement(memory + 3 * stride_), velocity(memory + 6 * stride_), stride(stride_) {}
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION StagedNodes(const Member& team, int stride_) : stride(stride_) {
+    inverse_mass = WithMass ? scratch_values<double>(team, stride) : nullptr;
+    position = scratch_values<S>(team, (WithVelocity ? 9u : 6u) * stride);
+    displacement = position + 3 * stride;
+    velocity = position + 6 * stride;
+  }
 
-  template <bool WithVelocity, class Member, class Positions, class References, class Velocities>
-  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p, const Positions& x,
-                                    const References& X, const Velocities& v) const {
-    const PatchFrame frame = patch::frame_of<S>(patches, p, x, X);
-    const int first = patches.first_node(p), count = patches.first_node(p + 1) - first;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, count), [&](const int l) {
-      const int n = patches.node_number(first + l);
-      const Vector3 now = row(x, n) - frame.now, before = row(X, n) - frame.before;
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p, const NodeArrays& nodes) const {
+    constexpr bool narrow = sizeof(S) < sizeof(double);
+    PatchFrame frame;
+    if constexpr (narrow) frame = PatchFrame::of(patches.frame, p);
+    const int* number = patches.node.data() + static_cast<long>(p) * stride;
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, stride), [&](const int l) {
+      const int n = number[l] & ~advance_bit;
+      Vector3 now = row(nodes.position, n), before = row(nodes.reference, n);
+      if constexpr (WithVelocity)
+        for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(nodes.velocity(n, i));
+      if constexpr (WithMass) inverse_mass[l] = 1.0 / nodes.mass(n);
+      if constexpr (narrow) {
+        now = now - frame.now;
+        const Vector3 arm = before - frame.before;
+        for (int i = 0; i < 3; ++i)
+          before[i] = frame.turn[i][0] * arm[0] + frame.turn[i][1] * arm[1] + frame.turn[i][2] * arm[2];
+      }
       for (int i = 0; i < 3; ++i) {
-        double rigid = before[i];
-        if constexpr (sizeof(S) < sizeof(double))
-          rigid = frame.turn[i][0] * before[0] + frame.turn[i][1] * before[1] + frame.turn[i][2] * before[2];
         position[i * stride + l] = static_cast<S>(now[i]);
-        displacement[i * stride + l] = static_cast<S>(now[i] - rigid);
-        if constexpr (WithVelocity) velocity[i * stride + l] = static_cast<S>(v(n, i));
+        displacement[i * stride + l] = static_cast<S>(now[i] - before[i]);
       }
     });
-    team.team_barrier();
   }
 
   /// The modes of one component over a batch's elements.

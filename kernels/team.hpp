@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/spaces.hpp"
 
 namespace railwave {
@@ -14,10 +16,17 @@ inline constexpr bool on_device = true;
 inline constexpr bool on_device = false;
 #endif
 
-/// The team's scratch memory for `count` values.
+inline constexpr std::size_t scratch_alignment = 16;
+
+/// The team's scratch memory for `count` values, aligned for loads of 16 bytes.
 template <class S, class Member>
 KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count) {
-  return static_cast<S*>(team.team_scratch(0).get_shmem(count * sizeof(S)));
+  return static_cast<S*>(team.team_scratch(0).get_shmem_aligned(count * sizeof(S), scratch_alignment));
 }
+
+/// 16 bytes, copied at once.
+struct alignas(16) Chunk {
+  std::uint64_t half[2];
+};
 
 }  // namespace railwave

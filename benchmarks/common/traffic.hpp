@@ -19,8 +19,8 @@ inline double step_traffic(const Model& model) {
   bool velocities = false;
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
-    bytes += bytes_of(p.element_count) + bytes_of(p.material) + bytes_of(p.first_node) + bytes_of(p.node) + bytes_of(p.frame) +
-             bytes_of(p.corner) + bytes_of(p.first_pack) + bytes_of(p.first_place) + bytes_of(p.place) + bytes_of(p.hourglass_scale);
+    bytes += bytes_of(p.element_count) + bytes_of(p.node_count) + bytes_of(p.material) + bytes_of(p.node) + bytes_of(p.frame) +
+             bytes_of(p.corner) + bytes_of(p.first_place) + bytes_of(p.place) + bytes_of(p.hourglass_scale);
     if (group.hourglass == scene::HourglassType::viscous) {
       bytes += 2 * bytes_of(p.hourglass_energy);
       velocities = true;

@@ -72,12 +72,12 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
 
 /// The host side of a group's patches.
 struct PatchLists {
-  std::vector<int> element_count, material, first_node{0}, node, first_pack{0}, first_place{0};
-  std::vector<std::array<int, 3>> frame;
+  std::vector<int> element_count, material;
+  std::vector<std::vector<int>> node;                             ///< by patch
+  std::vector<std::vector<std::uint16_t>> first_place, place;     ///< by patch
+  std::vector<std::array<int, 3>> frame_node;
   std::vector<std::uint8_t> corner;
-  std::vector<std::uint16_t> place;
   std::vector<float> scale, settling;
-  int most_nodes = 0;
 };
 
 double squared_distance(const Vec3& a, const Vec3& b) {
@@ -134,16 +134,18 @@ std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, 
 
 /// The sums over corners, a pack of nodes at a time.
 void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lanes, PatchLists& lists) {
+  std::vector<std::uint16_t> first{0}, all;
   for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
     const std::size_t end = std::min(places.size(), begin + lanes);
     std::size_t longest = 0;
     for (std::size_t l = begin; l < end; ++l) longest = std::max(longest, places[l].size());
     for (std::size_t c = 0; c < longest; ++c)
       for (std::size_t l = begin; l < begin + lanes; ++l)
-        lists.place.push_back(l < end && c < places[l].size() ? places[l][c] : zero_place);
-    lists.first_place.push_back(static_cast<int>(lists.place.size()));
+        all.push_back(l < end && c < places[l].size() ? places[l][c] : static_cast<std::uint16_t>(zero_place));
+    first.push_back(static_cast<std::uint16_t>(all.size()));
   }
-  lists.first_pack.push_back(static_cast<int>(lists.first_place.size()) - 1);
+  lists.first_place.push_back(std::move(first));
+  lists.place.push_back(std::move(all));
 }
 
 /// Appends the patch of elements [first, end).
@@ -164,25 +166,39 @@ void append_patch(const Assembly& assembly, const PatchOrder& order, int first, 
     }
   append_packs(places, lanes, lists);
   lists.element_count.push_back(count);
-  lists.node.insert(lists.node.end(), nodes.begin(), nodes.end());
-  lists.first_node.push_back(static_cast<int>(lists.node.size()));
-  lists.frame.push_back(frame_nodes(assembly.nodes, nodes));
-  lists.most_nodes = std::max(lists.most_nodes, static_cast<int>(nodes.size()));
+  lists.frame_node.push_back(frame_nodes(assembly.nodes, nodes));
+  lists.node.push_back(nodes);
 }
 
-PatchArrays arrays_of(const PatchLists& lists) {
+/// Rows of equal length, a multiple of `multiple`, filled up with each row's first value.
+template <class T>
+Array<T*> even_rows(const char* label, const std::vector<std::vector<T>>& rows, int multiple, int& stride) {
+  std::size_t longest = 0;
+  for (const auto& row : rows) longest = std::max(longest, row.size());
+  stride = static_cast<int>((longest + multiple - 1) / multiple * multiple);
+  std::vector<T> all;
+  all.reserve(rows.size() * stride);
+  for (const auto& row : rows) {
+    all.insert(all.end(), row.begin(), row.end());
+    all.resize(all.size() + stride - row.size(), row.front());
+  }
+  return to_device(label, all);
+}
+
+PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
   PatchArrays patches;
   patches.count = static_cast<int>(lists.element_count.size());
-  patches.most_nodes = (lists.most_nodes + 15) / 16 * 16;
+  std::vector<int> node_count;
+  for (const auto& nodes : lists.node) node_count.push_back(static_cast<int>(nodes.size()));
   patches.element_count = to_device("patch element count", lists.element_count);
+  patches.node_count = to_device("patch node count", node_count);
   patches.material = to_device("patch material", lists.material);
-  patches.first_node = to_device("patch first node", lists.first_node);
-  patches.node = to_device("patch nodes", lists.node);
-  patches.frame = to_device("patch frame", lists.frame);
+  patches.node = even_rows("patch nodes", lists.node, 16, patches.node_stride);
+  patches.frame_node = to_device("patch frame nodes", lists.frame_node);
+  if (single_precision) patches.frame = Array<double* [15]>("patch frames", patches.count);
   patches.corner = to_device("patch corners", lists.corner);
-  patches.first_pack = to_device("patch first pack", lists.first_pack);
-  patches.first_place = to_device("pack first place", lists.first_place);
-  patches.place = to_device("corner places", lists.place);
+  patches.first_place = even_rows("first corner places", lists.first_place, places_at_once, patches.pack_stride);
+  patches.place = even_rows("corner places", lists.place, places_at_once, patches.place_stride);
   patches.hourglass_scale = to_device("hourglass scale", lists.scale);
   patches.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
   patches.hourglass_energy = Array<double*>("hourglass energy", static_cast<std::size_t>(patches.count) * power_sums);
@@ -237,10 +253,10 @@ void build_elements(Model& model) {
   int rows = 0;
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& elements = model.elements[g];
-    elements.patches = arrays_of(lists[g]);
+    elements.patches = arrays_of(lists[g], single);
     elements.constants = to_device("elastic constants", constants[g]);
     elements.first_partial = rows;
-    rows += lists[g].first_node.back();
+    rows += elements.patches.count * elements.patches.node_stride;
   }
   model.partial.single_precision = single;
   if (single) model.partial.narrow = Array<float* [3]>("partial forces", rows);

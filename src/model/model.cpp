@@ -32,6 +32,12 @@ void zero(const View& view) {
 
 }  // namespace
 
+void renew_frames(const Model& model, const ElementGroup& group) {
+  if (group.patches.frame.extent(0) == 0) return;
+  Kokkos::parallel_for("renew_frames", Range(0, group.patches.count),
+                       RenewFrames{group.patches, model.nodes.position, model.nodes.reference});
+}
+
 void reset_to_start(Model& model) {
   Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
   zero(model.nodes.velocity);
@@ -41,7 +47,10 @@ void reset_to_start(Model& model) {
   zero(model.extra.sum.contact);
   zero(model.extra.contribution);
   zero(model.extra.work);
-  for (auto& group : model.elements) zero(group.patches.hourglass_energy);
+  for (auto& group : model.elements) {
+    zero(group.patches.hourglass_energy);
+    renew_frames(model, group);
+  }
   zero(model.connectors.arrays.energy);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
@@ -81,7 +90,7 @@ std::size_t device_bytes(const Model& model) {
                             model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums);
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
-    total += bytes(p.element_count, p.material, p.first_node, p.node, p.frame, p.corner, p.first_pack, p.first_place, p.place,
+    total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
                    p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants);
   }
   for (const ContactPair& pair : model.contacts) {

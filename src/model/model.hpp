@@ -19,7 +19,7 @@ struct ElementGroup {
   scene::HourglassType hourglass = scene::HourglassType::viscous;
   PatchArrays patches;
   Array<ElasticConstants*> constants;  ///< by the patches' material row
-  int first_partial = 0;               ///< row of the patches' first node in the partial forces
+  int first_partial = 0;               ///< row of the first patch's first node in the partial forces
   std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
   std::vector<int> element_count;      ///< of each patch
 };
@@ -124,6 +124,9 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
 
 /// Bytes of all device arrays.
 std::size_t device_bytes(const Model& model);
+
+/// Lays the frames from which single precision measures a group's displacements where its patches are now.
+void renew_frames(const Model& model, const ElementGroup& group);
 
 /// Puts nodes and history variables back to the undeformed start, at rest.
 void reset_to_start(Model& model);

@@ -57,11 +57,13 @@ void build_gather(Model& model) {
   std::vector<int> first(count + 1, 0);
   std::vector<std::pair<int, int>> rows;  // node, row
   for (const ElementGroup& group : model.elements) {
-    const auto nodes = to_host(group.patches.node);
-    for (std::size_t k = 0; k < nodes.extent(0); ++k) {
-      rows.emplace_back(nodes(k), group.first_partial + static_cast<int>(k));
-      ++first[nodes(k) + 1];
-    }
+    const auto nodes = to_host(group.patches.node), node_count = to_host(group.patches.node_count);
+    for (int p = 0; p < group.patches.count; ++p)
+      for (int l = 0; l < node_count(p); ++l) {
+        const int k = p * group.patches.node_stride + l;
+        rows.emplace_back(nodes(k), group.first_partial + k);
+        ++first[nodes(k) + 1];
+      }
   }
   for (int n = 0; n < count; ++n) first[n + 1] += first[n];
   std::vector<int> filled(first.begin(), first.end() - 1), place(rows.size());
@@ -81,6 +83,7 @@ void share_out_nodes(Model& model) {
   for (int n : listed) alone[n] = 0;
   for (const ElementGroup& group : model.elements) {
     const auto nodes = to_host(group.patches.node);
+    // The rows' fill carries the bit too; the kernels read no further than a patch's nodes when they advance.
     for (std::size_t k = 0; k < nodes.extent(0); ++k)
       if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
     Kokkos::deep_copy(group.patches.node, nodes);

@@ -34,7 +34,7 @@ struct PatchForce {
   Array<const float*> hourglass_scale;
   NodeAdvance nodes;
   double step;              ///< s, for the dissipated hourglass energy
-  Array<S* [3]> partial;    ///< N
+  Array<PartialForce<S>*> partial;  ///< N
   int first_partial;        ///< row of the patches' first node
 
   using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance>;
@@ -76,7 +76,8 @@ struct PatchForce {
         constexpr int share = patch_size / power_sums;
         double sum = 0;
         for (int s = k * share; s < (k + 1) * share && s < elements; ++s) sum += static_cast<double>(power[s]);
-        patches.hourglass_energy(p * power_sums + k) += step * sum;
+        // Nobody else adds here; an atomic addition need not wait for what was there before.
+        Kokkos::atomic_add(&patches.hourglass_energy(p * power_sums + k), step * sum);
       });
   }
 
@@ -198,11 +199,11 @@ struct PatchForce {
     if constexpr (Advance) {
       const int n = patches.node(place);
       if (n < 0) {
-        nodes.move(n & ~advance_bit, nodes.acceleration(staged.inverse_mass[l], force));
+        staged.advance(nodes, n & ~advance_bit, l, force);
         return;
       }
     }
-    for (int i = 0; i < 3; ++i) partial(first_partial + place, i) = static_cast<S>(force[i]);
+    partial(first_partial + place) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
   }
 };
 

@@ -18,17 +18,35 @@ struct NodeArrays {
   Array<int*> constraint;          ///< row in the constraint table, -1: free
 };
 
+/// A force in a row of its own, read and written at once.
+template <class S>
+struct alignas(4 * sizeof(S)) PartialForce {
+  S x[4];
+};
+
 /// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the elements.
 struct PartialForces {
-  Array<double* [3]> wide;
-  Array<float* [3]> narrow;
+  Array<PartialForce<double>*> wide;
+  Array<PartialForce<float>*> narrow;
   bool single_precision = false;
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
-    if (single_precision) return {{narrow(place, 0), narrow(place, 1), narrow(place, 2)}};
-    return {{wide(place, 0), wide(place, 1), wide(place, 2)}};
+    if (single_precision) {
+      const PartialForce<float> f = narrow(place);
+      return {{f.x[0], f.x[1], f.x[2]}};
+    }
+    const PartialForce<double> f = wide(place);
+    return {{f.x[0], f.x[1], f.x[2]}};
   }
 };
+
+/// A node that no patch advances by itself, with what is asked of it at once: most belong to two patches.
+struct alignas(16) ListedNode {
+  int node;      ///< with `special_bit` where extra forces or a constraint concern it
+  int place[2];  ///< its first partial forces, -1: none
+  int more;      ///< 1: there are others, 0: none
+};
+inline constexpr int special_bit = static_cast<int>(0x80000000u);
 
 /// Sum of the element forces on a node and of its extra forces, in fixed order, N.
 struct NodalForce {
@@ -42,9 +60,24 @@ struct NodalForce {
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    Vector3 force = extra_force(n);
-    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c) force = force + partial(nodes.partial_place(c));
+    return with_partials(extra_force(n), n, 0);
+  }
+
+  /// Adds a node's partial forces from the given one on.
+  KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int n, int from) const {
+    for (int c = nodes.first_partial(n) + from; c < nodes.first_partial(n + 1); ++c)
+      force = force + partial(nodes.partial_place(c));
     return force;
+  }
+
+  /// The same for a listed node.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(const ListedNode& listed) const {
+    const int n = listed.node & ~special_bit;
+    Vector3 force{{0, 0, 0}};
+    if (listed.node < 0) force = extra_force(n);
+    for (int k = 0; k < 2; ++k)
+      if (listed.place[k] >= 0) force = force + partial(listed.place[k]);
+    return listed.more == 0 ? force : with_partials(force, n, 2);
   }
 };
 
@@ -62,10 +95,15 @@ struct NodeAdvance {
   }
 
   KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a) const {
+    move(n, a, row(nodes.position, n), row(nodes.velocity, n));
+  }
+
+  /// @param x, v the node's present position and velocity, where they are at hand
+  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a, const Vector3& x, const Vector3& v) const {
     for (int i = 0; i < 3; ++i) {
-      const double v = multiply_add(velocity_step, a[i], nodes.velocity(n, i));
-      nodes.velocity(n, i) = v;
-      nodes.position(n, i) = multiply_add(step, v, nodes.position(n, i));
+      const double next = multiply_add(velocity_step, a[i], v[i]);
+      nodes.velocity(n, i) = next;
+      nodes.position(n, i) = multiply_add(step, next, x[i]);
     }
   }
 };
@@ -97,12 +135,28 @@ struct NodalAcceleration {
 struct NodeUpdate {
   NodalAcceleration acceleration;
   NodeAdvance advance;
-  Array<const int*> listed;  ///< the nodes concerned; empty: all
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const int n = listed.extent(0) == 0 ? i : listed(i);
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     advance.move(n, acceleration(n));
     if (advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
+  }
+};
+
+/// The same for the nodes that the patches have left.
+struct ListedNodeUpdate {
+  NodalAcceleration acceleration;
+  NodeAdvance advance;
+  Array<const ListedNode*> listed;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const ListedNode node = listed(i);
+    const int n = node.node & ~special_bit;
+    const double inverse_mass = 1.0 / advance.nodes.mass(n);
+    const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
+    Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
+    if (node.node < 0) a = acceleration.constrain(n, a);
+    advance.move(n, a, x, v);
+    if (node.node < 0 && advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
   }
 };
 

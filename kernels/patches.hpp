@@ -104,6 +104,7 @@ struct StagedNodes {
   S* velocity;           ///< m/s
   double* inverse_mass;  ///< 1/kg
   int stride;
+  static constexpr bool narrow = sizeof(S) < sizeof(double);
 
   static std::size_t scratch_size(int stride) {
     return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) + 2 * scratch_alignment;
@@ -119,27 +120,58 @@ struct StagedNodes {
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p, const NodeArrays& nodes) const {
-    constexpr bool narrow = sizeof(S) < sizeof(double);
     PatchFrame frame;
     if constexpr (narrow) frame = PatchFrame::of(patches.frame, p);
     const int* number = patches.node.data() + static_cast<long>(p) * stride;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, stride), [&](const int l) {
-      const int n = number[l] & ~advance_bit;
-      Vector3 now = row(nodes.position, n), before = row(nodes.reference, n);
-      if constexpr (WithVelocity)
-        for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(nodes.velocity(n, i));
-      if constexpr (WithMass) inverse_mass[l] = 1.0 / nodes.mass(n);
-      if constexpr (narrow) {
-        now = now - frame.now;
-        const Vector3 arm = before - frame.before;
-        for (int i = 0; i < 3; ++i)
-          before[i] = frame.turn[i][0] * arm[0] + frame.turn[i][1] * arm[1] + frame.turn[i][2] * arm[2];
+    if constexpr (on_device) {
+      // Two nodes at a time: what the second asks of memory is under way while the first waits.
+      const int size = team.team_size();
+      for (int l = team.team_rank(); l < stride; l += 2 * size) {
+        const int m = l + size < stride ? l + size : l;
+        const Fetched first(nodes, number[l] & ~advance_bit), second(nodes, number[m] & ~advance_bit);
+        put(l, first, frame);
+        put(m, second, frame);
       }
-      for (int i = 0; i < 3; ++i) {
-        position[i * stride + l] = static_cast<S>(now[i]);
-        displacement[i * stride + l] = static_cast<S>(now[i] - before[i]);
-      }
-    });
+    } else {
+      for (int l = 0; l < stride; ++l) put(l, Fetched(nodes, number[l] & ~advance_bit), frame);
+    }
+  }
+
+  struct Fetched {
+    Vector3 now, before, velocity;
+    double mass;
+
+    KOKKOS_FORCEINLINE_FUNCTION Fetched(const NodeArrays& nodes, int n)
+        : now(row(nodes.position, n)), before(row(nodes.reference, n)) {
+      if constexpr (WithVelocity) velocity = row(nodes.velocity, n);
+      if constexpr (WithMass) mass = nodes.mass(n);
+    }
+  };
+
+  KOKKOS_FORCEINLINE_FUNCTION void put(int l, const Fetched& node, const PatchFrame& frame) const {
+    Vector3 now = node.now, before = node.before;
+    if constexpr (WithVelocity)
+      for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(node.velocity[i]);
+    if constexpr (WithMass) inverse_mass[l] = 1.0 / node.mass;
+    if constexpr (narrow) {
+      now = now - frame.now;
+      const Vector3 arm = before - frame.before;
+      for (int i = 0; i < 3; ++i)
+        before[i] = frame.turn[i][0] * arm[0] + frame.turn[i][1] * arm[1] + frame.turn[i][2] * arm[2];
+    }
+    for (int i = 0; i < 3; ++i) {
+      position[i * stride + l] = static_cast<S>(now[i]);
+      displacement[i * stride + l] = static_cast<S>(now[i] - before[i]);
+    }
+  }
+
+  /// Moves a node under a force, N; what is staged in full precision need not be fetched again.
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int n, int l, const Vector3& force) const {
+    const Vector3 a = nodes.acceleration(inverse_mass[l], force);
+    if constexpr (!narrow && WithVelocity)
+      nodes.move(n, a, {{position[l], position[stride + l], position[2 * stride + l]}},
+                 {{velocity[l], velocity[stride + l], velocity[2 * stride + l]}});
+    else nodes.move(n, a);
   }
 
   /// The modes of one component over a batch's elements.

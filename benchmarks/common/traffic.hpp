@@ -32,8 +32,8 @@ inline double step_traffic(const Model& model) {
   const double row_bytes = (bytes_of(model.partial.wide) + bytes_of(model.partial.narrow)) / rows;
   const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;
   bytes += alone * (state + mass);                                   // velocities and positions are written, the mass read
-  bytes += listed_rows * (2 * row_bytes + sizeof(int));              // partial forces out and in, and their places
-  bytes += listed * (2 * state + mass + 4 * sizeof(int));            // listed node, first partial, extra row, constraint
+  bytes += listed_rows * 2 * row_bytes;                              // partial forces out and in
+  bytes += listed * (2 * state + mass + sizeof(ListedNode));
   return bytes;
 }
 

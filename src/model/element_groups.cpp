@@ -259,8 +259,8 @@ void build_elements(Model& model) {
     rows += elements.patches.count * elements.patches.node_stride;
   }
   model.partial.single_precision = single;
-  if (single) model.partial.narrow = Array<float* [3]>("partial forces", rows);
-  else model.partial.wide = Array<double* [3]>("partial forces", rows);
+  if (single) model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);
+  else model.partial.wide = Array<PartialForce<double>*>("partial forces", rows);
 }
 
 }  // namespace railwave

@@ -41,8 +41,8 @@ void renew_frames(const Model& model, const ElementGroup& group) {
 void reset_to_start(Model& model) {
   Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
   zero(model.nodes.velocity);
-  zero(model.partial.wide);
-  zero(model.partial.narrow);
+  if (model.partial.wide.extent(0) > 0) Kokkos::deep_copy(model.partial.wide, PartialForce<double>{});
+  if (model.partial.narrow.extent(0) > 0) Kokkos::deep_copy(model.partial.narrow, PartialForce<float>{});
   zero(model.extra.sum.load);
   zero(model.extra.sum.contact);
   zero(model.extra.contribution);

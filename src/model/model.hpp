@@ -86,7 +86,7 @@ struct Model {
   PatchOrder order;
   std::vector<ElementGroup> elements;
   PartialForces partial;
-  Array<int*> listed_nodes;            ///< those that no patch advances by itself
+  Array<ListedNode*> listed_nodes;            ///< those that no patch advances by itself
   bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
   ExtraForces extra;
   NodeSets sets;

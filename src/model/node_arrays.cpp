@@ -76,11 +76,18 @@ void build_gather(Model& model) {
 void share_out_nodes(Model& model) {
   const auto first = to_host(model.nodes.first_partial);
   const auto extra = to_host(model.nodes.extra), constraint = to_host(model.nodes.constraint);
-  std::vector<int> listed;
-  for (int n = 0; n < model.nodes.count; ++n)
-    if (first(n + 1) - first(n) != 1 || extra(n) >= 0 || constraint(n) >= 0) listed.push_back(n);
+  const auto place = to_host(model.nodes.partial_place);
+  std::vector<ListedNode> listed;
   std::vector<char> alone(model.nodes.count, 1);
-  for (int n : listed) alone[n] = 0;
+  for (int n = 0; n < model.nodes.count; ++n) {
+    const int count = first(n + 1) - first(n);
+    const bool special = extra(n) >= 0 || constraint(n) >= 0;
+    if (count == 1 && !special) continue;
+    alone[n] = 0;
+    listed.push_back({special ? n | special_bit : n,
+                      {count > 0 ? place(first(n)) : -1, count > 1 ? place(first(n) + 1) : -1},
+                      count > 2 ? 1 : 0});
+  }
   for (const ElementGroup& group : model.elements) {
     const auto nodes = to_host(group.patches.node);
     // The rows' fill carries the bit too; the kernels read no further than a patch's nodes when they advance.

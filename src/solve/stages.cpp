@@ -130,10 +130,12 @@ std::vector<Stage> force_stages(Model& model) {
 }
 
 void advance(Model& model, double step) {
-  const NodeUpdate update{model.acceleration(), node_advance(model, step),
-                          model.patches_have_advanced ? model.listed_nodes : Array<int*>()};
-  const int count = model.patches_have_advanced ? static_cast<int>(model.listed_nodes.extent(0)) : model.nodes.count;
-  Kokkos::parallel_for("node_update", Range(0, count), update);
+  const NodeAdvance advance_node = node_advance(model, step);
+  if (model.patches_have_advanced)
+    Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
+                         ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes});
+  else
+    Kokkos::parallel_for("node_update", Range(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
   model.patches_have_advanced = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;

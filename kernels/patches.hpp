@@ -12,17 +12,33 @@ namespace railwave {
 /// team works on a patch: it brings the patch's nodes into scratch memory once, computes its elements from there, and sums
 /// the forces of their corners there, so that only what the patch's nodes feel in sum leaves it.
 inline constexpr int patch_size = 128;
-inline constexpr int patch_nodes = 256;
+inline constexpr int patch_nodes = 240;  // with these, a patch's scratch memory stays below the 48 KiB that any GPU has
 /// A patch's node that no other patch touches and no load, contact or constraint concerns can be advanced by the patch's
 /// own team: its number in the patch's list then carries this bit.
 inline constexpr int advance_bit = static_cast<int>(0x80000000u);
-/// Corner forces lie in scratch memory component by component; one place after them holds a zero.
-inline constexpr int component_stride = 8 * patch_size + 16, zero_place = 8 * patch_size;
+/// Corner forces lie in scratch memory component by component; one place after them holds a zero, for the packs of a host.
+inline constexpr int component_stride = 8 * patch_size + (on_device ? 0 : 16), zero_place = 8 * patch_size;
 /// The power that hourglass control dissipates is added up in so many parts of a patch.
 inline constexpr int power_sums = 16;
 
 /// Where a group of values that a thread reads at once begins and how long it is: 16 bytes of place numbers.
 inline constexpr int places_at_once = 8;
+
+/// The rigid motion from which single precision measures a patch's displacements: u = (x - now) - turn (X - before). Any
+/// turn and any point near the patch's own will do, so the frames are renewed only now and then; what they take out is
+/// what would cost digits.
+struct PatchFrame {
+  static constexpr int values = 15;  ///< turn by rows, now, before (m)
+  const double* value;
+
+  KOKKOS_FORCEINLINE_FUNCTION double now(int i) const { return value[9 + i]; }
+  KOKKOS_FORCEINLINE_FUNCTION Vector3 turned(const Vector3& X) const {
+    const Vector3 arm{{X[0] - value[12], X[1] - value[13], X[2] - value[14]}};
+    Vector3 result;
+    for (int i = 0; i < 3; ++i) result[i] = value[3 * i] * arm[0] + value[3 * i + 1] * arm[1] + value[3 * i + 2] * arm[2];
+    return result;
+  }
+};
 
 /// The patches of one group of elements; slot s of patch p is element p patch_size + s. Slots beyond a patch's elements
 /// repeat its last one and are gathered by nobody. Lists have the same length for every patch, so that a team finds its own
@@ -38,7 +54,7 @@ struct PatchArrays {
   Array<int*> node;                    ///< node_stride for each patch: model node numbers, by how many corners meet there;
                                        ///< filled up with the patch's first
   Array<int* [3]> frame_node;          ///< three of a patch's nodes (model numbers) that span a plane
-  Array<double* [15]> frame;           ///< see PatchFrame; empty in double precision
+  Array<double* [PatchFrame::values]> frame;  ///< empty in double precision
   Array<std::uint8_t*> corner;         ///< by batch: eight places in the patch's nodes, corner by corner
   Array<std::uint16_t*> first_place;   ///< pack_stride for each patch, by pack of nodes: where its corner places begin
   Array<std::uint16_t*> place;         ///< place_stride for each patch: the corner forces that meet at a pack's nodes, its
@@ -46,24 +62,6 @@ struct PatchArrays {
   Array<float*> hourglass_scale;       ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;    ///< by slot, N/m: stiffness control while settling, whatever the run's own control
   Array<double*> hourglass_energy;     ///< power_sums for each patch: J dissipated so far
-};
-
-/// The rigid motion from which single precision measures a patch's displacements: u = (x - now) - turn (X - before). Any
-/// turn and any point near the patch's own will do, so the frames are renewed only now and then; what they take out is
-/// what would cost digits.
-struct PatchFrame {
-  double turn[3][3];
-  Vector3 now, before;  ///< m
-
-  KOKKOS_INLINE_FUNCTION static PatchFrame of(const Array<const double* [15]>& frames, int p) {
-    PatchFrame frame;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) frame.turn[i][j] = frames(p, 3 * i + j);
-      frame.now[i] = frames(p, 9 + i);
-      frame.before[i] = frames(p, 12 + i);
-    }
-    return frame;
-  }
 };
 
 /// Lays the frames along three of each patch's nodes as they stand now.
@@ -103,16 +101,19 @@ struct StagedNodes {
   S* displacement;       ///< m, from the reference, in single precision from the frame's rigid motion
   S* velocity;           ///< m/s
   double* inverse_mass;  ///< 1/kg
+  double* frame;         ///< of PatchFrame, in single precision
   int stride;
   static constexpr bool narrow = sizeof(S) < sizeof(double);
 
   static std::size_t scratch_size(int stride) {
-    return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) + 2 * scratch_alignment;
+    return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) +
+           (narrow ? sizeof(double) * PatchFrame::values : 0) + 3 * scratch_alignment;
   }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION StagedNodes(const Member& team, int stride_) : stride(stride_) {
     inverse_mass = WithMass ? scratch_values<double>(team, stride) : nullptr;
+    frame = narrow ? scratch_values<double>(team, PatchFrame::values) : nullptr;
     position = scratch_values<S>(team, (WithVelocity ? 9u : 6u) * stride);
     displacement = position + 3 * stride;
     velocity = position + 6 * stride;
@@ -120,20 +121,21 @@ struct StagedNodes {
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p, const NodeArrays& nodes) const {
-    PatchFrame frame;
-    if constexpr (narrow) frame = PatchFrame::of(patches.frame, p);
+    if constexpr (narrow)
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, PatchFrame::values), [&](const int k) { frame[k] = patches.frame(p, k); });
     const int* number = patches.node.data() + static_cast<long>(p) * stride;
     if constexpr (on_device) {
       // Two nodes at a time: what the second asks of memory is under way while the first waits.
-      const int size = team.team_size();
-      for (int l = team.team_rank(); l < stride; l += 2 * size) {
-        const int m = l + size < stride ? l + size : l;
-        const Fetched first(nodes, number[l] & ~advance_bit), second(nodes, number[m] & ~advance_bit);
-        put(l, first, frame);
-        put(m, second, frame);
-      }
+      static_assert(patch_nodes <= 2 * patch_size, "a thread brings two nodes");
+      // Threads beyond the last node bring that one again.
+      const int last = stride - 1, l = team.team_rank() < last ? team.team_rank() : last;
+      const int m = l + team.team_size() < last ? l + team.team_size() : last;
+      const Fetched first(nodes, number[l] & ~advance_bit), second(nodes, number[m] & ~advance_bit);
+      if constexpr (narrow) team.team_barrier();
+      put(l, first);
+      put(m, second);
     } else {
-      for (int l = 0; l < stride; ++l) put(l, Fetched(nodes, number[l] & ~advance_bit), frame);
+      for (int l = 0; l < stride; ++l) put(l, Fetched(nodes, number[l] & ~advance_bit));
     }
   }
 
@@ -148,16 +150,15 @@ struct StagedNodes {
     }
   };
 
-  KOKKOS_FORCEINLINE_FUNCTION void put(int l, const Fetched& node, const PatchFrame& frame) const {
+  KOKKOS_FORCEINLINE_FUNCTION void put(int l, const Fetched& node) const {
     Vector3 now = node.now, before = node.before;
     if constexpr (WithVelocity)
       for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(node.velocity[i]);
     if constexpr (WithMass) inverse_mass[l] = 1.0 / node.mass;
     if constexpr (narrow) {
-      now = now - frame.now;
-      const Vector3 arm = before - frame.before;
-      for (int i = 0; i < 3; ++i)
-        before[i] = frame.turn[i][0] * arm[0] + frame.turn[i][1] * arm[1] + frame.turn[i][2] * arm[2];
+      const PatchFrame motion{frame};
+      for (int i = 0; i < 3; ++i) now[i] -= motion.now(i);
+      before = motion.turned(before);
     }
     for (int i = 0; i < 3; ++i) {
       position[i * stride + l] = static_cast<S>(now[i]);

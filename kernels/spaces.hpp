@@ -5,7 +5,13 @@
 
 namespace railwave {
 
+/// Where everything runs: on the GPU where there is one, else on all processors. RAILWAVE_SERIAL, for comparison, is one
+/// processor without any threading library.
+#ifdef RAILWAVE_SERIAL
+using ExecutionSpace = Kokkos::Serial;
+#else
 using ExecutionSpace = Kokkos::DefaultExecutionSpace;
+#endif
 using MemorySpace = ExecutionSpace::memory_space;
 
 /// A device array. The layout is Kokkos' own choice for the space: rows together on a host (a node's three components in

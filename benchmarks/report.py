@@ -12,8 +12,8 @@ import report_work_error  # noqa: E402
 HEAD = """# Benchmark results
 
 Written by `scripts/benchmark`; do not edit. Every figure is from a file in `results/`, which names machine, command and date.
-Rates are the best of several repetitions after a warm-up; *spread* is (slowest - fastest) / fastest. A load average near or
-above the number of cores means that others used the machine: such times are too long.
+Rates are the best of several repetitions after a warm-up; *spread* is (slowest - fastest) / fastest, in bold above 20 %. A
+load average above the threads of the run means that others used the machine. Such times are not to be trusted.
 """
 
 
@@ -58,6 +58,13 @@ def number(row, key):
 
 def shown(value, pattern="{:.2f}", scale=1.0):
     return "" if value is None else pattern.format(scale * value)
+
+
+def spread(row):
+    """In bold where a figure is not to be trusted."""
+    value = number(row, "spread")
+    text = shown(value, "{:.1f} %", 100)
+    return f"**{text}**" if value is not None and value > 0.2 else text
 
 
 def table(head, rows):
@@ -138,7 +145,7 @@ def throughput(files):
                 rows.append([f"{what}, " + ", ".join(kind.values()), shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6),
                              shown(number(row, "times_baseline")), shown(number(row, "bytes_per_element_step"), "{:.0f}"),
                              shown(number(row, "bandwidth_share"), "{:.0f} %", 100), shown(number(row, "device_bytes_per_element"), "{:.0f}"),
-                             shown(number(row, "spread"), "{:.1f} %", 100), parts])
+                             spread(row), parts])
         elements = next((row["elements"] for row in f.rows if row.get("elements")), "?")
         agreement = f.select(what="agreement")
         note = ""
@@ -154,7 +161,7 @@ def growth(files):
     text = ["## Growth\n"]
     for f in files:
         rows = [[row["precision"], row["elements"], shown(number(row, "seconds_per_step"), "{:.1f}", 1e6),
-                 shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6), shown(number(row, "spread"), "{:.1f} %", 100),
+                 shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6), spread(row),
                  shown(number(row, "device_bytes_per_element"), "{:.0f}"), shown(number(row, "build_seconds"), "{:.1f}")] for row in f.rows]
         text.append(f"### {f.name}: {f.back_end}\n\n" + table(["precision", "elements", "us a step", "M element-steps/s", "spread",
                                                               "bytes an element", "built in, s"], rows))
@@ -176,7 +183,7 @@ def rolling(files):
             rate = number(row, "element_steps_per_second")
             rows.append([f.name, f.back_end, model.get("precision", ""), row["what"], row["elements"],
                          shown(number(row, "seconds_per_step"), "{:.1f}", 1e6), shown(rate, "{:.2f}", 1e-6),
-                         shown(rate / block_rate) if block_rate else "", touching, shown(number(row, "spread"), "{:.1f} %", 100)])
+                         shown(rate / block_rate) if block_rate else "", touching, spread(row)])
         stages = f.select(what="stage")
         whole = sum(number(s, "seconds_per_step") for s in stages)
         for s in stages:
@@ -194,7 +201,7 @@ def omissions(files):
             "many steps. Savings are of the whole scene's step; what is smaller than the spread is not to be trusted.\n"]
     for f in files:
         rows = [[row["what"], shown(number(row, "seconds_per_step"), "{:.1f}", 1e6), shown(number(row, "saving"), "{:.1f} %", 100),
-                 shown(number(row, "spread"), "{:.1f} %", 100)] for row in f.rows]
+                 spread(row)] for row in f.rows]
         elements = next((row["elements"] for row in f.rows if row.get("elements")), "?")
         text.append(f"### {f.name}: {f.back_end}, {elements} elements\n\n" + table(["scene", "us a step", "saves", "spread"], rows))
     return "\n".join(text)

@@ -60,7 +60,9 @@ struct Prepared {
 };
 
 /// Null where this build has not what the variant wants.
-std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std::string>& sizes, const Variant& variant) {
+/// @param assembly made with the contact, so that the wheel stands where it stands in every variant
+std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std::string>& sizes, const Assembly& assembly,
+                                  const Variant& variant) {
   auto overrides = sizes;
   overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
   auto prepared = std::make_unique<Prepared>();
@@ -68,8 +70,6 @@ std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std:
   try {
     scene::Scene scene = rolling_scene(overrides);
     scene.settle.max_steps = options.settle_steps;
-    Assembly assembly = assemble(scene);  // with the contact, so that the wheel stands where it stands in every variant
-    press_wheel(scene, assembly, options.overlap);
     variant.change(scene);
     build_model(scene, assembly, prepared->model);
   } catch (const InputError&) {
@@ -101,9 +101,12 @@ void time_accounts(const Options& options, Prepared& whole, long steps, Records&
 
 bool work(const Options& options, Records& records) {
   const auto sizes = options.elements > 0 ? sizes_for(options.elements) : std::vector<std::string>{};
+  const scene::Scene original = rolling_scene(sizes);
+  Assembly assembly = assemble(original);
+  press_wheel(original, assembly, options.overlap);
   std::vector<std::unique_ptr<Prepared>> all;
   for (const Variant& variant : variants()) {
-    auto prepared = prepare(options, sizes, variant);
+    auto prepared = prepare(options, sizes, assembly, variant);
     if (prepared) all.push_back(std::move(prepared));
     else fmt::print("{}: not in this build\n", variant.name);
   }

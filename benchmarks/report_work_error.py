@@ -98,7 +98,7 @@ def picture(results, path):
             axis.annotate(f"{1e3 * size:.3g} mm", (low.seconds, 100 * low.error), textcoords="offset points", xytext=(-4, -11),
                           fontsize=8, ha="right", color="0.25")
         axis.set(xscale="log", yscale="log", title=problem, xlabel="run time, s", ylabel=f"error ({MEASURES.get(problem, 'L2')}), %")
-        axis.margins(0.12)
+        axis.margins(x=0.18, y=0.12)
         axis.grid(which="both", color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
     for axis in list(axes.flat)[len(problems):]:

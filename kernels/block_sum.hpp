@@ -4,35 +4,61 @@
 
 namespace railwave {
 
-/// Sums `term(i)` (several values an item) in blocks of fixed size and then block by block, so the result is bitwise the
-/// same on any number of threads. `Term` has `static constexpr int values` and `void operator()(int, double*) const`,
-/// which adds an item's values.
+/// Sums `term(i)` (several values an item) in blocks of fixed size, the blocks' sums in blocks again, and the few that are
+/// left on the host, so the result is bitwise the same on any number of threads. `Term` has `static constexpr int values`
+/// and `void operator()(int, double*) const`, which adds an item's values.
 template <class Term>
 struct BlockSum {
-  static constexpr int block = 256;
+  static constexpr int block = 32;
   Term term;
   int count;
-  Array<double* [Term::values]> partial;
+  double* result;  ///< block after block
 
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
     double sum[Term::values] = {};
     const int end = (b + 1) * block < count ? (b + 1) * block : count;
     for (int i = b * block; i < end; ++i) term(i, sum);
-    for (int k = 0; k < Term::values; ++k) partial(b, k) = sum[k];
+    for (int k = 0; k < Term::values; ++k) result[b * Term::values + k] = sum[k];
   }
 };
 
+/// Sums that blocks have left.
+template <int Values>
+struct LeftSum {
+  static constexpr int values = Values;
+  const double* left;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double* sum) const {
+    for (int k = 0; k < Values; ++k) sum[k] += left[i * Values + k];
+  }
+};
+
+/// Numbers that a sum of `count` items needs as space.
+inline std::size_t block_sum_space(std::size_t count, int values) {
+  const std::size_t block = 32, blocks = (count + block - 1) / block;
+  return (blocks + (blocks + block - 1) / block) * values;
+}
+
 /// @param result Term::values numbers
+/// @param space where to work, if it is large enough; allocated anew otherwise
 template <class Term>
-void block_sum(const Term& term, int count, double* result) {
-  const int blocks = (count + BlockSum<Term>::block - 1) / BlockSum<Term>::block;
-  const auto partial = unset_array<double* [Term::values]>("block sums", blocks);
-  Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, partial});
-  const auto host = Kokkos::create_mirror_view(partial);
-  Kokkos::deep_copy(host, partial);
-  for (int k = 0; k < Term::values; ++k) result[k] = 0;
-  for (int b = 0; b < blocks; ++b)
-    for (int k = 0; k < Term::values; ++k) result[k] += host(b, k);
+void block_sum(const Term& term, int count, double* result, const Array<double*>& space = {}) {
+  constexpr int values = Term::values;
+  for (int k = 0; k < values; ++k) result[k] = 0;
+  if (count == 0) return;
+  const std::size_t needed = block_sum_space(count, values);
+  const auto work = space.extent(0) >= needed ? space : unset_array<double*>("block sums", needed);
+  constexpr int block = BlockSum<Term>::block;
+  const int blocks = (count + block - 1) / block, groups = (blocks + block - 1) / block;
+  double* const second = work.data() + static_cast<std::size_t>(blocks) * values;
+  Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, work.data()});
+  Kokkos::parallel_for("left_sum", Range(0, groups),
+                       BlockSum<LeftSum<values>>{LeftSum<values>{work.data()}, blocks, second});
+  const auto sums = Kokkos::subview(work, Kokkos::make_pair(static_cast<std::size_t>(blocks) * values,
+                                                            static_cast<std::size_t>(blocks + groups) * values));
+  const auto host = Kokkos::create_mirror_view(sums);
+  Kokkos::deep_copy(host, sums);
+  for (int g = 0; g < groups; ++g)
+    for (int k = 0; k < values; ++k) result[k] += host(g * values + k);
 }
 
 }  // namespace railwave

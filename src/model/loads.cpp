@@ -184,6 +184,7 @@ void build_sets(const Collector& collector, int moving) {
   sets.count = static_cast<int>(collector.sets.size());
   sets.moving = moving;
   sets.first = to_device("first of set", first);
+  collector.model.first_of_set = first;
   sets.nodes = to_device("nodes of set", nodes);
   sets.weight = to_device("weight in set", weight);
   sets.first_chunk = to_device("first chunk of set", first_chunk);

@@ -1,10 +1,21 @@
 #include "model/model.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "kernels/block_sum.hpp"
 #include "model/build_steps.hpp"
 
 namespace railwave {
+
+namespace {
+
+/// Numbers for the account's largest sum: at most a dozen values of each node or contribution.
+std::size_t account_space(const Model& model) {
+  return block_sum_space(std::max(model.nodes.count, model.extra.contribution_count), 12);
+}
+
+}  // namespace
 
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
@@ -19,6 +30,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_loads(model);
   build_node_arrays(model);
   build_stable_step(model);
+  model.sum_space = unset_array<double*>("space of sums", account_space(model));
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
 }
@@ -86,7 +98,7 @@ std::size_t device_bytes(const Model& model) {
   std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
                             model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes,
                             x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
-                            x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
+                            x.contribution_node, x.work, model.sum_space, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums);
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;

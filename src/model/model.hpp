@@ -90,6 +90,8 @@ struct Model {
   bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
   ExtraForces extra;
   NodeSets sets;
+  std::vector<int> first_of_set;       ///< host copy of sets.first
+  Array<double*> sum_space;            ///< where the account's sums are made
   std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;

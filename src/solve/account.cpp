@@ -80,6 +80,27 @@ struct MasterSums {
   }
 };
 
+/// Weighted displacement, velocity and acceleration at t_n of a set's nodes.
+struct MeanMotionSum {
+  static constexpr int values = 9;
+  NodalAcceleration acceleration;
+  NodeSets sets;
+  int begin;
+  double lag;
+  KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
+    const NodeArrays& nodes = acceleration.force.nodes;
+    const int n = sets.nodes(begin + k);
+    const double w = sets.weight(begin + k);
+    const Vector3 a = acceleration(n), moved = row(nodes.position, n) - row(nodes.reference, n);
+    const Vector3 v = row(nodes.velocity, n) + lag * a;
+    for (int i = 0; i < 3; ++i) {
+      sum[i] += w * moved[i];
+      sum[3 + i] += w * v[i];
+      sum[6 + i] += w * a[i];
+    }
+  }
+};
+
 struct Work {
   static constexpr int values = 1;
   Array<const double*> work;
@@ -92,7 +113,7 @@ void element_energy(const Model& model, const ElementGroup& group, EnergyAccount
   launch_patches(group.patches, PatchState<S, Elastic, Hourglass>{{group.constants}, group.patches,
                                                                   group.patches.hourglass_scale, model.nodes, {}, patch_energy});
   double sum[2];
-  block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum);
+  block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
 }
@@ -110,18 +131,18 @@ void element_energies(const Model& model, EnergyAccount& energy) {
 EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
   double sum[2];
-  block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum);
+  block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
   if (model.scene.solver.precision == scene::Precision::double_precision) element_energies<double>(model, energy);
   else element_energies<float>(model, energy);
   for (const ContactPair& pair : model.contacts) {
-    block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum);
+    block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum, model.sum_space);
     energy.contact += sum[0];
     energy.friction += sum[1];
   }
   if (!model.loads.empty()) {
-    block_sum(Work{model.extra.work}, model.extra.contribution_count, sum);
+    block_sum(Work{model.extra.work}, model.extra.contribution_count, sum, model.sum_space);
     energy.external_work += sum[0];
   }
   const auto connectors = to_host(model.connectors.arrays.energy);
@@ -145,8 +166,9 @@ double largest_energy(const EnergyAccount& energy) {
 
 ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
   double slave[11], master[3];
-  block_sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, slave);
-  block_sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, master);
+  block_sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, slave, model.sum_space);
+  block_sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, master,
+            model.sum_space);
   ContactTotals totals;
   for (int i = 0; i < 3; ++i) {
     totals.normal_force[i] = slave[i];
@@ -159,20 +181,16 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
 }
 
 MeanMotion mean_motion(const Model& model, int set) {
-  const auto first = to_host(model.sets.first);
-  const auto members = to_host(model.sets.nodes);
-  const auto weight = to_host(model.sets.weight);
-  std::vector<int> nodes;
-  for (int k = first(set); k < first(set + 1); ++k) nodes.push_back(members(k));
+  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
+  double sum[9];
+  block_sum(MeanMotionSum{model.acceleration(), model.sets, begin, model.velocity_lag}, end - begin, sum,
+            model.sum_space);
   MeanMotion mean;
-  const auto add = [&](NodeField field, Vec3& sum) {
-    const HostField values = node_field(model, field, nodes);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      for (int i = 0; i < 3; ++i) sum[i] += weight(first(set) + k) * values.values[3 * k + i];
-  };
-  add(NodeField::displacement, mean.displacement);
-  add(NodeField::velocity, mean.velocity);
-  add(NodeField::acceleration, mean.acceleration);
+  for (int i = 0; i < 3; ++i) {
+    mean.displacement[i] = sum[i];
+    mean.velocity[i] = sum[3 + i];
+    mean.acceleration[i] = sum[6 + i];
+  }
   return mean;
 }
 

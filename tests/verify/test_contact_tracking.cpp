@@ -10,7 +10,8 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Where a slave stands over one segment: Gauss-Newton from the centre, one tangent plane after the other.
+/// Where a slave stands over one segment: Gauss-Newton from the centre, one tangent plane after the other. Beyond distorted
+/// segments that can circle for ever, so its steps are shortened as it goes on, and what has not come to rest is outside.
 struct Standing {
   double outside, gap;  ///< in xi or eta; m, at the nearest place within the segment's sides
 };
@@ -23,16 +24,18 @@ Standing stand(const Vec3& slave, const std::array<Vec3, 4>& x) {
     a = (1 - t) * (x[1] - x[0]) + t * (x[2] - x[3]);
     b = (1 - s) * (x[3] - x[0]) + s * (x[2] - x[1]);
   };
-  for (int k = 0; k < 60; ++k) {
+  bool at_rest = false;
+  for (int k = 0; k < 100 && !at_rest; ++k) {
+    const double damping = std::pow(0.8, k / 10);
     at();
     const Vec3 d = slave - r;
     const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), determinant = aa * bb - ab * ab;
     const double ds = (bb * dot(a, d) - ab * dot(b, d)) / determinant, dt = (aa * dot(b, d) - ab * dot(a, d)) / determinant;
-    s = std::max(-2.0, std::min(3.0, s + ds));
-    t = std::max(-2.0, std::min(3.0, t + dt));
-    if (std::fabs(ds) + std::fabs(dt) < 1e-15) break;
+    s = std::max(-2.0, std::min(3.0, s + damping * ds));
+    t = std::max(-2.0, std::min(3.0, t + damping * dt));
+    at_rest = std::fabs(ds) + std::fabs(dt) < 1e-12;
   }
-  const double outside = 2 * std::max(std::fabs(s - 0.5), std::fabs(t - 0.5)) - 1;
+  const double outside = !at_rest ? 1e300 : 2 * std::max(std::fabs(s - 0.5), std::fabs(t - 0.5)) - 1;
   s = std::max(0.0, std::min(1.0, s));
   t = std::max(0.0, std::min(1.0, t));
   at();

@@ -113,7 +113,9 @@ std::vector<std::pair<std::string, std::string>> describe_machine(int count, cha
   facts.emplace_back("date", now());
   facts.emplace_back("back end", ExecutionSpace::name());
   facts.emplace_back("device", device_name());
-  if (!on_device) {
+  if (on_device) {
+    facts.emplace_back("host", processor_name() + " (" + processor_family() + ")");
+  } else {
     facts.emplace_back("threads", std::to_string(host_threads()));
     facts.emplace_back("OMP_PROC_BIND", environment("OMP_PROC_BIND"));
   }

@@ -7,7 +7,7 @@ namespace railwave {
 /// Blocks of a multiprocessor that the compiler is asked to leave room for: more of them hide latency, fewer leave each
 /// thread more registers. Measured on an H100.
 template <class S>
-inline constexpr int blocks_at_once = sizeof(S) == sizeof(double) ? 4 : 8;
+inline constexpr int blocks_at_once = sizeof(S) == sizeof(double) ? 4 : 7;
 
 template <class Functor>
 struct LaunchBoundsOf;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/element_force.hpp"
+#include "kernels/forces_together.hpp"
 
 namespace railwave {
 
@@ -20,13 +20,22 @@ struct LaunchBoundsOf<PatchState<S, Material, Hourglass>> {
   using type = Kokkos::LaunchBounds<patch_size, 1>;
 };
 
+template <class Patch, bool Friction>
+struct LaunchBoundsOf<ForcesTogether<Patch, Friction>> {
+  using type = typename LaunchBoundsOf<Patch>::type;
+};
+
+template <class Functor>
+void launch_teams(int teams, std::size_t scratch_size, const Functor& functor) {
+  using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type>;
+  const int team_size = on_device ? patch_size : 1;
+  Kokkos::parallel_for("patches", Policy(teams, team_size).set_scratch_size(0, Kokkos::PerTeam(scratch_size)), functor);
+}
+
 /// Runs a functor with one team for each patch.
 template <class Functor>
 void launch_patches(const PatchArrays& patches, const Functor& functor) {
-  using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type>;
-  const int team_size = on_device ? patch_size : 1;
-  Kokkos::parallel_for("patches", Policy(patches.count, team_size).set_scratch_size(0, Kokkos::PerTeam(Functor::scratch_size(patches))),
-                       functor);
+  launch_teams(patches.count, Functor::scratch_size(patches), functor);
 }
 
 }  // namespace railwave

@@ -17,6 +17,47 @@ NodeAdvance node_advance(const Model& model, double step) {
 /// strain a few parts in 1e9.
 constexpr long steps_between_frames = 64;
 
+/// More rows than this are not for one team.
+constexpr int most_rows_of_a_team = 4096;
+
+/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts.
+bool go_together(const Model& model, const Instant& instant) {
+  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1;
+}
+
+bool sets_go_along(const Model& model) {
+  return model.sets.moving > 0 && model.extra.loaded_count <= most_rows_of_a_team;
+}
+
+RowLoads row_loads(const Model& model, const Instant& instant) {
+  return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, instant.elapsed};
+}
+
+SetLoads set_loads(const Model& model, const Instant& instant) {
+  const SetMotion motion{model.sets, model.nodes.position, model.nodes.velocity};
+  TorqueNow torques{model.torques, motion};
+  for (const LoadArrays& load : model.loads)
+    if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
+  const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
+  return {motion, connectors, torques, row_loads(model, instant), sets_go_along(model) ? model.extra.loaded_count : 0};
+}
+
+template <bool Friction>
+ContactForce<Friction> contact_force(const Model& model, const ContactPair& pair) {
+  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra};
+}
+
+template <class Patch, bool Friction>
+void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant) {
+  const ContactPair& pair = model.contacts.front();
+  using Together = ForcesTogether<Patch, Friction>;
+  const int set_teams = sets_go_along(model) ? 1 : 0;
+  const int contact_teams = (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team;
+  launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
+               Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams,
+                        pair.window.count});
+}
+
 template <class S, class Hourglass, bool Advance>
 void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
   using Force = PatchForce<S, Elastic, Hourglass, Advance>;
@@ -24,8 +65,16 @@ void element_forces(const Model& model, const ElementGroup& group, const Array<f
     if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
     else return model.partial.narrow;
   }();
-  launch_patches(group.patches, Force{{group.constants}, group.patches, scale, node_advance(model, instant.step), instant.step,
-                                      partial, group.first_partial});
+  const Force force{{group.constants}, group.patches, scale, node_advance(model, instant.step), instant.step, partial,
+                    group.first_partial};
+  if constexpr (on_device && Advance) {
+    if (go_together(model, instant) && &group == &model.elements.front()) {
+      if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
+      else forces_together<Force, false>(model, group.patches, force, instant);
+      return;
+    }
+  }
+  launch_patches(group.patches, force);
 }
 
 template <class S>
@@ -73,9 +122,6 @@ using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>,
                                     Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 using RowRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 
-/// More rows than this are not for one team.
-constexpr int most_rows_of_a_team = 4096;
-
 /// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
 Stage set_load_stage(const Model& model) {
   constexpr bool on_host = std::is_same_v<MemorySpace, Kokkos::HostSpace>;
@@ -84,19 +130,10 @@ Stage set_load_stage(const Model& model) {
   if (model.torques.count > 0) name = "torques, " + name;
   if (model.connectors.arrays.count > 0) name = "connectors, " + name;
   return {name, [&model, sets, many](const Instant& instant) {
-            const NodeArrays& nodes = model.nodes;
-            const SetMotion motion{model.sets, nodes.position, nodes.velocity};
-            const RowLoads rows{model.extra, model.connectors.arrays, model.torques, nodes.position, nodes.velocity,
-                                instant.elapsed};
-            if (sets) {
-              TorqueNow torques{model.torques, motion};
-              for (const LoadArrays& load : model.loads)
-                if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
-              const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
-              Kokkos::parallel_for("set_loads", LoadTeam(1, on_host ? 1 : 512),
-                                   SetLoads{motion, connectors, torques, rows, many ? 0 : model.extra.loaded_count});
-            }
-            if (!sets || many) Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), rows);
+            if (go_together(model, instant) && sets_go_along(model)) return;
+            if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_host ? 1 : 512), set_loads(model, instant));
+            if (!sets || many)
+              Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant));
           }};
 }
 
@@ -109,9 +146,8 @@ Stage contact_stage(Model& model, ContactPair& pair) {
             if (first && model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, 0ULL);
             model.contact_uncleared = true;
             keep_window(model, pair, instant);
-            Kokkos::parallel_for("contact_force", ContactRange(0, pair.window.count),
-                                 ContactForce<Friction>{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window,
-                                                        model.extra.sum, model.nodes.extra});
+            if (go_together(model, instant)) return;
+            Kokkos::parallel_for("contact_force", ContactRange(0, pair.window.count), contact_force<Friction>(model, pair));
           }};
 }
 

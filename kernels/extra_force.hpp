@@ -25,6 +25,7 @@ struct ExtraForces {
   int contribution_count = 0, loaded_count = 0;
   ExtraForceSum sum;
   Array<LoadedRow*> loaded;
+  Array<int*> loaded_of_row;         ///< place among the loaded rows, -1: the row has no contributions
   Array<RowShare*> shares;
   Array<double* [3]> contribution;   ///< N
   Array<int*> contribution_node;

@@ -142,22 +142,4 @@ struct NodeUpdate {
   }
 };
 
-/// The same for the nodes that the patches have left.
-struct ListedNodeUpdate {
-  NodalAcceleration acceleration;
-  NodeAdvance advance;
-  Array<const ListedNode*> listed;
-
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const ListedNode node = listed(i);
-    const int n = node.node & ~special_bit;
-    const double inverse_mass = 1.0 / advance.nodes.mass(n);
-    const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
-    Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
-    if (node.node < 0) a = acceleration.constrain(n, a);
-    advance.move(n, a, x, v);
-    if (node.node < 0 && advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
-  }
-};
-
 }  // namespace railwave

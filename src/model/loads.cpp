@@ -264,6 +264,9 @@ void build_extra(const Collector& collector) {
   extra.sum.quantum = contact_quantum(model);
   extra.loaded_count = static_cast<int>(loaded.size());
   extra.loaded = to_device("loaded rows", loaded);
+  std::vector<int> loaded_of_row(extra.row_count, -1);
+  for (std::size_t k = 0; k < loaded.size(); ++k) loaded_of_row[loaded[k].row] = static_cast<int>(k);
+  extra.loaded_of_row = to_device("loaded of row", loaded_of_row);
   extra.shares = to_device("shares of rows", sorted);
   extra.contribution = Array<double* [3]>("contribution", extra.contribution_count);
   extra.contribution_node = to_device("node of contribution", collector.contribution_node);

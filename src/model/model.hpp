@@ -88,6 +88,8 @@ struct Model {
   PartialForces partial;
   Array<ListedNode*> listed_nodes;            ///< those that no patch advances by itself
   bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
+  double rows_elapsed = 0;             ///< s since the step before, for their work
+  bool rows_are_due = false;           ///< and left the loads that follow from sets to the nodes that feel them
   ExtraForces extra;
   NodeSets sets;
   std::vector<int> first_of_set;       ///< host copy of sets.first

@@ -1,6 +1,6 @@
 #include "solve/stages.hpp"
 
-#include "kernels/contact_force.hpp"
+#include "kernels/listed_nodes.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
 
@@ -25,12 +25,10 @@ bool go_together(const Model& model, const Instant& instant) {
   return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1;
 }
 
-bool sets_go_along(const Model& model) {
-  return model.sets.moving > 0 && model.extra.loaded_count <= most_rows_of_a_team;
-}
+bool sets_go_along(const Model& model, const Instant& instant) { return go_together(model, instant) && model.sets.moving > 0; }
 
-RowLoads row_loads(const Model& model, const Instant& instant) {
-  return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, instant.elapsed};
+RowLoads row_loads(const Model& model, double elapsed) {
+  return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
 }
 
 SetLoads set_loads(const Model& model, const Instant& instant) {
@@ -39,7 +37,8 @@ SetLoads set_loads(const Model& model, const Instant& instant) {
   for (const LoadArrays& load : model.loads)
     if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
   const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
-  return {motion, connectors, torques, row_loads(model, instant), sets_go_along(model) ? model.extra.loaded_count : 0};
+  const bool here = !sets_go_along(model, instant) && model.extra.loaded_count <= most_rows_of_a_team;
+  return {motion, connectors, torques, row_loads(model, instant.elapsed), here ? model.extra.loaded_count : 0};
 }
 
 template <bool Friction>
@@ -51,7 +50,7 @@ template <class Patch, bool Friction>
 void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant) {
   const ContactPair& pair = model.contacts.front();
   using Together = ForcesTogether<Patch, Friction>;
-  const int set_teams = sets_go_along(model) ? 1 : 0;
+  const int set_teams = sets_go_along(model, instant) ? 1 : 0;
   const int contact_teams = (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team;
   launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
                Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams,
@@ -123,17 +122,19 @@ using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>,
 using RowRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
 
 /// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
-Stage set_load_stage(const Model& model) {
+Stage set_load_stage(Model& model) {
   constexpr bool on_host = std::is_same_v<MemorySpace, Kokkos::HostSpace>;
   const bool sets = model.sets.moving > 0, many = model.extra.loaded_count > most_rows_of_a_team;
   std::string name = "gather of loads";
   if (model.torques.count > 0) name = "torques, " + name;
   if (model.connectors.arrays.count > 0) name = "connectors, " + name;
   return {name, [&model, sets, many](const Instant& instant) {
-            if (go_together(model, instant) && sets_go_along(model)) return;
+            model.rows_are_due = sets_go_along(model, instant);
+            model.rows_elapsed = instant.elapsed;
+            if (model.rows_are_due) return;
             if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_host ? 1 : 512), set_loads(model, instant));
             if (!sets || many)
-              Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant));
+              Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
           }};
 }
 
@@ -169,10 +170,11 @@ void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
   if (model.patches_have_advanced)
     Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
-                         ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes});
+                         ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,
+                                          row_loads(model, model.rows_elapsed), model.rows_are_due});
   else
     Kokkos::parallel_for("node_update", Range(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
-  model.patches_have_advanced = false;
+  model.patches_have_advanced = model.rows_are_due = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;
   model.contact_uncleared = false;

@@ -7,6 +7,7 @@
 
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
+#include "model/stable_step.hpp"
 #include "solve/stages.hpp"
 
 namespace railwave {
@@ -38,11 +39,8 @@ std::string indented(const std::string& text) {
 }
 
 void describe_step(const Model& model, std::ostream& out) {
-  const StableStep& stable = model.stable_step;
-  const Vec3 at = model.assembly.nodes[model.assembly.elements[stable.element][0]];
-  out << fmt::format("Step\n  elements allow {:.4g} s (element near {:.4g}, {:.4g}, {:.4g} m)\n", stable.elements, at[0], at[1], at[2]);
-  if (stable.contact > 0) out << fmt::format("  contact springs allow {:.4g} s\n", stable.contact);
-  if (stable.connector > 0) out << fmt::format("  connectors allow {:.4g} s\n", stable.connector);
+  out << "Step\n";
+  for (const std::string& line : describe_stable_step(model)) out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count, model.scene.time.end);
 }
 

@@ -29,10 +29,10 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_contacts(model);
   build_loads(model);
   build_node_arrays(model);
-  build_stable_step(model);
   model.sum_space = unset_array<double*>("space of sums", account_space(model));
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
+  build_stable_step(model);
 }
 
 namespace {

@@ -17,10 +17,6 @@ void refuse_unknown_methods(const scene::Scene& scene) {
   if (solver.precision == scene::Precision::single_precision)
     refuse(scene, "precision = \"float\"", "set it to \"double\" or \"mixed\"");
   if (solver.subcycling) refuse(scene, "subcycling = true", "leave subcycling out, or set it to false");
-  if (solver.step_estimate != scene::StepEstimate::element)
-    refuse(scene, fmt::format("step_estimate = \"{}\"",
-                              solver.step_estimate == scene::StepEstimate::global ? "global" : "eigenvalue"),
-           "leave step_estimate out, or set it to \"element\"");
 }
 
 }  // namespace railwave

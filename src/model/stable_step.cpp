@@ -4,10 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/element_frequency.hpp"
+#include "model/global_step.hpp"
+#include "model/stable_step.hpp"
 
 namespace railwave {
 namespace {
@@ -19,6 +23,28 @@ std::vector<double> element_steps(const Model& model) {
     const double speed = model.scene.materials[part.material].dilatational_speed();
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
       steps[e] = model.element_length[e] / speed;
+  }
+  return steps;
+}
+
+/// Stable steps of each element by its highest eigenvalues.
+struct EigenvalueSteps {
+  std::vector<double> step, control;
+};
+
+EigenvalueSteps eigenvalue_steps(const Model& model) {
+  const std::size_t count = model.assembly.elements.size();
+  EigenvalueSteps steps{std::vector<double>(count), std::vector<double>(count)};
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const auto& range = model.assembly.parts[p];
+    const scene::Part& part = model.scene.parts[p];
+    for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
+      const ElementStep own =
+          element_eigenvalue_step(corners_of(model.assembly.nodes, model.assembly.elements[e]),
+                                  model.scene.materials[range.material], part.hourglass, part.hourglass_coefficient);
+      steps.step[e] = own.step;
+      steps.control[e] = own.control;
+    }
   }
   return steps;
 }
@@ -40,11 +66,28 @@ double contact_step_at(double stiffness, double mass, double step) {
   return step * std::sqrt(2 / (1 + std::sqrt(1 + 4 * beta * beta)));
 }
 
-double contact_step(const Model& model, const ContactPair& pair, const std::vector<double>& node_steps) {
+/// The same of springs k on elements that may be alone under the surface. Each side of the contact is as if it had a
+/// spring 2 k to the ground: b = dt^2/4 2 k / m. A surface's motion has at most half its energy in strains, whose modes have
+/// a <= dt^2/4 omega^2, and can have all of it in hourglass modes, whose control has c (linear in dt where viscous, at most
+/// so where stiff). Together they are stable while b times the largest of p/(1 - a) + q/(1 - c) + (1 - p - q) is at most 1.
+double contact_step_on_eigenvalues(double stiffness, double mass, double step, double control_step) {
+  double low = 0, high = std::fmin(step, control_step);
+  for (int i = 0; i < 40; ++i) {
+    const double dt = 0.5 * (low + high);
+    const double strain = 1 / (1 - dt * dt / (step * step)), hourglass = 1 / (1 - dt / control_step);
+    const double b = 0.5 * dt * dt * stiffness / mass;
+    (b * std::fmax(hourglass, 0.5 * (strain + hourglass)) <= 1 ? low : high) = dt;
+  }
+  return low;
+}
+
+/// @param step_at stable step of springs of a stiffness on a node
+template <class StepAt>
+double contact_step(const Model& model, const ContactPair& pair, const StepAt& step_at) {
   double stiffest = 0;
   for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, k);
   double least = std::numeric_limits<double>::infinity();
-  for (int n : pair.slave_nodes) least = std::fmin(least, contact_step_at(stiffest, model.mass[n], node_steps[n]));
+  for (int n : pair.slave_nodes) least = std::fmin(least, step_at(stiffest, n));
 
   // On a finer slave surface several springs press on each master node.
   const auto area = [&](const std::array<int, 4>& facet, const std::vector<int>& nodes) {
@@ -57,7 +100,7 @@ double contact_step(const Model& model, const ContactPair& pair, const std::vect
     const double springs = std::fmax(1.0, area(pair.master_segments[s], pair.master_nodes) / slave_area);
     for (int m : pair.master_segments[s]) {
       const int n = pair.master_nodes[m];
-      least = std::fmin(least, contact_step_at(springs * pair.segment_stiffness[s], model.mass[n], node_steps[n]));
+      least = std::fmin(least, step_at(springs * pair.segment_stiffness[s], n));
     }
   }
   return least;
@@ -94,40 +137,87 @@ double connector_frequency(const Model& model) {
   return largest;
 }
 
-}  // namespace
+template <class StepAt>
+double contacts_step(const Model& model, const StepAt& step_at) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactPair& pair : model.contacts) least = std::fmin(least, contact_step(model, pair, step_at));
+  return least;
+}
 
-void build_stable_step(Model& model) {
+/// Position of the smallest of the steps, and the step; -1 and infinity: none.
+std::pair<int, double> least_of(const std::vector<double>& steps) {
+  const auto least = std::min_element(steps.begin(), steps.end());
+  if (least == steps.end()) return {-1, std::numeric_limits<double>::infinity()};
+  return {static_cast<int>(least - steps.begin()), *least};
+}
+
+/// Step of two systems together: the square of the sum's highest frequency is at most the sum of the squares.
+double together(double step, double frequency) { return 2 / std::sqrt(4 / (step * step) + frequency * frequency); }
+
+void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
-  const auto steps = element_steps(model);
-  stable.elements = std::numeric_limits<double>::infinity();
-  for (std::size_t e = 0; e < steps.size(); ++e)
-    if (steps[e] < stable.elements) {
-      stable.elements = steps[e];
-      stable.element = static_cast<int>(e);
-    }
-  double limit = stable.elements;
+  const auto heights = element_steps(model);
+  const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
+  std::tie(stable.element, stable.elements) = least_of(heights);
+  std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
+  stable.by_elements = stable.elements;
+  stable.by_eigenvalues = stable.eigenvalue;
   if (!model.contacts.empty()) {
-    const auto node_steps = steps_at_nodes(model, steps);
-    stable.contact = std::numeric_limits<double>::infinity();
-    for (const ContactPair& pair : model.contacts)
-      stable.contact = std::fmin(stable.contact, contact_step(model, pair, node_steps));
-    limit = std::fmin(limit, stable.contact);
+    const auto at_node = steps_at_nodes(model, heights);
+    stable.contact = contacts_step(model, [&](double k, int n) { return contact_step_at(k, model.mass[n], at_node[n]); });
+    const auto step = steps_at_nodes(model, eigenvalues.step), control = steps_at_nodes(model, eigenvalues.control);
+    stable.eigenvalue_contact = contacts_step(
+        model, [&](double k, int n) { return contact_step_on_eigenvalues(k, model.mass[n], step[n], control[n]); });
+    stable.by_elements = std::fmin(stable.by_elements, stable.contact);
+    stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
   if (!model.scene.connectors.empty()) {
     const double frequency = connector_frequency(model);
     stable.connector = frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
-    // The highest frequency of a sum is at most the root of the sum of squares.
-    limit = 2 / std::sqrt(4 / (limit * limit) + frequency * frequency);
+    stable.by_elements = together(stable.by_elements, frequency);
+    stable.by_eigenvalues = together(stable.by_eigenvalues, frequency);
+  }
+}
+
+}  // namespace
+
+double largest_step(const Model& model) {
+  const scene::Time& time = model.scene.time;
+  return time.step > 0 ? std::fmin(time.step, model.stable_step.limit) : time.step_scale * model.stable_step.limit;
+}
+
+void renew_global_step(Model& model) {
+  StableStep& stable = model.stable_step;
+  const int renew_steps = model.scene.solver.renew_steps;
+  const double left = model.scene.time.end - model.time;
+  const double horizon = renew_steps > 0 ? std::fmin(left, renew_steps * stable.by_elements) : left;
+  // A scene of point masses on dashpots alone has no elements to begin from.
+  const double first_guess = std::isfinite(stable.by_elements) ? stable.by_elements : model.scene.time.end;
+  GlobalStep found = (*model.global_estimate)(model, horizon, stable.global > 0 ? 0.99 * stable.global : first_guess);
+  stable.global = stable.limit = found.step;
+  stable.springs = found.springs;
+  stable.seen = std::move(found.seen);
+}
+
+void build_stable_step(Model& model) {
+  StableStep& stable = model.stable_step;
+  estimate_by_elements(model);
+  const scene::StepEstimate choice = model.scene.solver.step_estimate;
+  stable.limit = choice == scene::StepEstimate::eigenvalue ? stable.by_eigenvalues : stable.by_elements;
+  if (choice == scene::StepEstimate::global) {
+    model.global_estimate = std::make_shared<GlobalEstimate>(model);
+    renew_global_step(model);
   }
   const scene::Time& time = model.scene.time;
-  stable.used = time.step > 0 ? time.step : time.step_scale * limit;
-  if (time.step > limit)
+  if (time.step > stable.limit)
     throw InputError(fmt::format("{}: [time] step = {:.4g} s is longer than the stable step {:.4g} s of this mesh and its contacts; "
-                                 "leave it out to have the program choose",
-                                 model.scene.path, time.step, limit));
+                                 "leave it out to have the program choose{}",
+                                 model.scene.path, time.step, stable.limit,
+                                 choice == scene::StepEstimate::global
+                                     ? ""
+                                     : ", or see whether [solver] step_estimate = \"global\" allows more"));
   // Whole steps, so that the run ends at the time asked for.
-  model.step_count = static_cast<long>(std::ceil(time.end / stable.used - 1e-9));
-  if (model.step_count < 1) model.step_count = 1;
+  model.step_count = std::max(1L, static_cast<long>(std::ceil(time.end / largest_step(model) - 1e-9)));
   model.step_size = time.end / static_cast<double>(model.step_count);
 }
 

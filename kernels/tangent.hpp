@@ -1,0 +1,145 @@
+#pragma once
+
+#include "kernels/element_modes.hpp"
+#include "kernels/hourglass.hpp"
+#include "kernels/nodes.hpp"
+
+/// The scene as a linear operator on small motions about its present state, for estimates of its highest frequency:
+/// K + C/tau with K the stiffness of elements, hourglass control and springs, C their dashpots, and tau a time. Always in
+/// double, whatever precision the step has. Motions are in mass-weighted coordinates q = M^(1/2) u.
+namespace railwave {
+
+using NodeVector = Array<double* [3]>;
+
+/// q -> u = M^(-1/2) q
+struct ToDisplacement {
+  NodeVector q, u;
+  Array<const double*> mass;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double scale = 1 / std::sqrt(mass(n));
+    for (int i = 0; i < 3; ++i) u(n, i) = scale * q(n, i);
+  }
+};
+
+/// Forces K u + C u / tau of the elements of one part on their corners, element by element; linear elastic about the
+/// present configuration, stresses' own (geometric) stiffness left out: it is of the order of stress over modulus.
+struct ElementTangent {
+  int first;               ///< element
+  double lambda, mu;       ///< Pa
+  double hourglass;        ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
+  bool viscous;            ///< scale goes with V^(2/3), else V^(1/3)
+  Array<const int* [8]> corners;
+  Array<const double* [3]> position;
+  NodeVector displacement;
+  Array<double* [24]> force;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i_element) const {
+    const int e = first + i_element;
+    double x[3][7], u[3][7], B[3][6], L[3][3];
+    for (int i = 0; i < 3; ++i) {
+      double place[8], moved[8];
+      for (int N = 0; N < 8; ++N) {
+        place[N] = position(corners(e, N), i);
+        moved[N] = displacement(corners(e, N), i);
+      }
+      modes_of(place, x[i]);
+      modes_of(moved, u[i]);
+    }
+    mean_gradient<double>(x, B);
+    const double volume = along(x[0], B[0]), inverse = 1 / volume, root = std::cbrt(volume);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) L[i][j] = inverse * along(u[i], B[j]);
+    const double scale = hourglass * (viscous ? root * root : root);
+    const double trace = lambda * (L[0][0] + L[1][1] + L[2][2]);
+    for (int i = 0; i < 3; ++i) {
+      double q[4], T[3], modes[7], at_corner[8];
+      for (int M = 0; M < 4; ++M) q[M] = scale * hourglass_content(u[i], L[i], x, M);
+      for (int j = 0; j < 3; ++j) {
+        T[j] = mu * (L[i][j] + L[j][i]) + (i == j ? trace : 0.0);
+        for (int M = 0; M < 4; ++M) T[j] -= inverse * q[M] * x[j][3 + M];
+      }
+      for (int k = 0; k < 7; ++k) {
+        modes[k] = k < 3 ? 0.0 : q[k - 3];
+        if (k < 6) modes[k] += T[0] * B[0][k] + T[1] * B[1][k] + T[2] * B[2][k];
+      }
+      corners_of(modes, at_corner);
+      for (int N = 0; N < 8; ++N) force(e, 3 * N + i) = at_corner[N];
+    }
+  }
+};
+
+/// Springs and dashpots, each along one direction d between weighted means of nodes: stretch = sum_k w_k d . u_k.
+struct TangentSprings {
+  int count = 0;
+  Array<int*> first;              ///< count + 1
+  Array<int*> node;
+  Array<double*> weight;
+  Array<double* [3]> direction;   ///< unit
+  Array<double*> stiffness;       ///< N/m
+  Array<double*> damping;         ///< N s/m
+  Array<double*> force;           ///< N
+  int node_count = 0;             ///< nodes with springs
+  Array<int*> with_springs;       ///< those nodes
+  Array<int*> first_of_node;      ///< node_count + 1
+  Array<int*> spring_of_node;
+  Array<double*> weight_of_node;
+};
+
+struct SpringForce {
+  TangentSprings springs;
+  NodeVector displacement;
+  double inverse_time;  ///< 1/tau, 1/s
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    const Vector3 d = row(springs.direction, s);
+    double stretch = 0;
+    for (int k = springs.first(s); k < springs.first(s + 1); ++k)
+      stretch += springs.weight(k) * dot(d, row(displacement, springs.node(k)));
+    springs.force(s) = (springs.stiffness(s) + inverse_time * springs.damping(s)) * stretch;
+  }
+};
+
+/// Sum of the corner forces on each node; corner c is of element c / 8, corner c % 8.
+struct GatherTangent {
+  Array<const int*> first_corner, corner;
+  Array<const double* [24]> force;
+  NodeVector sum;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    double f[3] = {0, 0, 0};
+    for (int k = first_corner(n); k < first_corner(n + 1); ++k) {
+      const int e = corner(k) / 8, N = corner(k) % 8;
+      for (int i = 0; i < 3; ++i) f[i] += force(e, 3 * N + i);
+    }
+    for (int i = 0; i < 3; ++i) sum(n, i) = f[i];
+  }
+};
+
+struct AddSprings {
+  TangentSprings springs;
+  NodeVector sum;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int n = springs.with_springs(i);
+    Vector3 f = row(sum, n);
+    for (int k = springs.first_of_node(i); k < springs.first_of_node(i + 1); ++k) {
+      const int s = springs.spring_of_node(k);
+      f = f + (springs.weight_of_node(k) * springs.force(s)) * row(springs.direction, s);
+    }
+    for (int c = 0; c < 3; ++c) sum(n, c) = f[c];
+  }
+};
+
+/// f -> M^(-1/2) f, constrained directions taken out.
+struct ToWeighted {
+  NodeVector f;
+  Array<const double*> mass;
+  Array<const int*> constraint;             ///< row of the table, -1: free
+  Array<const double* [3][3]> constraints;  ///< projections
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double scale = 1 / std::sqrt(mass(n));
+    const Vector3 a = scale * row(f, n);
+    const int c = constraint(n);
+    for (int i = 0; i < 3; ++i)
+      f(n, i) = c < 0 ? a[i] : constraints(c, i, 0) * a[0] + constraints(c, i, 1) * a[1] + constraints(c, i, 2) * a[2];
+  }
+};
+
+}  // namespace railwave

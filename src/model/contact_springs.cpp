@@ -1,0 +1,117 @@
+#include "model/contact_springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/host_copy.hpp"
+#include "model/nearest_point.hpp"
+
+namespace railwave {
+namespace {
+
+/// Share of the local element size that counts as touching: penetrations and the sag of coarse surfaces are below it.
+constexpr double touching_share = 0.1;
+/// How much faster than at present two surfaces may close within the horizon.
+constexpr double closing_factor = 2;
+
+template <class HostArray>
+std::vector<Vec3> rows_of(const HostArray& values, const std::vector<int>& nodes) {
+  std::vector<Vec3> rows(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < 3; ++i) rows[k][i] = values(nodes[k], i);
+  return rows;
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double inner(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// What the master's surface is around each of its nodes.
+struct MasterNodes {
+  std::vector<Vec3> normal;
+  std::vector<double> size;       ///< m, longest diagonal around the node
+  std::vector<double> stiffness;  ///< N/m, largest
+  std::vector<std::vector<int>> segments;
+  double largest_size = 0;
+
+  MasterNodes(const ContactPair& pair, const std::vector<Vec3>& position)
+      : normal(position.size(), Vec3{}), size(position.size(), 0), stiffness(position.size(), 0),
+        segments(position.size()) {
+    for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
+      const auto& corner = pair.master_segments[s];
+      const Vec3 p = minus(position[corner[2]], position[corner[0]]), q = minus(position[corner[3]], position[corner[1]]);
+      const double diagonal = std::sqrt(std::fmax(inner(p, p), inner(q, q)));
+      largest_size = std::fmax(largest_size, diagonal);
+      for (int m : corner) {
+        for (int i = 0; i < 3; ++i) {
+          const int j = (i + 1) % 3, k = (i + 2) % 3;
+          normal[m][i] += p[j] * q[k] - p[k] * q[j];
+        }
+        size[m] = std::fmax(size[m], diagonal);
+        segments[m].push_back(static_cast<int>(s));
+        stiffness[m] = std::fmax(stiffness[m], pair.segment_stiffness[s]);
+      }
+    }
+    for (Vec3& n : normal) {
+      const double length = std::sqrt(inner(n, n));
+      if (length > 0)
+        for (double& component : n) component /= length;
+    }
+  }
+};
+
+/// Where a place that is `away` from master node m lies on the segments around it, taken as parallelograms.
+void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position, const std::vector<int>& segments, int m,
+                      const Vec3& away, ContactSpring& spring) {
+  double least = 1e300;
+  for (int s : segments) {
+    const auto& corner = pair.master_segments[s];
+    int own = 0;
+    while (corner[own] != m) ++own;
+    const Vec3 p = minus(position[corner[(own + 1) % 4]], position[m]), q = minus(position[corner[(own + 3) % 4]], position[m]);
+    const double pp = inner(p, p), pq = inner(p, q), qq = inner(q, q), ap = inner(away, p), aq = inner(away, q);
+    const double determinant = pp * qq - pq * pq;
+    const double a = (ap * qq - aq * pq) / determinant, b = (aq * pp - ap * pq) / determinant;
+    const double inside_a = std::fmax(0.0, std::fmin(1.0, a)), inside_b = std::fmax(0.0, std::fmin(1.0, b));
+    const double outside = std::fabs(a - inside_a) + std::fabs(b - inside_b);
+    if (!(outside < least)) continue;
+    least = outside;
+    const double share[4] = {(1 - inside_a) * (1 - inside_b), inside_a * (1 - inside_b), inside_a * inside_b, (1 - inside_a) * inside_b};
+    for (int k = 0; k < 4; ++k) {
+      spring.master_nodes[k] = pair.master_nodes[corner[(own + k) % 4]];
+      spring.share[k] = share[k];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ContactSpring> possible_contact_springs(const Model& model, const ContactPair& pair, double horizon) {
+  const auto position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
+  const auto slaves = rows_of(position, pair.slave_nodes), slave_velocities = rows_of(velocity, pair.slave_nodes);
+  const auto masters = rows_of(position, pair.master_nodes), master_velocities = rows_of(velocity, pair.master_nodes);
+  const MasterNodes around(pair, masters);
+  const NearestPoint nearest(masters);
+  double fastest_master = 0;
+  for (const Vec3& v : master_velocities) fastest_master = std::fmax(fastest_master, std::sqrt(inner(v, v)));
+
+  std::vector<ContactSpring> springs;
+  const auto status = to_host(pair.arrays.status);
+  for (std::size_t s = 0; s < slaves.size(); ++s) {
+    const Vec3& v = slave_velocities[s];
+    const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(inner(v, v)) + fastest_master);
+    const int m = nearest.find(slaves[s], reach);
+    if (m < 0) continue;
+    const Vec3 away = minus(slaves[s], masters[m]), relative = minus(v, master_velocities[m]);
+    const double gap = inner(away, around.normal[m]);
+    const double aside = std::sqrt(std::fmax(0.0, inner(away, away) - gap * gap));
+    const double closing = closing_factor * horizon * std::sqrt(inner(relative, relative));
+    const bool may_touch = aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
+    if (status(static_cast<int>(s)) == status_apart && !may_touch) continue;
+    ContactSpring spring{static_cast<int>(s), pair.slave_nodes[s], around.stiffness[m], around.normal[m], {}, {}};
+    place_on_segment(pair, masters, around.segments[m], m, away, spring);
+    springs.push_back(spring);
+  }
+  return springs;
+}
+
+}  // namespace railwave

@@ -1,0 +1,45 @@
+#include <fmt/format.h>
+
+#include "model/stable_step.hpp"
+
+namespace railwave {
+namespace {
+
+std::string near(const Model& model, int element) {
+  if (element < 0) return {};
+  const Vec3& at = model.assembly.nodes[model.assembly.elements[element][0]];
+  return fmt::format(" (element near {:.4g}, {:.4g}, {:.4g} m)", at[0], at[1], at[2]);
+}
+
+/// What one estimate allows, in all and in parts.
+std::string line(const char* by, double all, double elements, const std::string& place, double contact, double connector) {
+  std::string text = fmt::format("{}: {:.4g} s; elements {:.4g} s{}", by, all, elements, place);
+  if (contact > 0) text += fmt::format(", contact springs {:.4g} s", contact);
+  if (connector > 0) text += fmt::format(", connectors {:.4g} s", connector);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> describe_stable_step(const Model& model) {
+  const StableStep& stable = model.stable_step;
+  const scene::StepEstimate choice = model.scene.solver.step_estimate;
+  std::vector<std::string> lines{
+      line("stable by element heights", stable.by_elements, stable.elements, near(model, stable.element), stable.contact,
+           stable.connector),
+      line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue, near(model, stable.eigenvalue_element),
+           stable.eigenvalue_contact, stable.connector)};
+  if (choice == scene::StepEstimate::global)
+    lines.push_back(fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
+                                stable.global,
+                                model.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
+                                stable.global / stable.by_elements));
+  const char* names[] = {"element", "eigenvalue", "global"};
+  lines.push_back(model.scene.time.step > 0
+                      ? fmt::format("set by time.step = {:.4g} s", model.scene.time.step)
+                      : fmt::format("set by solver.step_estimate = {}, times time.step_scale = {:.4g}",
+                                    names[static_cast<int>(choice)], model.scene.time.step_scale));
+  return lines;
+}
+
+}  // namespace railwave

@@ -1,0 +1,189 @@
+#include "model/global_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/block_sum.hpp"
+#include "model/hourglass_scale.hpp"
+#include "model/host_copy.hpp"
+#include "model/lanczos.hpp"
+#include "model/tangent_springs.hpp"
+
+namespace railwave {
+namespace {
+
+/// Iterations between looks at the Ritz value.
+constexpr int iterations_between_looks = 10;
+
+/// Between -1 and 1, without order in the numbers: the start has a part in every mode, wherever that is.
+KOKKOS_INLINE_FUNCTION double scattered(std::uint64_t number) {
+  number = (number + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 31)) * 0x94d049bb133111ebu;
+  number ^= number >> 29;
+  return static_cast<double>(number >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/// M^(1/2) times scattered numbers, so that ToWeighted leaves the start vector of unit mass.
+struct StartVector {
+  NodeVector f;
+  Array<const double*> mass;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(3 * static_cast<std::uint64_t>(n) + i);
+  }
+};
+
+struct Inner {
+  static constexpr int values = 1;
+  NodeVector a, b;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
+};
+
+/// w - alpha q - beta p
+struct Recur {
+  NodeVector w, q, p;
+  double alpha, beta;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) w(n, i) -= alpha * q(n, i) + beta * p(n, i);
+  }
+};
+
+struct Scale {
+  NodeVector w;
+  double factor;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) w(n, i) *= factor;
+  }
+};
+
+double inner(const NodeVector& a, const NodeVector& b) {
+  double sum = 0;
+  block_sum(Inner{a, b}, static_cast<int>(a.extent(0)), &sum);
+  return sum;
+}
+
+}  // namespace
+
+GlobalEstimate::GlobalEstimate(const Model& model) {
+  const auto& elements = model.assembly.elements;
+  const std::size_t nodes = model.assembly.nodes.size();
+  std::vector<int> first(nodes + 1, 0), corner(8 * elements.size());
+  for (const auto& corners : elements)
+    for (int n : corners) ++first[n + 1];
+  for (std::size_t n = 0; n < nodes; ++n) first[n + 1] += first[n];
+  std::vector<int> filled(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < elements.size(); ++e)
+    for (int N = 0; N < 8; ++N) corner[filled[elements[e][N]]++] = static_cast<int>(8 * e) + N;
+  corners_ = to_device("tangent corners", elements);
+  first_corner_ = to_device("tangent first corner", first);
+  corner_ = to_device("tangent corner", corner);
+  corner_force_ = unset_array<double* [24]>("tangent corner force", elements.size());
+  now_ = unset_array<double* [3]>("tangent vector", nodes);
+  before_ = unset_array<double* [3]>("tangent vector before", nodes);
+  image_ = unset_array<double* [3]>("tangent image", nodes);
+  displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
+}
+
+std::size_t GlobalEstimate::bytes() const {
+  return corners_.span() * sizeof(int) + (first_corner_.span() + corner_.span()) * sizeof(int) +
+         (corner_force_.span() + 4 * now_.span()) * sizeof(double);
+}
+
+void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep& result) {
+  SpringCollector collector(model);
+  collector.add_connectors();
+  for (const ContactPair& pair : model.contacts) {
+    const auto springs = possible_contact_springs(model, pair, horizon);
+    collector.add_contact(springs, pair.arrays.friction > 0);
+    result.springs += static_cast<long>(springs.size());
+    auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
+    for (const ContactSpring& spring : springs) seen[spring.slave] = 1;
+  }
+  springs_ = collector.on_device();
+}
+
+void GlobalEstimate::apply(const Model& model, double inverse_time) {
+  const int nodes = static_cast<int>(model.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const auto& range = model.assembly.parts[p];
+    const scene::Part& part = model.scene.parts[p];
+    const scene::Material& material = model.scene.materials[range.material];
+    const bool viscous = part.hourglass == scene::HourglassType::viscous;
+    const double factor = hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
+    const double mu = material.shear_modulus();
+    Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
+                         ElementTangent{range.first_element, material.dilatational_modulus() - 2 * mu, mu, factor, viscous,
+                                        corners_, model.nodes.position, displacement_, corner_force_});
+  }
+  Kokkos::parallel_for("tangent_gather", Range(0, nodes), GatherTangent{first_corner_, corner_, corner_force_, image_});
+  if (springs_.count > 0) {
+    Kokkos::parallel_for("tangent_springs", Range(0, springs_.count), SpringForce{springs_, displacement_, inverse_time});
+    Kokkos::parallel_for("tangent_add_springs", Range(0, springs_.node_count), AddSprings{springs_, image_});
+  }
+  Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
+                       ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});
+}
+
+double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, GlobalStep& result) {
+  const int nodes = static_cast<int>(model.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
+  Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
+                       ToWeighted{now_, model.nodes.mass, model.nodes.constraint, model.constraints});
+  const double size = std::sqrt(inner(now_, now_));
+  if (!(size > 0)) return 0;  // everything is held
+  Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
+  Kokkos::deep_copy(before_, 0.0);
+
+  std::vector<double> diagonal, beside;
+  RitzValue ritz;
+  while (true) {
+    apply(model, inverse_time);
+    ++result.applications;
+    diagonal.push_back(inner(now_, image_));
+    Kokkos::parallel_for("tangent_recur", Range(0, nodes),
+                         Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
+    beside.push_back(std::sqrt(inner(image_, image_)));
+    const int iterations = static_cast<int>(diagonal.size());
+    const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
+    if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {
+      ritz = largest_ritz_value(diagonal, beside);
+      if (exhausted || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;
+    }
+    Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, 1 / beside.back()});
+    const NodeVector spent = before_;
+    before_ = now_;
+    now_ = image_;
+    image_ = spent;
+  }
+  return ritz.value + ritz.residual;
+}
+
+GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double guess) {
+  GlobalStep result;
+  result.step = guess;
+  set_springs(model, horizon, result);
+  bool damped = false;
+  for (const scene::Part& part : model.scene.parts)
+    damped = damped || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
+  for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
+  if (!damped) {
+    const double eigenvalue = largest_eigenvalue(model, 0, tolerance, result);
+    if (eigenvalue > 0) result.step = 2 / std::sqrt(eigenvalue);
+  } else {
+    // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the answer
+    // and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the short side.
+    constexpr int most_passes = 8;
+    double step = guess;
+    for (int k = 0; k < most_passes; ++k) {
+      const double eigenvalue = largest_eigenvalue(model, 2 / step, k == 0 ? 4 * tolerance : tolerance, result);
+      if (!(eigenvalue > 0)) break;
+      result.step = 2 / std::sqrt(eigenvalue);
+      if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;
+      step = result.step >= step ? result.step : result.step - 0.6 * (step - result.step);
+    }
+  }
+  return result;
+}
+
+}  // namespace railwave

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "kernels/tangent.hpp"
+#include "model/contact_springs.hpp"
+
+namespace railwave {
+
+/// The stable step of the assembled scene.
+struct GlobalStep {
+  double step = 0;        ///< s
+  int applications = 0;   ///< of the operator
+  long springs = 0;       ///< contact springs counted in
+  std::vector<std::vector<char>> seen;  ///< by contact pair and slave: whether its spring was counted in
+};
+
+/// Estimates the stable step from the highest frequency of everything together: elements, hourglass control, springs and
+/// dashpots of connectors, contact springs of the nodes that touch or soon may, constraints. The central difference with
+/// velocities half a step behind is stable while dt^2/4 K + dt/2 C <= M, so dt = 2/omega with omega^2 the largest
+/// eigenvalue of M^-1 (K + 2/dt C). Lanczos' method, from a vector made of the nodes' numbers, finds it from below; the
+/// residual's bound, at most `tolerance` of omega^2, is added, so that the step errs to the short side.
+class GlobalEstimate {
+ public:
+  static constexpr double tolerance = 0.01;
+  static constexpr int most_iterations = 150;
+
+  explicit GlobalEstimate(const Model& model);
+
+  /// @param horizon s: contact springs that may press within that time count
+  /// @param guess s: near the answer, if anything on the short side; the answer where everything is held
+  GlobalStep operator()(const Model& model, double horizon, double guess);
+
+  std::size_t bytes() const;
+
+ private:
+  void set_springs(const Model& model, double horizon, GlobalStep& result);
+  void apply(const Model& model, double inverse_time);
+  double largest_eigenvalue(const Model& model, double inverse_time, double accuracy, GlobalStep& result);
+
+  Array<int* [8]> corners_;
+  Array<int*> first_corner_, corner_;
+  Array<double* [24]> corner_force_;
+  NodeVector now_, before_, image_, displacement_;
+  TangentSprings springs_;
+};
+
+}  // namespace railwave

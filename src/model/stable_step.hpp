@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// The longest step that the case allows now, s: `time.step`, else `time.step_scale` of the stable step.
+double largest_step(const Model& model);
+
+/// Estimates the whole scene's stable step anew at the present instant. The case must have asked for the global estimate.
+void renew_global_step(Model& model);
+
+/// Lines that tell what each estimate allows, which one sets the step, and what that gains.
+std::vector<std::string> describe_stable_step(const Model& model);
+
+}  // namespace railwave

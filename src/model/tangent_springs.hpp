@@ -1,0 +1,33 @@
+#pragma once
+
+#include "kernels/tangent.hpp"
+#include "model/contact_springs.hpp"
+
+namespace railwave {
+
+/// Collects springs on the host.
+class SpringCollector {
+ public:
+  explicit SpringCollector(const Model& model) : model_(model) {}
+
+  /// Springs and dashpots of all connectors.
+  void add_connectors();
+  /// A pair's contact springs: along the normal, and with friction the stick springs across it. The spring to a place on a
+  /// segment becomes four to its corners by the place's shape functions N: (u - sum N u_k)^2 <= sum N (u - u_k)^2. That is
+  /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
+  void add_contact(const std::vector<ContactSpring>& springs, bool friction);
+
+  /// Everything collected, on the device.
+  TangentSprings on_device() const;
+
+ private:
+  void add_end(const std::string& end, double sign);
+  void close(const Vec3& direction, double stiffness, double damping);
+
+  const Model& model_;
+  std::vector<int> first_{0}, node_;
+  std::vector<double> weight_, stiffness_, damping_;
+  std::vector<Vec3> direction_;
+};
+
+}  // namespace railwave

@@ -18,7 +18,6 @@ double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady
 void Progress::begin(const Model& model) {
   ProgressPlan plan;
   plan.element_count = model.element_count();
-  plan.step_count = model.step_count;
   plan.end_time = model.scene.time.end;
   plan.interval = model.scene.output.progress_interval;
   for (const auto& contact : model.scene.contacts) plan.contacts.push_back(contact.name);

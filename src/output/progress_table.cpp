@@ -57,6 +57,7 @@ void ProgressTable::history(const HistorySample& sample) {
   if (first_step_ < 0) {
     // Counted from here: what the run did before its first step says nothing of the time left.
     first_step_ = last_line_step_ = sample.step;
+    first_time_ = sample.time;
     start_ = last_line_ = now;
   }
   note(sample);
@@ -75,10 +76,11 @@ void ProgressTable::print_line(const HistorySample& sample, double now) {
     out_ << fmt::format(" {:>10} {:>10} {:>10} {:>10} {:>10} {:>8}\n", "J", "J", "J", "J", "J", "%");
   }
   const double done = plan_.end_time > 0 ? std::min(1.0, sample.time / plan_.end_time) : 0;
-  const long steps = sample.step - last_line_step_, all_steps = sample.step - first_step_;
+  const long steps = sample.step - last_line_step_;
   const double rate = now > last_line_ && steps > 0 ? static_cast<double>(plan_.element_count) * steps / (now - last_line_) : 0;
-  const std::string left = all_steps > 0 && plan_.step_count > 0
-                               ? duration_text((now - start_) * std::max(0L, plan_.step_count - sample.step) / all_steps)
+  // By time: the step may change as the run goes.
+  const std::string left = plan_.end_time > 0 && sample.time > first_time_
+                               ? duration_text((now - start_) * std::max(0.0, plan_.end_time - sample.time) / (sample.time - first_time_))
                                : "-";
   out_ << fmt::format("{:>10} {:>11.5f} {:>6.1f} {:>8} {:>12}", sample.step, 1e3 * sample.time, 100 * done,
                       rate > 0 ? fmt::format("{:.1f}", 1e-6 * rate) : "-", left);
@@ -126,6 +128,10 @@ void ProgressTable::end(const RunSummary& summary) {
   out_ << '\n' << (summary.completed ? std::string("completed") : fmt::format("NOT completed: {}", summary.reason)) << '\n';
   out_ << fmt::format("  reached {:.6g} ms of {:.6g} ms in {} steps of {:.4g} us\n", 1e3 * summary.time, 1e3 * plan_.end_time, summary.steps,
                       1e6 * summary.step_size);
+  if (summary.smallest_step < summary.largest_step)
+    out_ << fmt::format("  steps between {:.4g} and {:.4g} us, the stable step renewed {} times\n", 1e6 * summary.smallest_step,
+                        1e6 * summary.largest_step, summary.step_renewals);
+  for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n", duration_text(summary.wall_seconds),
                       1e-6 * summary.element_steps_per_second, plan_.element_count);
   if (samples_ > 0) {

@@ -14,7 +14,6 @@ namespace railwave {
 /// What the progress table must know of a run before it begins.
 struct ProgressPlan {
   long element_count = 0;
-  long step_count = 0;           ///< steps until the end
   double end_time = 0;           ///< s
   double interval = 5;           ///< wall seconds between lines; 0: a line for every history sample
   std::vector<std::string> contacts;
@@ -43,7 +42,7 @@ class ProgressTable {
   std::ostream& out_;
   ProgressPlan plan_;
   Clock clock_;
-  double start_ = 0, last_line_ = 0;
+  double start_ = 0, last_line_ = 0, first_time_ = 0;
   long first_step_ = -1, last_line_step_ = 0, samples_ = 0, lines_ = 0;
   long keep_every_ = 1;                            ///< of the samples; grows so that memory does not
   std::vector<std::vector<ForceSample>> forces_;   ///< by contact

@@ -54,7 +54,10 @@ struct RunSummary {
   std::string reason;                    ///< when not completed: interrupted, or what went wrong
   double time = 0;
   long steps = 0;
-  double step_size = 0;
+  double step_size = 0;                  ///< s, the last one
+  double smallest_step = 0, largest_step = 0;  ///< s
+  int step_renewals = 0;                 ///< of the global estimate of the stable step
+  std::vector<std::string> step_estimates;  ///< what each estimate of the stable step allows, and which one counts
   double wall_seconds = 0;
   double element_steps_per_second = 0;
   std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute

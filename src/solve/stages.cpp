@@ -8,9 +8,9 @@ namespace railwave {
 namespace {
 
 NodeAdvance node_advance(const Model& model, double step) {
-  // The first velocities are those at t = 0, half a step later than the scheme's own (thesis table 2.1).
+  // From the velocities' instant, half a step back (at the start: none, thesis table 2.1), to half a step ahead.
   const Vec3& g = model.scene.gravity;
-  return {model.nodes, {{g[0], g[1], g[2]}}, model.step == 0 ? 0.5 * step : step, step};
+  return {model.nodes, {{g[0], g[1], g[2]}}, model.velocity_lag + 0.5 * step, step};
 }
 
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which costs

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <csignal>
 
+#include "model/stable_step.hpp"
 #include "solve/account.hpp"
 #include "solve/settle.hpp"
 #include "solve/stages.hpp"
+#include "solve/step_control.hpp"
 
 namespace railwave {
 namespace {
@@ -22,21 +24,27 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The whole number of steps nearest to an interval, at least one.
-long steps_of(double interval, double step) { return std::max(1L, std::lround(interval / step)); }
-
 /// When the loop has to stop for the outside.
-struct Schedule {
-  long last, history_every, field_every;
-
+class Schedule {
+ public:
   explicit Schedule(const Model& model)
-      : last(model.step_count),
-        history_every(steps_of(model.scene.output.history_interval, model.step_size)),
-        field_every(model.scene.output.field_interval > 0 ? steps_of(model.scene.output.field_interval, model.step_size) : last) {}
+      : model_(model),
+        history_(model.scene.output.history_interval, model.step_size),
+        fields_(model.scene.output.field_interval > 0 ? model.scene.output.field_interval : model.scene.time.end, model.step_size) {}
 
-  bool history(long step) const { return step % history_every == 0 || step == last; }
-  bool fields(long step) const { return step % field_every == 0 || step == last; }
-  bool check(long step) const { return step % steps_between_checks == 0; }
+  bool last() const { return model_.step == model_.step_count; }
+  bool history() const { return history_.due(model_.step) || last(); }
+  bool fields() const { return fields_.due(model_.step) || last(); }
+  bool check() const { return model_.step % steps_between_checks == 0; }
+
+  void step_changed(double from) {
+    history_.step_changed(model_.step, from, model_.step_size);
+    fields_.step_changed(model_.step, from, model_.step_size);
+  }
+
+ private:
+  const Model& model_;
+  EverySoOften history_, fields_;
 };
 
 /// What is wrong with the solution, or nothing.
@@ -67,20 +75,22 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   for (RunObserver* observer : observers) observer->begin(model);
   prepare(model, observers);
 
-  const Schedule due(model);
+  StepControl control(model);
+  Schedule due(model);
   const auto stages = force_stages(model);
   RunSummary summary;
-  summary.step_size = model.step_size;
   summary.left_out = model.left_out;
   double total_at_start = 0;
   const auto began = Clock::now();
 
   Instant instant;
-  instant.step = model.step_size;
   while (true) {
-    instant.time = model.time = static_cast<double>(model.step) * model.step_size;
+    instant.time = model.time = control.time();
+    const double step_before = model.step_size;
+    if (control.renew()) due.step_changed(step_before);
+    instant.step = model.step_size;
     const bool stopping = stop_requested != 0;
-    const bool looked_at = due.history(model.step) || due.fields(model.step) || due.check(model.step) || stopping;
+    const bool looked_at = due.history() || due.fields() || due.check() || stopping;
     instant.advancing = !looked_at;
     for (const Stage& stage : stages) stage.run(instant);
 
@@ -90,21 +100,26 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
       summary.reason = fault_in(sample);
       for (RunObserver* observer : observers) {
-        if (due.history(model.step) || stopping) observer->history(model, sample);
-        if (summary.reason.empty() && (due.fields(model.step) || stopping)) observer->fields(model, sample);
+        if (due.history() || stopping) observer->history(model, sample);
+        if (summary.reason.empty() && (due.fields() || stopping)) observer->fields(model, sample);
         observer->progress(model, sample);
       }
       if (!summary.reason.empty()) break;
     }
-    if (model.step == due.last) break;
+    if (due.last()) break;
     if (stopping) {
-      summary.reason = fmt::format("interrupted at step {} of {}, t = {:.6g} s", model.step, due.last, model.time);
+      summary.reason = fmt::format("interrupted at step {} of {}, t = {:.6g} s", model.step, model.step_count, model.time);
       break;
     }
     advance(model, model.step_size);
     instant.elapsed = model.step_size;
   }
 
+  summary.step_size = model.step_size;
+  summary.smallest_step = control.smallest();
+  summary.largest_step = control.largest();
+  summary.step_renewals = control.renewals();
+  summary.step_estimates = describe_stable_step(model);
   summary.completed = summary.reason.empty();
   summary.time = model.time;
   summary.steps = model.step;

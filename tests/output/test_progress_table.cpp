@@ -15,7 +15,6 @@ namespace {
 ProgressPlan plan() {
   ProgressPlan result;
   result.element_count = 1000000;
-  result.step_count = 100;
   result.end_time = 1e-4;
   result.interval = 5;
   result.contacts = {"tread"};

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// The run's step as it goes: whole steps of one size to the end, until a renewed estimate of the stable step asks for
+/// others. Time is that of the last change plus whole steps since, so a step that never changes leaves no rounding behind.
+class StepControl {
+ public:
+  /// The model stands at its first step, its present motion known.
+  explicit StepControl(Model& model);
+
+  /// Time of the model's present step, s.
+  double time() const;
+  long last_step() const { return model_.step_count; }
+
+  /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already. True:
+  /// the step from this instant to the next is another one than the last.
+  bool renew();
+
+  int renewals() const { return renewals_; }
+  double smallest() const { return smallest_; }
+  double largest() const { return largest_; }
+
+ private:
+  bool due() const;
+  bool touched_unseen() const;
+  bool plan();
+
+  Model& model_;
+  double begin_time_ = 0;  ///< s, when the present step size came in
+  long begin_step_ = 0;
+  long renewed_at_ = 0;
+  int renewals_ = 0;
+  double smallest_ = 0, largest_ = 0;
+};
+
+/// Something due about every `interval` seconds, at steps: `interval` rounded to whole steps (at least one) and counted from
+/// the start, or from where a change of step left it, so that it keeps its times.
+class EverySoOften {
+ public:
+  /// @param interval s; 0: every step
+  EverySoOften(double interval, double step);
+  bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
+  /// From `step` on; what is due at that very step stays due.
+  void step_changed(long step, double old_size, double new_size);
+
+ private:
+  double interval_;
+  long every_, next_ = 0;
+};
+
+}  // namespace railwave

@@ -169,11 +169,11 @@ std::vector<Stage> force_stages(Model& model) {
 void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
   if (model.patches_have_advanced)
-    Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
+    Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
                          ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,
                                           row_loads(model, model.rows_elapsed), model.rows_are_due});
   else
-    Kokkos::parallel_for("node_update", Range(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
+    Kokkos::parallel_for("node_update", RowRange(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
   model.patches_have_advanced = model.rows_are_due = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;

@@ -8,12 +8,22 @@ using scene::Scene;
 
 Section material_section() {
   using scene::Material;
-  auto section = named_section("materials", "material", &Scene::materials, "Linear elastic, isotropic materials.");
+  auto section = named_section("materials", "material", &Scene::materials, "Isotropic materials, elastic or elastoplastic.");
   section.keys = {
       key("youngs_modulus", &Material::youngs_modulus, "Young's modulus").in("Pa").within(above(0)).needed(),
       key("poissons_ratio", &Material::poissons_ratio, "Poisson's ratio").within(inside(-1, 0.5)).needed(),
       key("density", &Material::density, "mass per volume").in("kg/m3").within(above(0)).needed(),
+      key("yield_stress", &Material::yield_stress,
+          "von Mises stress at which the material begins to flow, with isotropic hardening beyond")
+          .in("Pa")
+          .within(above(0))
+          .otherwise("elastic without end"),
+      key("tangent_modulus", &Material::tangent_modulus,
+          "slope of true stress over logarithmic strain beyond yield, under tension; below youngs_modulus")
+          .in("Pa")
+          .within(at_least(0)),
   };
+  section.rule = check_material;
   return section;
 }
 

@@ -77,7 +77,7 @@ Section output_section() {
           .in("s")
           .within(at_least(0)),
       key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
-      key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress"}),
+      key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress", "plastic_strain"}),
       key("history_sets", &Output::history_sets, "whose mean displacement, velocity and acceleration are written")
           .names(node_set | point),
       key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")

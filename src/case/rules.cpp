@@ -88,6 +88,18 @@ std::string part_of(const std::string& set) { return set.substr(0, set.find('.')
 
 }  // namespace
 
+void check_material(void* entry, EntryCheck& check) {
+  const auto& material = *static_cast<scene::Material*>(entry);
+  if (check.given("tangent_modulus") && !check.given("yield_stress")) {
+    check.complain("tangent_modulus", "has no effect without yield_stress; give that too, or leave tangent_modulus out");
+  }
+  if (check.sound({"tangent_modulus", "youngs_modulus"}) && material.tangent_modulus > 0 &&
+      !(material.tangent_modulus < material.youngs_modulus)) {
+    check.complain("tangent_modulus", fmt::format("is {}, must be smaller than youngs_modulus ({})",
+                                                  material.tangent_modulus, material.youngs_modulus));
+  }
+}
+
 void check_mesh(void* entry, EntryCheck& check) {
   const auto& mesh = *static_cast<scene::MeshSource*>(entry);
   if (!check.sound({"type"})) return;

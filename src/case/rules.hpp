@@ -20,6 +20,7 @@ class EntryCheck {
 
 // Rules that bind several keys of one entry; each gets the section's entry. They also set defaults that depend on
 // another key.
+void check_material(void* entry, EntryCheck& check);
 void check_mesh(void* entry, EntryCheck& check);
 void check_part(void* entry, EntryCheck& check);
 void check_connector(void* entry, EntryCheck& check);

@@ -23,6 +23,8 @@ struct Material : Place {
   double youngs_modulus = 0;  ///< Pa
   double poissons_ratio = 0;
   double density = 0;  ///< kg/m3
+  std::optional<double> yield_stress;  ///< Pa, von Mises; absent: elastic
+  double tangent_modulus = 0;          ///< Pa, slope of stress over strain beyond yield, uniaxial stress
 
   /// lambda + 2 mu, Pa
   double dilatational_modulus() const {
@@ -203,7 +205,7 @@ struct Output {
   double history_interval = 0;     ///< s; 0: every step
   double field_interval = 0;       ///< s; 0: only at the beginning and the end
   std::vector<std::string> field_sets;   ///< `part` or `part.element_set` or `part.surface`: element and node fields on these
-  std::vector<std::string> fields;       ///< displacement, velocity, acceleration, stress
+  std::vector<std::string> fields;       ///< displacement, velocity, acceleration, stress, plastic_strain
   std::vector<std::string> history_sets; ///< `part.node_set` or point masses: mean displacement, velocity, acceleration
   double progress_interval = 5;    ///< wall seconds between progress lines
 };

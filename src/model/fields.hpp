@@ -25,6 +25,9 @@ HostField node_field(const Model& model, NodeField field, const std::vector<int>
 /// Cauchy stress at the present instant of the elements listed (model element numbers): xx, yy, zz, xy, yz, zx in Pa.
 HostField element_stress(const Model& model, const std::vector<int>& elements);
 
+/// Equivalent plastic strain at the present instant of the elements listed; zero in elastic parts. One component.
+HostField element_plastic_strain(const Model& model, const std::vector<int>& elements);
+
 /// What one contact pair does at the present instant: one entry for every node of the slave surface and of the master
 /// surface (not only those that touch). Vectors have three components, global axes.
 struct ContactSide {

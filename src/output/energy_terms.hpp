@@ -18,6 +18,7 @@ inline constexpr EnergyTerm energy_terms[] = {
     {"friction", &EnergyAccount::friction},
     {"connector", &EnergyAccount::connector},
     {"damping", &EnergyAccount::damping},
+    {"plastic", &EnergyAccount::plastic},
     {"external_work", &EnergyAccount::external_work},
     {"balance_error", &EnergyAccount::balance_error},
 };

@@ -28,8 +28,9 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
   steps_ = group.create_growing<long>("step", {}, times_in_block);
   for (const std::string& name : fields) {
     if (name == "stress") {
-      stress_ = group.create_growing<double>(name, {elements, 6}, each_time);
-      has_stress_ = true;
+      element_columns_.push_back({&FieldSource::stress, 6, group.create_growing<double>(name, {elements, 6}, each_time)});
+    } else if (name == "plastic_strain") {
+      element_columns_.push_back({&FieldSource::plastic_strain, 1, group.create_growing<double>(name, {elements}, each_time)});
     } else {
       const NodeField field = name == "displacement" ? NodeField::displacement
                               : name == "velocity"   ? NodeField::velocity
@@ -42,7 +43,8 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
 
 void FieldSection::add_values(const FieldSource& source, long step) {
   for (NodeColumn& column : node_columns_) append(column.dataset, source.nodes(column.field, set_.nodes), set_.nodes.size(), 3, set_.name);
-  if (has_stress_) append(stress_, source.stress(set_.elements), set_.elements.size(), 6, set_.name);
+  for (ElementColumn& column : element_columns_)
+    append(column.dataset, (source.*column.fetch)(set_.elements), set_.elements.size(), column.components, set_.name);
   steps_.append(&step, 1);
 }
 

@@ -12,7 +12,7 @@ namespace railwave {
 /// Group /fields/NAME of a results file: one output set, its mesh once and its fields at each output time.
 class FieldSection {
  public:
-  /// `fields`: of displacement, velocity, acceleration, stress.
+  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain.
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
@@ -25,9 +25,14 @@ class FieldSection {
     hdf5::Dataset dataset;
   };
   OutputSet set_;
-  hdf5::Dataset times_, steps_, stress_;
+  struct ElementColumn {
+    HostField (FieldSource::*fetch)(const std::vector<int>&) const;
+    int components;
+    hdf5::Dataset dataset;
+  };
+  hdf5::Dataset times_, steps_;
   std::vector<NodeColumn> node_columns_;
-  bool has_stress_ = false;
+  std::vector<ElementColumn> element_columns_;
 };
 
 }  // namespace railwave

@@ -12,6 +12,7 @@ class FieldSource {
   virtual ~FieldSource() = default;
   virtual HostField nodes(NodeField field, const std::vector<int>& node_numbers) const = 0;
   virtual HostField stress(const std::vector<int>& element_numbers) const = 0;
+  virtual HostField plastic_strain(const std::vector<int>& element_numbers) const = 0;
   virtual ContactState contact(int number) const = 0;
 };
 

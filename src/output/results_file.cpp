@@ -12,6 +12,7 @@ class ModelFields : public FieldSource {
  public:
   explicit ModelFields(const Model& model) : model_(model) {}
   HostField nodes(NodeField field, const std::vector<int>& numbers) const override { return node_field(model_, field, numbers); }
+  HostField plastic_strain(const std::vector<int>& numbers) const override { return element_plastic_strain(model_, numbers); }
   HostField stress(const std::vector<int>& numbers) const override { return element_stress(model_, numbers); }
   ContactState contact(int number) const override { return contact_state(model_, number); }
 

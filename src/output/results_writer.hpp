@@ -30,7 +30,7 @@ struct RunDescription {
   long element_count = 0;
   std::vector<ContactNames> contacts;
   std::vector<std::string> history_sets;
-  std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress
+  std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress, plastic_strain
   std::vector<OutputSet> sets;
 };
 

@@ -90,6 +90,7 @@ void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string
   text.geometry(set.nodes.size(), group + "coordinates");
   for (const std::string& field : fields) {
     if (field == "stress") text.attribute(field, "Cell", set.elements.size(), 6, group + field);
+    else if (field == "plastic_strain") text.attribute(field, "Cell", set.elements.size(), 1, group + field);
     else text.attribute(field, "Node", set.nodes.size(), 3, group + field);
   }
   text.close_grid();

@@ -21,7 +21,7 @@ struct XdmfContactSide {
 /// XDMF's HyperSlab, which vtkXdmfReader (ParaView's "XDMF Reader") knows and vtkXdmf3Reader does not.
 class XdmfFile {
  public:
-  /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress.
+  /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress, plastic_strain.
   XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields);
 
   /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place.

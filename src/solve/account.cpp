@@ -155,13 +155,13 @@ EnergyAccount account_energies(const Model& model, double step) {
 
 double balance_total(const EnergyAccount& energy) {
   return energy.kinetic + energy.internal + energy.hourglass + energy.contact + energy.friction + energy.connector +
-         energy.damping - energy.external_work;
+         energy.damping + energy.plastic - energy.external_work;
 }
 
 double largest_energy(const EnergyAccount& energy) {
   return std::max({std::fabs(energy.kinetic), std::fabs(energy.internal), std::fabs(energy.hourglass),
                    std::fabs(energy.contact), std::fabs(energy.friction), std::fabs(energy.connector),
-                   std::fabs(energy.damping), std::fabs(energy.external_work)});
+                   std::fabs(energy.damping), std::fabs(energy.plastic), std::fabs(energy.external_work)});
 }
 
 ContactTotals contact_totals(const Model& model, const ContactPair& pair) {

@@ -20,6 +20,7 @@ struct EnergyAccount {
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
   double damping = 0;        ///< dissipated in dashpots
+  double plastic = 0;        ///< dissipated by plastic flow
   double external_work = 0;  ///< by loads and gravity
   double balance_error = 0;
 };

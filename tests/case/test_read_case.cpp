@@ -23,6 +23,8 @@ density = 1100
 youngs_modulus = 210_000_000_000
 poissons_ratio = 0.3
 density = 7800
+yield_stress = 5e8
+tangent_modulus = 21e9
 
 [meshes.block]
 type = "box"
@@ -213,6 +215,10 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.materials[0].density == 1100);
   CHECK(scene.materials[1].name == "steel");
   CHECK(scene.materials[1].youngs_modulus == 210e9);
+  CHECK(scene.materials[1].yield_stress == 5e8);
+  CHECK(scene.materials[1].tangent_modulus == 21e9);
+  CHECK_FALSE(scene.materials[0].yield_stress);
+  CHECK(scene.materials[0].tangent_modulus == 0);
 
   REQUIRE(scene.meshes.size() == 4);
   CHECK(scene.meshes[0].type == scene::MeshType::box);

@@ -54,6 +54,11 @@ class Source : public FieldSource {
       for (int c = 0; c < 6; ++c) result.values.push_back(1e6 * (e + 0.1 * c + 1000 * time_));
     return result;
   }
+  HostField plastic_strain(const std::vector<int>& numbers) const override {
+    HostField result{1, {}};
+    for (const int e : numbers) result.values.push_back(1e-3 * e + time_);
+    return result;
+  }
   ContactState contact(int) const override { return hertz_contact_state(hertz(time_), {}, HertzForces::sampled); }
 
   /// The patch rolls along x at 10 m/s and grows while the load comes on.
@@ -87,7 +92,7 @@ inline RunDescription description() {
   result.element_count = static_cast<long>(assembly.elements.size());
   result.contacts = {{"tread", "wheel.tread", "rail.head"}};
   result.history_sets = {"block.corner", "sprung_mass"};
-  result.fields = {"displacement", "velocity", "acceleration", "stress"};
+  result.fields = {"displacement", "velocity", "acceleration", "stress", "plastic_strain"};
   result.sets = resolve_output_sets(scene, assembly);
   return result;
 }
@@ -96,7 +101,7 @@ inline HistorySample sample(long step) {
   HistorySample result;
   result.step = step;
   result.time = 1e-6 * step;
-  result.energy = {1000.0 + step, 20.0 + step, 1e-3 * step, 2.0 + step, 0.5 * step, 3.0, 0.25 * step, 1.5 * step, 1e-2 * step};
+  result.energy = {1000.0 + step, 20.0 + step, 1e-3 * step, 2.0 + step, 0.5 * step, 3.0, 0.25 * step, 0.125 * step, 1.5 * step, 1e-2 * step};
   const HertzContact hertz = Source::hertz(result.time);
   ContactTotals totals;
   totals.normal_force = {0, 0, hertz.normal_force()};

@@ -54,10 +54,11 @@ class ResultsFile(unittest.TestCase):
         np.testing.assert_array_equal(history["step"][:], step)
         np.testing.assert_array_equal(history["time"][:], 1e-6 * step)
         np.testing.assert_array_equal(history["energy/kinetic"][:], 1000.0 + step)
+        np.testing.assert_array_equal(history["energy/plastic"][:], 0.125 * step)
         np.testing.assert_array_equal(history["energy/external_work"][:], 1.5 * step)
         self.assertEqual(
             set(history["energy"]),
-            {"kinetic", "internal", "hourglass", "contact", "friction", "connector", "damping", "external_work", "balance_error"},
+            {"kinetic", "internal", "hourglass", "contact", "friction", "connector", "damping", "plastic", "external_work", "balance_error"},
         )
         contact = history["contact/tread"]
         np.testing.assert_array_equal(contact["master_force"][:], -contact["normal_force"][:] - contact["tangential_force"][:])
@@ -79,6 +80,7 @@ class ResultsFile(unittest.TestCase):
                 for field in KIND:
                     np.testing.assert_allclose(group[field][i], node_field(field, group["nodes"][:], time), rtol=1e-14)
                 np.testing.assert_allclose(group["stress"][i], stress(group["elements"][:], time), rtol=1e-14)
+                np.testing.assert_allclose(group["plastic_strain"][i], 1e-3 * group["elements"][:] + time, rtol=1e-14)
 
     def test_volumes_of_cells_are_positive(self):
         group = self.file["fields/block"]

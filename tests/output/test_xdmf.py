@@ -90,6 +90,7 @@ class Xdmf(unittest.TestCase):
             np.testing.assert_allclose(array(points, "acceleration"), 1e3 * nodes, rtol=1e-12)
             elements = np.arange(24)[:, None] + 0.1 * np.arange(6) + 1000 * time
             np.testing.assert_allclose(array(cells, "stress"), 1e6 * elements, rtol=1e-12)
+            np.testing.assert_allclose(array(cells, "plastic_strain"), 1e-3 * np.arange(24) + time, rtol=1e-12)
             np.testing.assert_allclose(array(grids["block.top"].GetCellData(), "stress"), 1e6 * elements[12:], rtol=1e-12)
 
     def test_contact(self):

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/patches.hpp"
 #include "kernels/plastic_flow.hpp"
 
 namespace railwave {
@@ -9,75 +10,87 @@ namespace railwave {
 struct Bilinear {
   static constexpr int history_values = 7;
 
-  BilinearConstants constants;
-  /// Tiled as the kernel's number wants it, 7 values: plastic Green strain (xx, yy, zz, xy, yz, zx) in the reference
-  /// configuration, equivalent plastic strain.
+  Array<const BilinearConstants*> constants;  ///< by row
+  /// Tiled, 7 values: plastic Green strain (xx, yy, zz, xy, yz, zx) in the reference configuration, equivalent plastic
+  /// strain. In double precision whatever the elements' own.
   Array<double*> history;
-  /// The rigid turn R that a displacement gradient leaves out: u = x - (R X + t).
-  double turn[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-  /// Stress at the present instant, with the flow that leads to it.
-  /// @param H gradient of u along the present coordinates, so that the inverse deformation gradient is R^T (I - H)
+  /// What the elements of a patch share.
   template <class S>
-  KOKKOS_INLINE_FUNCTION void kirchhoff_stress(int batch, const Pack<S> (&H)[3][3], Pack<S> (&tau)[6]) const {
-    using T = Pack<S>;
-    T e[6], h[6], s[6];
-    const T equivalent = load_history<S>(value(tiled<S>(batch, history_values, 6)));
-    elastic_almansi<S>(batch, H, equivalent, e);
-    hencky_strain(e, h);
-    railwave::kirchhoff_stress<S>(constants.elastic, h, tau);
-    const T mises_square = deviator<S>(tau, s), limit = flow_stress<S>(constants, equivalent);
-    const auto yields = mises_square > limit * limit;
-    if (!any_lane(yields)) return;
-
-    T flow[6], G[3][3], plastic[6], increment[6];
-    const T equivalent_increment = radial_return<S>(constants, yields, s, mises_square, limit, tau, flow);
-    inverse_gradient<S>(H, G);
-    load_plastic<S>(batch, plastic);
-    plastic_increment<S>(G, e, flow, plastic, increment);
-    for (int c = 0; c < 6; ++c)
-      add_to_history<S>(value(tiled<S>(batch, history_values, c)), choose(yields, increment[c], T(S(0))));
-    add_to_history<S>(value(tiled<S>(batch, history_values, 6)), equivalent_increment);
-  }
-
-  /// Elastic part of the Hencky strain, with the history as it stands.
-  template <class S>
-  KOKKOS_INLINE_FUNCTION void elastic_strain(int batch, const Pack<S> (&H)[3][3], Pack<S> (&h)[6]) const {
-    Pack<S> e[6];
-    elastic_almansi<S>(batch, H, load_history<S>(value(tiled<S>(batch, history_values, 6))), e);
-    hencky_strain(e, h);
-  }
-
-  /// Dissipated so far for each reference volume by an element whose equivalent plastic strain is given, J/m3.
-  KOKKOS_INLINE_FUNCTION double plastic_work(double equivalent) const {
-    return (constants.yield_stress + 0.5 * constants.hardening * equivalent) * equivalent;
-  }
-
- private:
-  KOKKOS_INLINE_FUNCTION double* value(long at) const { return history.data() + at; }
+  struct OfPatch {
+    BilinearConstants constants;
+    S turn[3][3];  ///< R, which single precision leaves out of displacements
+  };
 
   template <class S>
-  KOKKOS_INLINE_FUNCTION void load_plastic(int batch, Pack<S> (&plastic)[6]) const {
-    for (int c = 0; c < 6; ++c) plastic[c] = load_history<S>(value(tiled<S>(batch, history_values, c)));
+  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(const PatchArrays& patches, int p) const {
+    OfPatch<S> result;
+    result.constants = constants(patches.material(p));
+    if constexpr (sizeof(S) < sizeof(double))
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(patches.frame(p, 3 * i + j));
+    return result;
   }
 
   template <class S>
-  KOKKOS_INLINE_FUNCTION void inverse_gradient(const Pack<S> (&H)[3][3], Pack<S> (&G)[3][3]) const {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        G[i][j] = S(turn[j][i]) - (S(turn[0][i]) * H[0][j] + S(turn[1][i]) * H[1][j] + S(turn[2][i]) * H[2][j]);
-  }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const OfPatch<S>& patch) { return patch.constants.elastic; }
 
-  template <class S>
-  KOKKOS_INLINE_FUNCTION void elastic_almansi(int batch, const Pack<S> (&H)[3][3], const Pack<S>& equivalent,
-                                              Pack<S> (&e)[6]) const {
-    almansi_strain<S>(H, e);
-    if (!any_lane(equivalent > S(0))) return;
-    Pack<S> G[3][3], plastic[6], share[6];
-    inverse_gradient<S>(H, G);
+  /// Takes the plastic part from the Almansi strain e, with the history as it stands.
+  /// @param K I - H: the inverse deformation gradient but for the turn left out, G = R^T K
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6]) const {
+    if (!any_lane(load_history<S>(value<S>(batch, 6)) > S(0))) return;
+    T G[3][3], plastic[6], share[6];
+    inverse_gradient<S>(patch, K, G);
     load_plastic<S>(batch, plastic);
     carry(plastic, G, share);
     for (int c = 0; c < 6; ++c) e[c] -= share[c];
+  }
+
+  /// Kirchhoff stress at the present instant, with the flow that leads to it, Pa.
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6], T (&tau)[6]) const {
+    T h[6], s[6];
+    leave_elastic_part<S>(patch, batch, K, e);
+    hencky_strain(e, h);
+    kirchhoff_stress<S>(patch.constants.elastic, h, tau);
+    const T mises_square = deviator<S>(tau, s);
+    const T limit = flow_stress<S>(patch.constants, T(load_history<S>(value<S>(batch, 6))));
+    const auto yields = mises_square > limit * limit;
+    if (any_lane(yields)) flow<S>(patch, batch, K, e, yields, s, mises_square, limit, tau);
+  }
+
+ private:
+  template <class S, class T, class Mask>
+  KOKKOS_FORCEINLINE_FUNCTION void flow(const OfPatch<S>& patch, int batch, const T (&K)[3][3], const T (&e)[6], const Mask& yields,
+                                   const T (&s)[6], const T& mises_square, const T& limit, T (&tau)[6]) const {
+    T lost[6], G[3][3], plastic[6], increment[6];
+    const T equivalent = radial_return<S>(patch.constants, yields, s, mises_square, limit, tau, lost);
+    inverse_gradient<S>(patch, K, G);
+    load_plastic<S>(batch, plastic);
+    plastic_increment<S>(G, e, lost, plastic, increment);
+    for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, c), choose(yields, increment[c], T(S(0))));
+    add_to_history<S>(value<S>(batch, 6), equivalent);
+  }
+
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION double* value(int batch, int number) const {
+    return history.data() + tiled<S>(batch, history_values, number);
+  }
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void load_plastic(int batch, T (&plastic)[6]) const {
+    for (int c = 0; c < 6; ++c) plastic[c] = load_history<S>(value<S>(batch, c));
+  }
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void inverse_gradient(const OfPatch<S>& patch, const T (&K)[3][3], T (&G)[3][3]) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        if constexpr (sizeof(S) < sizeof(double))
+          G[i][j] = patch.turn[0][i] * K[0][j] + patch.turn[1][i] * K[1][j] + patch.turn[2][i] * K[2][j];
+        else G[i][j] = K[i][j];
+      }
   }
 };
 

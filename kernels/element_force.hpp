@@ -9,16 +9,26 @@ namespace railwave {
 struct Elastic {
   Array<const ElasticConstants*> constants;  ///< by row
 
+  /// What the elements of a patch share.
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION ElasticConstants of_patch(const PatchArrays& patches, int p) const {
+    return constants(patches.material(p));
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const ElasticConstants& patch) { return patch; }
+
+  /// Materials that flow take their plastic part from the Almansi strain here.
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void leave_elastic_part(const ElasticConstants& /*patch*/, int /*batch*/,
+                                                             const T (&/*K*/)[3][3], const T (&/*e*/)[6]) {}
+
   /// Kirchhoff stress from the Almansi strain, Pa.
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void stress(const ElasticConstants& patch_constants, int /*batch*/, const T (&e)[6], T (&tau)[6]) {
+  KOKKOS_FORCEINLINE_FUNCTION static void stress(const ElasticConstants& patch, int /*batch*/, const T (&/*K*/)[3][3],
+                                                 const T (&e)[6], T (&tau)[6]) {
     T h[6];
     hencky_strain(e, h);
-    kirchhoff_stress<S>(patch_constants, h, tau);
+    kirchhoff_stress<S>(patch, h, tau);
   }
-
-  template <class S>
-  KOKKOS_INLINE_FUNCTION ElasticConstants constants_of(int row) const { return constants(row); }
 };
 
 /// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed at
@@ -53,7 +63,7 @@ struct PatchForce {
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, patch_size);
     const int elements = patches.element_count(p);
-    const auto constants = material.template constants_of<S>(patches.material(p));
+    const auto constants = material.template of_patch<S>(patches, p);
     const SumLists lists = sum_lists(team, p);
     if constexpr (on_device) {
       // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
@@ -131,7 +141,7 @@ struct PatchForce {
       almansi_strain<S>(H, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
-      material.template stress<S>(constants, batch_number(p, b), e, cauchy);
+      material.template stress<S>(constants, batch_number(p, b), H, e, cauchy);
       const T to_cauchy = determinant(H);
       for (int c = 0; c < 6; ++c) cauchy[c] *= to_cauchy;
     }
@@ -272,9 +282,11 @@ struct PatchState {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
     const T to_cauchy = determinant(H);
+    const auto constants = material.template of_patch<S>(patches, p);
     T h[6];
+    material.template leave_elastic_part<S>(constants, batch, H, e);
     hencky_strain(e, h);
-    material.template stress<S>(material.template constants_of<S>(patches.material(p)), batch, e, tau);
+    kirchhoff_stress<S>(material.elastic(constants), h, tau);
     if (stress.extent(0) != 0)
       for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(batch, 6, c), T(tau[c] * to_cauchy));
     value = volume * to_cauchy * elastic_energy_density<S>(h, tau);

@@ -16,15 +16,15 @@
 namespace railwave {
 
 template <class T>
-KOKKOS_INLINE_FUNCTION T square_root(const T& value) {
+KOKKOS_FORCEINLINE_FUNCTION T square_root(const T& value) {
   using std::sqrt;
   return T(sqrt(value));
 }
 
-KOKKOS_INLINE_FUNCTION bool any_lane(bool condition) { return condition; }
+KOKKOS_FORCEINLINE_FUNCTION bool any_lane(bool condition) { return condition; }
 
 template <class T>
-KOKKOS_INLINE_FUNCTION T choose(bool condition, const T& yes, const T& no) {
+KOKKOS_FORCEINLINE_FUNCTION T choose(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
 
@@ -46,7 +46,7 @@ std::experimental::simd<S, Abi> choose(const std::experimental::simd_mask<S, Abi
 
 /// A history value of a batch.
 template <class S>
-KOKKOS_INLINE_FUNCTION Pack<S> load_history(const double* p) {
+KOKKOS_FORCEINLINE_FUNCTION Pack<S> load_history(const double* p) {
 #ifdef RAILWAVE_SIMD_LANES
   return Pack<S>(p, std::experimental::element_aligned);
 #else
@@ -56,7 +56,7 @@ KOKKOS_INLINE_FUNCTION Pack<S> load_history(const double* p) {
 
 /// Adds to it in double precision: what one step adds to a sum over many would be lost in float.
 template <class S>
-KOKKOS_INLINE_FUNCTION void add_to_history(double* p, const Pack<S>& increment) {
+KOKKOS_FORCEINLINE_FUNCTION void add_to_history(double* p, const Pack<S>& increment) {
 #ifdef RAILWAVE_SIMD_LANES
   S values[lane_count<S>];
   increment.copy_to(values, std::experimental::element_aligned);

@@ -29,7 +29,7 @@ inline double hardening_modulus(double youngs_modulus, double tangent_modulus) {
 
 /// c = a.b of tensors with the same principal axes, whose product is symmetric too.
 template <class T>
-KOKKOS_INLINE_FUNCTION void coaxial_product(const T (&a)[6], const T (&b)[6], T (&c)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION void coaxial_product(const T (&a)[6], const T (&b)[6], T (&c)[6]) {
   c[0] = a[0] * b[0] + a[3] * b[3] + a[5] * b[5];
   c[1] = a[3] * b[3] + a[1] * b[1] + a[4] * b[4];
   c[2] = a[5] * b[5] + a[4] * b[4] + a[2] * b[2];
@@ -40,7 +40,7 @@ KOKKOS_INLINE_FUNCTION void coaxial_product(const T (&a)[6], const T (&b)[6], T 
 
 /// r = A^T s A.
 template <class T>
-KOKKOS_INLINE_FUNCTION void carry(const T (&s)[6], const T (&A)[3][3], T (&r)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION void carry(const T (&s)[6], const T (&A)[3][3], T (&r)[6]) {
   T P[3][3];
   for (int j = 0; j < 3; ++j) {
     P[0][j] = s[0] * A[0][j] + s[3] * A[1][j] + s[5] * A[2][j];
@@ -56,7 +56,7 @@ KOKKOS_INLINE_FUNCTION void carry(const T (&s)[6], const T (&A)[3][3], T (&r)[6]
 
 /// F = G^-1.
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION void inverse(const T (&G)[3][3], T (&F)[3][3]) {
+KOKKOS_FORCEINLINE_FUNCTION void inverse(const T (&G)[3][3], T (&F)[3][3]) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const int a = (j + 1) % 3, b = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
@@ -69,7 +69,7 @@ KOKKOS_INLINE_FUNCTION void inverse(const T (&G)[3][3], T (&F)[3][3]) {
 
 /// Deviator of a stress; returns the square of its von Mises stress, 3/2 s : s.
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION T deviator(const T (&tau)[6], T (&s)[6]) {
+KOKKOS_FORCEINLINE_FUNCTION T deviator(const T (&tau)[6], T (&s)[6]) {
   const T mean = S(1.0 / 3) * (tau[0] + tau[1] + tau[2]);
   for (int c = 0; c < 3; ++c) {
     s[c] = tau[c] - mean;
@@ -79,8 +79,13 @@ KOKKOS_INLINE_FUNCTION T deviator(const T (&tau)[6], T (&s)[6]) {
 }
 
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION T flow_stress(const BilinearConstants& constants, const T& equivalent) {
+KOKKOS_FORCEINLINE_FUNCTION T flow_stress(const BilinearConstants& constants, const T& equivalent) {
   return S(constants.yield_stress) + S(constants.hardening) * equivalent;
+}
+
+/// Work of the flow up to an equivalent plastic strain, J for each m3 of the reference.
+KOKKOS_INLINE_FUNCTION double plastic_work(const BilinearConstants& constants, double equivalent) {
+  return (constants.yield_stress + 0.5 * constants.hardening * equivalent) * equivalent;
 }
 
 /// Radial return of lanes beyond yield.
@@ -89,7 +94,7 @@ KOKKOS_INLINE_FUNCTION T flow_stress(const BilinearConstants& constants, const T
 /// @param flow result: what the Hencky strain lost, (3/2) increment s / q
 /// @return increment of the equivalent plastic strain; zero, with no flow, in lanes that do not yield
 template <class S, class T, class Mask>
-KOKKOS_INLINE_FUNCTION T radial_return(const BilinearConstants& constants, const Mask& yields, const T (&s)[6],
+KOKKOS_FORCEINLINE_FUNCTION T radial_return(const BilinearConstants& constants, const Mask& yields, const T (&s)[6],
                                        const T& mises_square, const T& limit, T (&tau)[6], T (&flow)[6]) {
   const double mu = constants.elastic.mu;
   const T mises = choose(yields, square_root(mises_square), T(S(1)));
@@ -109,7 +114,7 @@ KOKKOS_INLINE_FUNCTION T radial_return(const BilinearConstants& constants, const
 /// The flow keeps the trace of the series' h, not of the exact one; det(I + 2 E_p) is therefore brought back to 1.
 /// @param G inverse deformation gradient; e trial Almansi strain, elastic part; plastic E_p before
 template <class S, class T>
-KOKKOS_INLINE_FUNCTION void plastic_increment(const T (&G)[3][3], const T (&e)[6], const T (&flow)[6],
+KOKKOS_FORCEINLINE_FUNCTION void plastic_increment(const T (&G)[3][3], const T (&e)[6], const T (&flow)[6],
                                               const T (&plastic)[6], T (&increment)[6]) {
   T m[6], product[6], d[6], F[3][3];
   for (int c = 0; c < 6; ++c) m[c] = S(2) * e[c] - flow[c];

@@ -36,15 +36,16 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
   }
 }
 
-int group_of(Model& model, scene::HourglassType hourglass, const std::string& part) {
+int group_of(Model& model, std::vector<bool>& plastic, scene::HourglassType hourglass, bool yields, const std::string& part) {
   for (std::size_t g = 0; g < model.elements.size(); ++g)
-    if (model.elements[g].hourglass == hourglass) {
+    if (model.elements[g].hourglass == hourglass && plastic[g] == yields) {
       model.elements[g].parts += ", " + part;
       return static_cast<int>(g);
     }
   model.elements.emplace_back();
   model.elements.back().hourglass = hourglass;
   model.elements.back().parts = part;
+  plastic.push_back(yields);
   return static_cast<int>(model.elements.size()) - 1;
 }
 
@@ -68,6 +69,10 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
     // Lumped mass by row sums (thesis 2.2.2).
     for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
   }
+}
+
+ElasticConstants elastic_constants(const scene::Material& material) {
+  return {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()};
 }
 
 /// The host side of a group's patches.
@@ -205,6 +210,22 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
   return patches;
 }
 
+/// History and volumes of a group whose materials yield.
+PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, const std::vector<const scene::Material*>& materials) {
+  std::vector<BilinearConstants> constants;
+  for (const scene::Material* material : materials)
+    constants.push_back({elastic_constants(*material), *material->yield_stress,
+                         hardening_modulus(material->youngs_modulus, material->tangent_modulus)});
+  std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
+  for (std::size_t p = 0; p < group.first_element.size(); ++p)
+    for (int slot = 0; slot < group.element_count[p]; ++slot) {
+      const HexahedronCorners x = corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]);
+      volume[p * patch_size + slot] = hexahedron_volume(x);
+    }
+  return {to_device("plastic constants", constants), Array<double*>("plastic history", Bilinear::history_values * volume.size()),
+          to_device("reference volume", volume)};
+}
+
 }  // namespace
 
 void check_elements(const Model& model) {
@@ -226,22 +247,22 @@ void build_elements(Model& model) {
   const bool single = model.scene.solver.precision != scene::Precision::double_precision;
   const int lanes = single ? lane_count<float> : lane_count<double>;
   std::vector<PatchLists> lists;
-  std::vector<std::vector<ElasticConstants>> constants;
+  std::vector<std::vector<const scene::Material*>> materials;
+  std::vector<bool> plastic;
   std::size_t part = 0, group = 0;
   for (std::size_t p = 0; p + 1 < model.order.first_element.size(); ++p) {
     const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
     while (part < assembly.parts.size() && first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
     const auto& range = assembly.parts[part];
     if (first == range.first_element) {
-      group = group_of(model, model.scene.parts[part].hourglass, range.name);
-      lists.resize(model.elements.size());
-      constants.resize(model.elements.size());
       const scene::Material& material = model.scene.materials[range.material];
-      constants[group].push_back(
-          {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()});
+      group = group_of(model, plastic, model.scene.parts[part].hourglass, material.yield_stress.has_value(), range.name);
+      lists.resize(model.elements.size());
+      materials.resize(model.elements.size());
+      materials[group].push_back(&material);
     }
     append_patch(assembly, model.order, first, end, lanes, lists[group]);
-    lists[group].material.push_back(static_cast<int>(constants[group].size()) - 1);
+    lists[group].material.push_back(static_cast<int>(materials[group].size()) - 1);
     for (int slot = 0; slot < patch_size; ++slot) {
       // Slots that only fill up must not dissipate.
       lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);
@@ -254,7 +275,10 @@ void build_elements(Model& model) {
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& elements = model.elements[g];
     elements.patches = arrays_of(lists[g], single);
-    elements.constants = to_device("elastic constants", constants[g]);
+    std::vector<ElasticConstants> constants;
+    for (const scene::Material* material : materials[g]) constants.push_back(elastic_constants(*material));
+    elements.constants = to_device("elastic constants", constants);
+    if (plastic[g]) elements.plastic = plastic_arrays(model, elements, materials[g]);
     elements.first_partial = rows;
     rows += elements.patches.count * elements.patches.node_stride;
   }

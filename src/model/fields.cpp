@@ -8,6 +8,7 @@
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
+#include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 
 namespace railwave {
@@ -68,23 +69,44 @@ ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const s
   return side;
 }
 
+/// Calls `use(i, slot)` for each of the elements that are the group's.
+template <class Use>
+void for_each_slot(const ElementGroup& group, const std::vector<int>& elements, const Use& use) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
+    if (after == group.first_element.begin()) continue;
+    const int p = static_cast<int>(after - group.first_element.begin()) - 1, place = elements[i] - group.first_element[p];
+    if (place < group.element_count[p]) use(i, p * patch_size + place);
+  }
+}
+
 template <class S>
 HostField stress_in(const Model& model, const std::vector<int>& elements) {
   HostField result{6, std::vector<double>(6 * elements.size())};
   for (const ElementGroup& group : model.elements) {
     const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.patches.count) * patch_size);
     const auto unused = unset_array<double* [2]>("patch energy", group.patches.count);
-    launch_patches(group.patches,
-                   PatchState<S, Elastic, ViscousHourglass>{{group.constants}, group.patches, group.patches.hourglass_scale,
-                                                            model.nodes, stress, unused});
+    with_material(group, [&](const auto& material) {
+      using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
+      launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress, unused});
+    });
     const auto host = to_host(stress);
-    for (std::size_t i = 0; i < elements.size(); ++i) {
-      const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
-      if (after == group.first_element.begin()) continue;
-      const int p = static_cast<int>(after - group.first_element.begin()) - 1, slot = elements[i] - group.first_element[p];
-      if (slot >= group.element_count[p]) continue;
-      for (int c = 0; c < 6; ++c) result.values[6 * i + c] = host(tiled_slot<S>(p * patch_size + slot, 6, c));
-    }
+    for_each_slot(group, elements, [&](std::size_t i, int slot) {
+      for (int c = 0; c < 6; ++c) result.values[6 * i + c] = host(tiled_slot<S>(slot, 6, c));
+    });
+  }
+  return result;
+}
+
+template <class S>
+HostField plastic_strain_in(const Model& model, const std::vector<int>& elements) {
+  HostField result{1, std::vector<double>(elements.size())};
+  for (const ElementGroup& group : model.elements) {
+    if (!group.plastic.active()) continue;
+    const auto host = to_host(group.plastic.history);
+    for_each_slot(group, elements, [&](std::size_t i, int slot) {
+      result.values[i] = host(tiled_slot<S>(slot, Bilinear::history_values, 6));
+    });
   }
   return result;
 }
@@ -130,6 +152,11 @@ HostField node_field(const Model& model, NodeField field, const std::vector<int>
 HostField element_stress(const Model& model, const std::vector<int>& elements) {
   return model.scene.solver.precision == scene::Precision::double_precision ? stress_in<double>(model, elements)
                                                                              : stress_in<float>(model, elements);
+}
+
+HostField element_plastic_strain(const Model& model, const std::vector<int>& elements) {
+  return model.scene.solver.precision == scene::Precision::double_precision ? plastic_strain_in<double>(model, elements)
+                                                                             : plastic_strain_in<float>(model, elements);
 }
 
 ContactState contact_state(const Model& model, int contact) {

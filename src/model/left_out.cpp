@@ -7,7 +7,15 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   const auto note = [&](bool absent, const char* what) {
     if (absent) left_out.emplace_back(what);
   };
-  note(true, "plasticity: every part is elastic, no yield test and no stored stress");
+  bool any_elastic = false, any_plastic = false;
+  for (const auto& part : scene.parts) {
+    for (const auto& material : scene.materials) {
+      if (material.name != part.material) continue;
+      (material.yield_stress ? any_plastic : any_elastic) = true;
+    }
+  }
+  note(!any_plastic, "plasticity: every part is elastic, no yield test and no stored stress");
+  note(any_plastic && any_elastic, "plasticity of the elastic parts: they have no yield test and no history");
   note(scene.contacts.empty(), "contact: the scene has none");
   bool any_frictionless = false;
   for (const auto& contact : scene.contacts) any_frictionless = any_frictionless || contact.friction == 0;

@@ -62,6 +62,7 @@ void reset_to_start(Model& model) {
   for (auto& group : model.elements) {
     zero(group.patches.hourglass_energy);
     renew_frames(model, group);
+    zero(group.plastic.history);
   }
   zero(model.connectors.arrays.energy);
   for (auto& pair : model.contacts) {
@@ -103,7 +104,8 @@ std::size_t device_bytes(const Model& model) {
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
-                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants);
+                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants,
+                   group.plastic.constants, group.plastic.history, group.plastic.volume);
   }
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/scene.hpp"
+#include "kernels/bilinear.hpp"
 #include "kernels/contact_arrays.hpp"
 #include "kernels/element_force.hpp"
 #include "kernels/nodes.hpp"
@@ -14,12 +15,21 @@
 
 namespace railwave {
 
+/// What elements of plastic materials have besides; empty for elastic ones.
+struct PlasticArrays {
+  Array<BilinearConstants*> constants;  ///< by the patches' material row
+  Array<double*> history;               ///< see Bilinear
+  Array<double*> volume;                ///< m3, of the reference, by slot; zero in slots that only fill up
+  bool active() const { return constants.extent(0) > 0; }
+};
+
 /// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control.
 struct ElementGroup {
   std::string parts;                   ///< their names, for the summary
   scene::HourglassType hourglass = scene::HourglassType::viscous;
   PatchArrays patches;
   Array<ElasticConstants*> constants;  ///< by the patches' material row
+  PlasticArrays plastic;
   int first_partial = 0;               ///< row of the first patch's first node in the partial forces
   std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
   std::vector<int> element_count;      ///< of each patch

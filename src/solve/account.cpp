@@ -6,6 +6,7 @@
 #include "kernels/block_sum.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
+#include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 
 namespace railwave {
@@ -35,6 +36,19 @@ struct PatchEnergy {
     sum[0] += energy(p, 0);
     sum[1] += energy(p, 1);
     for (int k = 0; k < power_sums; ++k) sum[1] += dissipated(p * power_sums + k);
+  }
+};
+
+/// Dissipated by plastic flow: a function of the equivalent plastic strain.
+template <class S>
+struct PlasticEnergy {
+  static constexpr int values = 1;
+  PatchArrays patches;
+  PlasticArrays plastic;
+  KOKKOS_INLINE_FUNCTION void operator()(int slot, double* sum) const {
+    const BilinearConstants constants = plastic.constants(patches.material(slot / patch_size));
+    const double equivalent = plastic.history(tiled_slot<S>(slot, Bilinear::history_values, 6));
+    sum[0] += plastic.volume(slot) * plastic_work(constants, equivalent);
   }
 };
 
@@ -110,12 +124,17 @@ struct Work {
 template <class S, class Hourglass>
 void element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy) {
   const auto patch_energy = unset_array<double* [2]>("patch energy", group.patches.count);
-  launch_patches(group.patches, PatchState<S, Elastic, Hourglass>{{group.constants}, group.patches,
-                                                                  group.patches.hourglass_scale, model.nodes, {}, patch_energy});
+  with_material(group, [&](const auto& material) {
+    using State = PatchState<S, std::decay_t<decltype(material)>, Hourglass>;
+    launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, patch_energy});
+  });
   double sum[2];
   block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
+  if (!group.plastic.active()) return;
+  block_sum(PlasticEnergy<S>{group.patches, group.plastic}, group.patches.count * patch_size, sum);
+  energy.plastic += sum[0];
 }
 
 template <class S>

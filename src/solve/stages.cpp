@@ -1,6 +1,7 @@
 #include "solve/stages.hpp"
 
 #include "kernels/listed_nodes.hpp"
+#include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
 
@@ -59,21 +60,22 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
 
 template <class S, class Hourglass, bool Advance>
 void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
-  using Force = PatchForce<S, Elastic, Hourglass, Advance>;
   const auto partial = [&] {
     if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
     else return model.partial.narrow;
   }();
-  const Force force{{group.constants}, group.patches, scale, node_advance(model, instant.step), instant.step, partial,
-                    group.first_partial};
-  if constexpr (on_device && Advance) {
-    if (go_together(model, instant) && &group == &model.elements.front()) {
-      if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
-      else forces_together<Force, false>(model, group.patches, force, instant);
-      return;
+  with_material(group, [&](const auto& material) {
+    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance>;
+    const Force force{material, group.patches, scale, node_advance(model, instant.step), instant.step, partial, group.first_partial};
+    if constexpr (on_device && Advance) {
+      if (go_together(model, instant) && &group == &model.elements.front()) {
+        if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
+        else forces_together<Force, false>(model, group.patches, force, instant);
+        return;
+      }
     }
-  }
-  launch_patches(group.patches, force);
+    launch_patches(group.patches, force);
+  });
 }
 
 template <class S>
@@ -96,7 +98,8 @@ Stage element_stage(Model& model, const ElementGroup& group) {
     else element_forces<float>(model, group, instant);
     model.patches_have_advanced = instant.advancing;
   };
-  return {"elements of " + group.parts + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
+  const char* kind = group.plastic.active() ? ", elastoplastic" : "";
+  return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
 }
 
 /// A load that puts the values of its contributions in place by a kernel of its own.

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernels/bilinear.hpp"
+#include "kernels/element_force.hpp"
 #include "tests/kernels/exact_plasticity.hpp"
 
 using namespace railwave;
@@ -21,46 +22,44 @@ BilinearConstants steel(double tangent_modulus) {
           hardening_modulus(youngs_modulus, tangent_modulus)};
 }
 
-constexpr int widest_tile = tile_width<float>;
-
-Bilinear material(const BilinearConstants& constants) {
-  return {constants, Array<double*>("history", Bilinear::history_values * widest_tile)};
-}
-
-/// The elastic material with the same interface.
-struct ElasticOnly {
-  ElasticConstants constants;
-
-  template <class S>
-  KOKKOS_INLINE_FUNCTION void kirchhoff_stress(int /*batch*/, const Pack<S> (&H)[3][3], Pack<S> (&tau)[6]) const {
-    Pack<S> e[6], h[6];
-    almansi_strain<S>(H, e);
-    hencky_strain(e, h);
-    railwave::kirchhoff_stress<S>(constants, h, tau);
-  }
+/// The constants of one element, and its history.
+struct Element {
+  BilinearConstants constants;
+  Array<double*> history;
+  Matrix turn = Matrix::Identity();
 };
 
+Element material(const BilinearConstants& constants) {
+  return {constants, Array<double*>("history", Bilinear::history_values * tile_width<float>)};
+}
+
 /// Takes one batch of elements along a path, all lanes alike.
-template <class S, class Material>
+template <class S>
 struct FollowPath {
-  Material material;
+  Bilinear material;
+  Bilinear::OfPatch<S> patch;
+  bool plastic;
   Array<const double* [3][3]> path;  ///< displacement gradients along present coordinates
   Array<S*> stress;                  ///< tiled, 6 values an instant
 
   KOKKOS_INLINE_FUNCTION void operator()(const int batch) const {
     for (int k = 0; k < static_cast<int>(path.extent(0)); ++k) {
-      Pack<S> H[3][3], tau[6];
+      Pack<S> H[3][3], e[6], tau[6];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = static_cast<S>(path(k, i, j));
-      material.template kirchhoff_stress<S>(batch, H, tau);
+      almansi_strain<S>(H, e);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+      if (plastic) material.template stress<S>(patch, batch, H, e, tau);
+      else Elastic::stress<S>(patch.constants.elastic, batch, H, e, tau);
       for (int c = 0; c < 6; ++c) store<S>(stress.data() + (6l * k + c) * tile_width<S>, tau[c]);
     }
   }
 };
 
 /// Kirchhoff stresses along a path of deformation gradients.
-template <class S = double, class Material>
-std::vector<Matrix> follow(const Material& material, const std::vector<Matrix>& path) {
+template <class S = double>
+std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& path, bool plastic = true) {
   Array<double* [3][3]> gradient("path", path.size());
   const auto host = Kokkos::create_mirror_view(gradient);
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -70,7 +69,11 @@ std::vector<Matrix> follow(const Material& material, const std::vector<Matrix>& 
   }
   Kokkos::deep_copy(gradient, host);
   const Array<S*> stress("stress", 6 * tile_width<S> * path.size());
-  Kokkos::parallel_for("follow_path", Range(0, 1), FollowPath<S, Material>{material, gradient, stress});
+  Bilinear::OfPatch<S> patch;
+  patch.constants = element.constants;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(element.turn(i, j));
+  Kokkos::parallel_for("follow_path", Range(0, 1), FollowPath<S>{{{}, element.history}, patch, plastic, gradient, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());
@@ -82,15 +85,15 @@ std::vector<Matrix> follow(const Material& material, const std::vector<Matrix>& 
 }
 
 /// The first element's history.
-std::vector<double> history_of(const Bilinear& bilinear) {
+std::vector<double> history_of(const Element& bilinear, int tile = tile_width<double>) {
   const auto host = Kokkos::create_mirror_view(bilinear.history);
   Kokkos::deep_copy(host, bilinear.history);
   std::vector<double> values;
-  for (int c = 0; c < Bilinear::history_values; ++c) values.push_back(host(c * tile_width<double>));
+  for (int c = 0; c < Bilinear::history_values; ++c) values.push_back(host(c * static_cast<long>(tile)));
   return values;
 }
 
-double plastic_volume(const Bilinear& bilinear) {
+double plastic_volume(const Element& bilinear) {
   const std::vector<double> p = history_of(bilinear);
   Matrix metric;
   metric << p[0], p[3], p[5], p[3], p[1], p[4], p[5], p[4], p[2];
@@ -133,7 +136,7 @@ double series_error(double elastic_strain) { return 6 * elastic_strain * elastic
 
 /// Checks stress and equivalent plastic strain along a path against the spectral reference.
 void check_path(const BilinearConstants& constants, const std::vector<Matrix>& path) {
-  const Bilinear bilinear = material(constants);
+  const Element bilinear = material(constants);
   const std::vector<Matrix> stress = follow(bilinear, path);
   SpectralPlasticity reference{constants};
   double worst = 0, largest = 0;
@@ -173,7 +176,7 @@ TEST_CASE("under uniaxial stress the material follows its two slopes, forth and 
       const double lateral = -poissons_ratio * (strain - plastic) - 0.5 * plastic;
       path.push_back(stretch(strain, lateral, lateral));
     }
-  const Bilinear bilinear = material(constants);
+  const Element bilinear = material(constants);
   const std::vector<Matrix> stress = follow(bilinear, path);
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -190,7 +193,7 @@ TEST_CASE("under uniaxial stress the material follows its two slopes, forth and 
 TEST_CASE("pure shear strain far beyond yield follows the exact law, without hardening too") {
   for (const double tangent : {0.0, 2e9}) {
     const BilinearConstants constants = steel(tangent);
-    const Bilinear bilinear = material(constants);
+    const Element bilinear = material(constants);
     const int steps = 1000;
     const auto stress = follow(bilinear, sampled([](double t) { return stretch(0.5 * t, -0.5 * t, 0); }, steps));
     double worst = 0;
@@ -245,7 +248,7 @@ TEST_CASE("at small strain the return converges to the integrated rate equations
 
 TEST_CASE("a turning body has the same stress, turned") {
   const int steps = 1500;
-  const Bilinear still = material(steel(5e9)), turning = material(steel(5e9));
+  const Element still = material(steel(5e9)), turning = material(steel(5e9));
   const auto rotation = [](double t) { return Matrix(turn(9 * t, {1, 2, -0.5}) * turn(4 * t * t, {0, 1, 1})); };
   const auto stress = follow(still, sampled(winding, steps));
   const auto turned = follow(turning, sampled([&](double t) { return Matrix(rotation(t) * winding(t)); }, steps));
@@ -261,8 +264,8 @@ TEST_CASE("a turning body has the same stress, turned") {
 TEST_CASE("below yield the stress is the elastic material's") {
   const auto path = sampled([](double t) { return Matrix(turn(3 * t, {1, 1, 2}) * shear(0.002 * t) * stretch(0.001 * t, 0, 0)); }, 500);
   const BilinearConstants constants = steel(5e9);
-  const Bilinear bilinear = material(constants);
-  const auto plastic = follow(bilinear, path), elastic = follow(ElasticOnly{constants.elastic}, path);
+  const Element bilinear = material(constants);
+  const auto plastic = follow(bilinear, path), elastic = follow(bilinear, path, false);
   // Bit by bit but where a compiler fuses multiplications and additions differently in the two.
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (plastic[k] - elastic[k]).norm() / elastic[k].norm());
@@ -279,7 +282,7 @@ TEST_CASE("a hundred thousand yielding steps end where a few end") {
   const double elastic = yield_stress / (3 * constants.elastic.mu), exact = std::sqrt(2.0 / 3.0) * strain.norm() - elastic;
   const Matrix exact_stress = (std::sqrt(2.0 / 3.0) * yield_stress / strain.norm() * strain).asDiagonal();
   for (const int steps : {1000, 100000}) {
-    const Bilinear bilinear = material(constants);
+    const Element bilinear = material(constants);
     const Matrix stress = follow(bilinear, sampled(straight, steps)).back();
     const double share = series_error(elastic + 0.3 / steps);
     CHECK((stress - exact_stress).norm() / yield_stress < share);
@@ -289,7 +292,7 @@ TEST_CASE("a hundred thousand yielding steps end where a few end") {
 }
 
 TEST_CASE("held on the yield surface for a hundred thousand steps nothing flows") {
-  const Bilinear bilinear = material(steel(0));
+  const Element bilinear = material(steel(0));
   std::vector<Matrix> path = sampled(winding, 300);
   path.resize(200);
   path.push_back(path.back());
@@ -302,7 +305,7 @@ TEST_CASE("held on the yield surface for a hundred thousand steps nothing flows"
 }
 
 TEST_CASE("a hundred thousand steps around a loop do not ratchet the pressure") {
-  const Bilinear bilinear = material(steel(0));
+  const Element bilinear = material(steel(0));
   const Motion loop = [](double t) {
     const double phase = 2 * M_PI * 100 * t;
     return Matrix(turn(20 * t, {0, 1, 0}) * shear(0.01 * std::sin(phase)) * stretch(0.004 * std::cos(phase), -0.004 * std::cos(phase), 0));
@@ -320,7 +323,7 @@ TEST_CASE("a hundred thousand steps around a loop do not ratchet the pressure") 
 
 TEST_CASE("plastic work is never negative and is what the stress did") {
   const BilinearConstants constants = steel(8e9);
-  const Bilinear bilinear = material(constants);
+  const Element bilinear = material(constants);
   const int steps = 20000;
   const auto path = sampled(winding, steps);
   const auto stress = follow(bilinear, path);
@@ -359,19 +362,19 @@ TEST_CASE("numbers of type float follow the same path") {
   CHECK(deviation(follow<float>(material(steel(5e9)), path)) < 1e-3);
 }
 
-TEST_CASE("a rigid turn left out of the gradient comes back through the material") {
+TEST_CASE("the turn that single precision leaves out of the gradient comes back through the material") {
   const Matrix R = turn(2.1, {1, -2, 0.7});
   const auto path = sampled(winding, 800);
-  // x - R X has the gradient I - R F^-1; the path given is F R^T, whose inverse is R F^-1.
+  // The gradient of x - R X is I - R F^-1, the one that F R^T has.
   std::vector<Matrix> relative;
   for (const Matrix& F : path) relative.push_back(F * R.transpose());
-  Bilinear turned = material(steel(5e9));
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) turned.turn[i][j] = R(i, j);
-  const Bilinear plain = material(steel(5e9));
-  const auto with_turn = follow(turned, relative), without = follow(plain, path);
+  Element turned = material(steel(5e9));
+  turned.turn = R;
+  const Element plain = material(steel(5e9));
+  const auto with_turn = follow<float>(turned, relative);
+  const auto without = follow<double>(plain, path);
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (with_turn[k] - without[k]).norm() / yield_stress);
-  CHECK(worst < 1e-10);
-  for (int c = 0; c < 7; ++c) CHECK_THAT(history_of(turned)[c], WithinAbs(history_of(plain)[c], 1e-12));
+  CHECK(worst < 2e-2);
+  CHECK_THAT(history_of(turned, tile_width<float>)[6], WithinRel(history_of(plain)[6], 1e-2));
 }

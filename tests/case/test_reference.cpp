@@ -64,7 +64,8 @@ TEST_CASE("defaults are within their own range", "[case]") {
     for (const auto& key : section.keys) {
       if (key.required || key.kind != Kind::number) continue;
       INFO("[" << section.name << "] " << key.name);
-      CHECK(key.range.has(std::get<double>(key.initial())));
+      const Value initial = key.initial();  // absent where leaving the key out means something else
+      if (const double* number = std::get_if<double>(&initial)) CHECK(key.range.has(*number));
     }
   }
 }

@@ -33,20 +33,22 @@ Element material(const BilinearConstants& constants) {
   return {constants, Array<double*>("history", Bilinear::history_values * tile_width<float>)};
 }
 
-/// Takes one batch of elements along a path, all lanes alike.
+/// Takes one batch of elements along a path, each lane by its share of the gradient.
 template <class S>
 struct FollowPath {
   Bilinear material;
   Bilinear::OfPatch<S> patch;
   bool plastic;
   Array<const double* [3][3]> path;  ///< displacement gradients along present coordinates
+  Array<const S*> share;             ///< by lane
   Array<S*> stress;                  ///< tiled, 6 values an instant
 
   KOKKOS_INLINE_FUNCTION void operator()(const int batch) const {
+    const Pack<S> share_of_lane = load<S>(share.data());
     for (int k = 0; k < static_cast<int>(path.extent(0)); ++k) {
       Pack<S> H[3][3], e[6], tau[6];
       for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) H[i][j] = static_cast<S>(path(k, i, j));
+        for (int j = 0; j < 3; ++j) H[i][j] = share_of_lane * static_cast<S>(path(k, i, j));
       almansi_strain<S>(H, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
@@ -57,9 +59,12 @@ struct FollowPath {
   }
 };
 
+/// The first lane has the whole gradient, the last one the least share.
+double lane_share(int lane, int lanes, double least) { return 1 - (1 - least) * lane / std::max(1, lanes - 1); }
+
 /// Kirchhoff stresses along a path of deformation gradients.
 template <class S = double>
-std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& path, bool plastic = true) {
+std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& path, bool plastic = true, double least_share = 1) {
   Array<double* [3][3]> gradient("path", path.size());
   const auto host = Kokkos::create_mirror_view(gradient);
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -69,11 +74,15 @@ std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& pa
   }
   Kokkos::deep_copy(gradient, host);
   const Array<S*> stress("stress", 6 * tile_width<S> * path.size());
+  const Array<S*> share("share", tile_width<S>);
+  const auto shares = Kokkos::create_mirror_view(share);
+  for (int lane = 0; lane < tile_width<S>; ++lane) shares(lane) = static_cast<S>(lane_share(lane, tile_width<S>, least_share));
+  Kokkos::deep_copy(share, shares);
   Bilinear::OfPatch<S> patch;
   patch.constants = element.constants;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(element.turn(i, j));
-  Kokkos::parallel_for("follow_path", Range(0, 1), FollowPath<S>{{{}, element.history}, patch, plastic, gradient, stress});
+  Kokkos::parallel_for("follow_path", Range(0, 1), FollowPath<S>{{{}, element.history}, patch, plastic, gradient, share, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());
@@ -362,19 +371,43 @@ TEST_CASE("numbers of type float follow the same path") {
   CHECK(deviation(follow<float>(material(steel(5e9)), path)) < 1e-3);
 }
 
-TEST_CASE("the turn that single precision leaves out of the gradient comes back through the material") {
-  const Matrix R = turn(2.1, {1, -2, 0.7});
+TEST_CASE("the turn that single precision leaves out of the gradient may change from step to step") {
   const auto path = sampled(winding, 800);
-  // The gradient of x - R X is I - R F^-1, the one that F R^T has.
-  std::vector<Matrix> relative;
-  for (const Matrix& F : path) relative.push_back(F * R.transpose());
+  const auto exact = follow<double>(material(steel(5e9)), path);
   Element turned = material(steel(5e9));
-  turned.turn = R;
-  const Element plain = material(steel(5e9));
-  const auto with_turn = follow<float>(turned, relative);
-  const auto without = follow<double>(plain, path);
   double worst = 0;
-  for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (with_turn[k] - without[k]).norm() / yield_stress);
-  CHECK(worst < 2e-2);
-  CHECK_THAT(history_of(turned, tile_width<float>)[6], WithinRel(history_of(plain)[6], 1e-2));
+  for (int leg = 0; leg < 4; ++leg) {
+    const Matrix R = turn(0.9 * leg, {1, -2, 0.7});
+    turned.turn = R;
+    // The gradient of x - R X is I - R F^-1, the one that F R^T has.
+    std::vector<Matrix> relative;
+    for (int k = 200 * leg; k < 200 * (leg + 1); ++k) relative.push_back(path[k] * R.transpose());
+    const auto stress = follow<float>(turned, relative);
+    for (int k = 0; k < 200; ++k) worst = std::max(worst, (stress[k] - exact[200 * leg + k]).norm() / yield_stress);
+  }
+  // H is of order 1 here, not small as in a run: rounding of 1e-7 over a yield strain of 2e-3.
+  CHECK(worst < 2e-3);
+}
+
+TEST_CASE("each lane flows by itself") {
+  const BilinearConstants constants = steel(5e9);
+  const int lanes = tile_width<double>;
+  const auto path = sampled([](double t) { return shear(0.02 * t); }, 200);
+  const Element batch = material(constants);
+  follow<double>(batch, path, true, 0);
+  // A GPU's batch is one element.
+  for (int lane = 0; lane < lane_count<double>; ++lane) {
+    const double share = lane_share(lane, lanes, 0);
+    std::vector<Matrix> alone_path;
+    for (const Matrix& F : path) alone_path.push_back((Matrix::Identity() - share * (Matrix::Identity() - F.inverse())).inverse());
+    const Element alone = material(constants);
+    follow<double>(alone, alone_path);
+    const auto host = Kokkos::create_mirror_view(batch.history);
+    Kokkos::deep_copy(host, batch.history);
+    for (int c = 0; c < Bilinear::history_values; ++c) {
+      INFO("lane " << lane << ", value " << c);
+      CHECK_THAT(host(c * lanes + lane), WithinAbs(history_of(alone)[c], 1e-14));
+    }
+    if (share * 0.02 / std::sqrt(3.0) < 0.9 * yield_stress / (3 * constants.elastic.mu)) CHECK(history_of(alone)[6] == 0);
+  }
 }

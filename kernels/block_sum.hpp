@@ -4,20 +4,22 @@
 
 namespace railwave {
 
+/// Items of a block.
+inline constexpr int sum_block = 32;
+
 /// Sums `term(i)` (several values an item) in blocks of fixed size, the blocks' sums in blocks again, and the few that are
 /// left on the host, so the result is bitwise the same on any number of threads. `Term` has `static constexpr int values`
 /// and `void operator()(int, double*) const`, which adds an item's values.
 template <class Term>
 struct BlockSum {
-  static constexpr int block = 32;
   Term term;
   int count;
   double* result;  ///< block after block
 
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
     double sum[Term::values] = {};
-    const int end = (b + 1) * block < count ? (b + 1) * block : count;
-    for (int i = b * block; i < end; ++i) term(i, sum);
+    const int end = (b + 1) * sum_block < count ? (b + 1) * sum_block : count;
+    for (int i = b * sum_block; i < end; ++i) term(i, sum);
     for (int k = 0; k < Term::values; ++k) result[b * Term::values + k] = sum[k];
   }
 };
@@ -34,8 +36,8 @@ struct LeftSum {
 
 /// Numbers that a sum of `count` items needs as space.
 inline std::size_t block_sum_space(std::size_t count, int values) {
-  const std::size_t block = 32, blocks = (count + block - 1) / block;
-  return (blocks + (blocks + block - 1) / block) * values;
+  const std::size_t blocks = (count + sum_block - 1) / sum_block;
+  return (blocks + (blocks + sum_block - 1) / sum_block) * values;
 }
 
 /// @param result Term::values numbers
@@ -47,8 +49,7 @@ void block_sum(const Term& term, int count, double* result, const Array<double*>
   if (count == 0) return;
   const std::size_t needed = block_sum_space(count, values);
   const auto work = space.extent(0) >= needed ? space : unset_array<double*>("block sums", needed);
-  constexpr int block = BlockSum<Term>::block;
-  const int blocks = (count + block - 1) / block, groups = (blocks + block - 1) / block;
+  const int blocks = (count + sum_block - 1) / sum_block, groups = (blocks + sum_block - 1) / sum_block;
   double* const second = work.data() + static_cast<std::size_t>(blocks) * values;
   Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, work.data()});
   Kokkos::parallel_for("left_sum", Range(0, groups),

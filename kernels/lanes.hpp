@@ -63,18 +63,6 @@ KOKKOS_FORCEINLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 #endif
 }
 
-/// The sum of a pack's lanes, added up in double precision in a fixed order.
-template <class S>
-KOKKOS_INLINE_FUNCTION double sum_of_lanes(const Pack<S>& value) {
-#ifdef RAILWAVE_SIMD_LANES
-  double sum = 0;
-  for (int lane = 0; lane < lane_count<S>; ++lane) sum += static_cast<double>(value[lane]);
-  return sum;
-#else
-  return static_cast<double>(value);
-#endif
-}
-
 #ifdef RAILWAVE_SIMD_LANES
 /// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than lane
 /// by lane. (The forms with a mask, because g++ 12 warns of the others.)

@@ -21,6 +21,10 @@ using Array = Kokkos::View<T, MemorySpace>;
 
 using Range = Kokkos::RangePolicy<ExecutionSpace>;
 
+/// In a policy: the functor goes to a GPU as a kernel argument. A large one Kokkos would else copy to constant memory, and
+/// each launch would wait for the copy before.
+using AsArgument = Kokkos::Experimental::WorkItemProperty::HintLightWeight_t;
+
 /// An uninitialised array; for arrays that a kernel or a copy fills whole.
 template <class T, class... Extents>
 Array<T> unset_array(const char* label, Extents... extents) {

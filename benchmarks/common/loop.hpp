@@ -19,11 +19,9 @@ class Loop {
   }
 
   void step() {
-    instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
-    instant_.advancing = true;
+    begin(true);
     for (const Stage& stage : stages_) stage.run(instant_);
-    advance(model_, model_.step_size);
-    instant_.elapsed = model_.step_size;
+    finish();
   }
 
   /// A step at whose instant somebody looks, when the forces are known.
@@ -31,14 +29,12 @@ class Loop {
   void watched_step(const Look& look) {
     forces();
     look();
-    advance(model_, model_.step_size);
-    instant_.elapsed = model_.step_size;
+    finish();
   }
 
   /// Forces at the present instant, for fields that need them.
   void forces() {
-    instant_.advancing = false;
-    instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
+    begin(false);
     for (const Stage& stage : stages_) stage.run(instant_);
   }
 
@@ -48,18 +44,26 @@ class Loop {
     std::vector<std::pair<std::string, double>> result;
     for (const Stage& stage : stages_) result.emplace_back(stage.name, 0.0);
     result.emplace_back("nodes", 0.0);
-    instant_.advancing = true;
     for (long k = 0; k < count; ++k) {
-      instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
+      begin(true);
       for (std::size_t s = 0; s < stages_.size(); ++s) result[s].second += seconds_of([&] { stages_[s].run(instant_); });
-      result.back().second += seconds_of([&] { advance(model_, model_.step_size); });
-      instant_.elapsed = model_.step_size;
+      result.back().second += seconds_of([&] { finish(); });
     }
     for (auto& entry : result) entry.second /= static_cast<double>(count);
     return result;
   }
 
  private:
+  void begin(bool advancing) {
+    instant_.time = model_.time = static_cast<double>(model_.step) * model_.step_size;
+    instant_.advancing = advancing;
+  }
+
+  void finish() {
+    advance(model_, model_.step_size);
+    instant_.elapsed = model_.step_size;
+  }
+
   Model& model_;
   std::vector<Stage> stages_;
   Instant instant_;

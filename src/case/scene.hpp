@@ -198,6 +198,8 @@ struct Solver {
   StepEstimate step_estimate = StepEstimate::element; ///< what the stable step is taken from
   bool subcycling = false;         ///< coarse regions take larger steps than fine ones
   int renew_steps = 20000;         ///< steps between renewals of the global estimate; 0: never
+
+  bool elements_in_single() const { return precision != Precision::double_precision; }
 };
 
 struct Output {

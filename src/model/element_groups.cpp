@@ -7,6 +7,7 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -14,14 +15,6 @@ namespace {
 
 /// Stiffness hourglass control of a set whose own control is viscous, while it settles.
 constexpr double settling_coefficient = 0.05;
-
-double viscous_scale(double coefficient, double density, double wave_speed, double volume) {
-  return 0.25 * coefficient * density * wave_speed * std::pow(volume, 2.0 / 3.0);
-}
-
-double stiffness_scale(double coefficient, double modulus, double volume) {
-  return coefficient * modulus * std::cbrt(volume) / 16.0;
-}
 
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
 /// (the inner nodes of MacNeal & Harder's patch have one), and `railwave check` reports it.
@@ -54,17 +47,15 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
                     std::vector<float>& settling) {
   const Assembly& assembly = model.assembly;
   const scene::Material& material = model.scene.materials[range.material];
-  const double modulus = material.dilatational_modulus(), wave_speed = material.dilatational_speed();
-  const bool viscous = part.hourglass == scene::HourglassType::viscous;
   const double own = part.hourglass_coefficient;
+  const double while_settling = part.hourglass == scene::HourglassType::viscous ? settling_coefficient : own;
   for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
     const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[e]);
     const auto integrals = hexahedron_shape_integrals(x);
     double volume = 0;
     for (double part_of_it : integrals) volume += part_of_it;
-    scale[e] = static_cast<float>(viscous ? viscous_scale(own, material.density, wave_speed, volume)
-                                          : stiffness_scale(own, modulus, volume));
-    settling[e] = static_cast<float>(stiffness_scale(viscous ? settling_coefficient : own, modulus, volume));
+    scale[e] = static_cast<float>(hourglass_scale(part.hourglass, own, material, volume));
+    settling[e] = static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material, volume));
     model.element_length[e] = hexahedron_length(x);
     // Lumped mass by row sums (thesis 2.2.2).
     for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
@@ -200,7 +191,7 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
   patches.material = to_device("patch material", lists.material);
   patches.node = even_rows("patch nodes", lists.node, 16, patches.node_stride);
   patches.frame_node = to_device("patch frame nodes", lists.frame_node);
-  if (single_precision) patches.frame = Array<double* [15]>("patch frames", patches.count);
+  if (single_precision) patches.frame = Array<double* [PatchFrame::values]>("patch frames", patches.count);
   patches.corner = to_device("patch corners", lists.corner);
   patches.first_place = even_rows("first corner places", lists.first_place, places_at_once, patches.pack_stride);
   patches.place = even_rows("corner places", lists.place, places_at_once, patches.place_stride);
@@ -244,7 +235,7 @@ void build_elements(Model& model) {
   for (std::size_t i = 0; i < model.scene.points.size(); ++i)
     model.mass[assembly.point_nodes[i]] = model.scene.points[i].mass;
 
-  const bool single = model.scene.solver.precision != scene::Precision::double_precision;
+  const bool single = model.scene.solver.elements_in_single();
   const int lanes = single ? lane_count<float> : lane_count<double>;
   std::vector<PatchLists> lists;
   std::vector<std::vector<const scene::Material*>> materials;

@@ -6,6 +6,7 @@
 
 #include "kernels/contact_search.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/element_precision.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "model/group_material.hpp"
@@ -150,13 +151,12 @@ HostField node_field(const Model& model, NodeField field, const std::vector<int>
 }
 
 HostField element_stress(const Model& model, const std::vector<int>& elements) {
-  return model.scene.solver.precision == scene::Precision::double_precision ? stress_in<double>(model, elements)
-                                                                             : stress_in<float>(model, elements);
+  return with_element_precision(model.scene, [&](auto number) { return stress_in<decltype(number)>(model, elements); });
 }
 
 HostField element_plastic_strain(const Model& model, const std::vector<int>& elements) {
-  return model.scene.solver.precision == scene::Precision::double_precision ? plastic_strain_in<double>(model, elements)
-                                                                             : plastic_strain_in<float>(model, elements);
+  return with_element_precision(model.scene,
+                                [&](auto number) { return plastic_strain_in<decltype(number)>(model, elements); });
 }
 
 ContactState contact_state(const Model& model, int contact) {

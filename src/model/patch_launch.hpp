@@ -27,9 +27,7 @@ struct LaunchBoundsOf<ForcesTogether<Patch, Friction>> {
 
 template <class Functor>
 void launch_teams(int teams, std::size_t scratch_size, const Functor& functor) {
-  // As arguments of the kernel: large functors would else go through a buffer that each launch must wait for.
-  using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type,
-                                    Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+  using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type, AsArgument>;
   const int team_size = on_device ? patch_size : 1;
   Kokkos::parallel_for("patches", Policy(teams, team_size).set_scratch_size(0, Kokkos::PerTeam(scratch_size)), functor);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/block_sum.hpp"
+#include "model/element_precision.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/group_material.hpp"
@@ -153,8 +154,7 @@ EnergyAccount account_energies(const Model& model, double step) {
   block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
-  if (model.scene.solver.precision == scene::Precision::double_precision) element_energies<double>(model, energy);
-  else element_energies<float>(model, energy);
+  with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy); });
   for (const ContactPair& pair : model.contacts) {
     block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum, model.sum_space);
     energy.contact += sum[0];

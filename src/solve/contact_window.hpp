@@ -5,10 +5,8 @@
 
 namespace railwave {
 
-/// Few threads a block, so that few nodes spread over all of a GPU's multiprocessors; and launched with the functor as a
-/// kernel argument, where Kokkos would copy one of this size to constant memory and wait for the copy before.
-using ContactRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>,
-                                         Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+/// Few threads a block, so that few nodes spread over all of a GPU's multiprocessors.
+using ContactRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
 
 /// Keeps a pair's window true, at two distances. The window lists the slave nodes that could touch the master in the next
 /// hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out of it the

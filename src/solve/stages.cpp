@@ -1,6 +1,7 @@
 #include "solve/stages.hpp"
 
 #include "kernels/listed_nodes.hpp"
+#include "model/element_precision.hpp"
 #include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
@@ -91,11 +92,9 @@ void element_forces(const Model& model, const ElementGroup& group, const Instant
 
 Stage element_stage(Model& model, const ElementGroup& group) {
   const bool viscous = group.hourglass == scene::HourglassType::viscous;
-  const bool wide = model.scene.solver.precision == scene::Precision::double_precision;
-  const auto run = [&model, &group, wide](const Instant& instant) {
+  const auto run = [&model, &group](const Instant& instant) {
     if (model.step % steps_between_frames == 0) renew_frames(model, group);
-    if (wide) element_forces<double>(model, group, instant);
-    else element_forces<float>(model, group, instant);
+    with_element_precision(model.scene, [&](auto number) { element_forces<decltype(number)>(model, group, instant); });
     model.patches_have_advanced = instant.advancing;
   };
   const char* kind = group.plastic.active() ? ", elastoplastic" : "";
@@ -120,13 +119,11 @@ Stage load_stage(const Model& model, const LoadArrays& load) {
   return {"load " + load.load->name, [&model, &load](const Instant& instant) { apply_load(model, load, instant); }};
 }
 
-using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>,
-                                    Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
-using RowRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::Experimental::WorkItemProperty::HintLightWeight_t>;
+using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
+using RowRange = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 
 /// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
 Stage set_load_stage(Model& model) {
-  constexpr bool on_host = std::is_same_v<MemorySpace, Kokkos::HostSpace>;
   const bool sets = model.sets.moving > 0, many = model.extra.loaded_count > most_rows_of_a_team;
   std::string name = "gather of loads";
   if (model.torques.count > 0) name = "torques, " + name;
@@ -135,7 +132,7 @@ Stage set_load_stage(Model& model) {
             model.rows_are_due = sets_go_along(model, instant);
             model.rows_elapsed = instant.elapsed;
             if (model.rows_are_due) return;
-            if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_host ? 1 : 512), set_loads(model, instant));
+            if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), set_loads(model, instant));
             if (!sets || many)
               Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
           }};

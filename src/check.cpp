@@ -42,6 +42,7 @@ void describe_step(const Model& model, std::ostream& out) {
   out << "Step\n";
   for (const std::string& line : describe_stable_step(model)) out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count, model.scene.time.end);
+  for (const std::string& line : describe_subcycling(model)) out << "  subcycling: " << line << '\n';
 }
 
 }  // namespace

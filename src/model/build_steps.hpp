@@ -12,6 +12,7 @@ void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void build_stable_step(Model& model);  ///< stable_step.cpp
+void build_subcycling(Model& model);   ///< subcycling.cpp: paces of nodes; whole rounds of steps
 std::vector<std::string> what_is_left_out(const scene::Scene& scene);  ///< left_out.cpp
 
 }  // namespace railwave

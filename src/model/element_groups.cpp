@@ -29,14 +29,15 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
   }
 }
 
-int group_of(Model& model, std::vector<bool>& plastic, scene::HourglassType hourglass, bool yields, const std::string& part) {
+int group_of(Model& model, std::vector<bool>& plastic, scene::HourglassType hourglass, bool yields, int level, const std::string& part) {
   for (std::size_t g = 0; g < model.elements.size(); ++g)
-    if (model.elements[g].hourglass == hourglass && plastic[g] == yields) {
+    if (model.elements[g].hourglass == hourglass && plastic[g] == yields && model.elements[g].level == level) {
       model.elements[g].parts += ", " + part;
       return static_cast<int>(g);
     }
   model.elements.emplace_back();
   model.elements.back().hourglass = hourglass;
+  model.elements.back().level = level;
   model.elements.back().parts = part;
   plastic.push_back(yields);
   return static_cast<int>(model.elements.size()) - 1;
@@ -217,6 +218,14 @@ PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, cons
           to_device("reference volume", volume)};
 }
 
+/// The patches' numbers, level by level, so that groups ascend by it.
+std::vector<int> patches_by_level(const PatchOrder& order) {
+  std::vector<int> numbers(order.level.size());
+  for (std::size_t p = 0; p < numbers.size(); ++p) numbers[p] = static_cast<int>(p);
+  std::stable_sort(numbers.begin(), numbers.end(), [&](int a, int b) { return order.level[a] < order.level[b]; });
+  return numbers;
+}
+
 }  // namespace
 
 void check_elements(const Model& model) {
@@ -241,13 +250,17 @@ void build_elements(Model& model) {
   std::vector<std::vector<const scene::Material*>> materials;
   std::vector<bool> plastic;
   std::size_t part = 0, group = 0;
-  for (std::size_t p = 0; p + 1 < model.order.first_element.size(); ++p) {
+  int part_with_constants = -1;
+  for (const int p : patches_by_level(model.order)) {
     const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
-    while (part < assembly.parts.size() && first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
+    part = 0;
+    while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
     const auto& range = assembly.parts[part];
-    if (first == range.first_element) {
+    const int key = model.order.level[p] * static_cast<int>(assembly.parts.size()) + static_cast<int>(part);
+    if (key != part_with_constants) {
+      part_with_constants = key;
       const scene::Material& material = model.scene.materials[range.material];
-      group = group_of(model, plastic, model.scene.parts[part].hourglass, material.yield_stress.has_value(), range.name);
+      group = group_of(model, plastic, model.scene.parts[part].hourglass, material.yield_stress.has_value(), model.order.level[p], range.name);
       lists.resize(model.elements.size());
       materials.resize(model.elements.size());
       materials[group].push_back(&material);

@@ -16,19 +16,19 @@ namespace railwave {
 namespace {
 
 struct FetchNodes {
-  NodalAcceleration acceleration;
+  PacedAcceleration acceleration;
   double lag;
   NodeField field;
   Array<const int*> wanted;
   Array<double* [3]> result;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const NodeArrays& nodes = acceleration.force.nodes;
+    const NodeArrays& nodes = acceleration.plain.force.nodes;
     const int n = wanted(i);
     Vector3 value = row(nodes.position, n);
     if (field == NodeField::displacement) value = value - row(nodes.reference, n);
-    if (field == NodeField::velocity) value = row(nodes.velocity, n) + lag * acceleration(n);
-    if (field == NodeField::acceleration) value = acceleration(n);
+    if (field == NodeField::velocity) value = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
+    if (field == NodeField::acceleration) value = acceleration.plain(n);
     for (int k = 0; k < 3; ++k) result(i, k) = value[k];
   }
 };
@@ -142,7 +142,7 @@ Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& p
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
   const auto result = unset_array<double* [3]>("node field", nodes.size());
   Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-                       FetchNodes{model.acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
+                       FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
   const auto host = to_host(result);
   HostField values{3, std::vector<double>(3 * nodes.size())};
   for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -24,7 +24,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.scene = scene;
   model.assembly = assembly;
   check_elements(model);
-  model.order = order_in_patches(model.assembly);
+  model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   build_elements(model);
   build_contacts(model);
   build_loads(model);
@@ -33,6 +33,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   build_stable_step(model);
+  build_subcycling(model);
 }
 
 namespace {
@@ -97,7 +98,7 @@ std::size_t device_bytes(const Model& model) {
   const NodeArrays& n = model.nodes;
   const ExtraForces& x = model.extra;
   std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
-                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes,
+                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, model.subcycling.paces.level,
                             x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
                             x.contribution_node, x.work, model.sum_space, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums);

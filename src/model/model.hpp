@@ -12,6 +12,7 @@
 #include "kernels/set_loads.hpp"
 #include "model/assembly.hpp"
 #include "model/patches.hpp"
+#include "model/subcycling.hpp"
 
 namespace railwave {
 
@@ -27,6 +28,7 @@ struct PlasticArrays {
 struct ElementGroup {
   std::string parts;                   ///< their names, for the summary
   scene::HourglassType hourglass = scene::HourglassType::viscous;
+  int level = 0;                       ///< evaluated every 2^level steps; groups ascend by it
   PatchArrays patches;
   Array<ElasticConstants*> constants;  ///< by the patches' material row
   PlasticArrays plastic;
@@ -110,6 +112,7 @@ struct Model {
   Array<double* [3][3]> constraints;
   PatchOrder order;
   std::vector<ElementGroup> elements;
+  Subcycling subcycling;
   PartialForces partial;
   Array<ListedNode*> listed_nodes;            ///< those that no patch advances by itself
   bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
@@ -141,6 +144,9 @@ struct Model {
             {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}},
             constraints};
   }
+
+  /// The same as the scheme uses it at an instant when all levels are in phase: v(t) = v(stored) + pace lag acceleration.
+  PacedAcceleration paced_acceleration() const { return {acceleration(), subcycling.paces}; }
 };
 
 /// Builds the device arrays of a scene. Throws InputError for what only the mesh can show: unknown sets, inverted

@@ -161,14 +161,24 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
 
 }  // namespace
 
-PatchOrder order_in_patches(Assembly& assembly) {
+PatchOrder order_in_patches(Assembly& assembly, const std::vector<int>& levels) {
   std::vector<int> elements(assembly.elements.size());
   PatchOrder order;
   auto& first = order.first_element;
   for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = static_cast<int>(e);
   Divider divider(assembly);
-  for (const auto& part : assembly.parts)
-    if (part.element_count > 0) divider.divide(elements, part.first_element, part.first_element + part.element_count, first);
+  const auto level_of = [&](int e) { return levels.empty() ? 0 : levels[e]; };
+  for (const auto& part : assembly.parts) {
+    const auto begin = elements.begin() + part.first_element, end = begin + part.element_count;
+    std::stable_sort(begin, end, [&](int a, int b) { return level_of(a) < level_of(b); });
+    for (auto same = begin; same != end;) {
+      const int level = level_of(*same);
+      const auto next = std::find_if(same, end, [&](int e) { return level_of(e) != level; });
+      divider.divide(elements, static_cast<int>(same - elements.begin()), static_cast<int>(next - elements.begin()), first);
+      order.level.resize(first.size(), level);
+      same = next;
+    }
+  }
   first.push_back(static_cast<int>(elements.size()));
   const auto number = node_order(assembly, elements, first);
   order.mesh_number.resize(number.size());

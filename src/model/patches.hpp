@@ -12,7 +12,9 @@ namespace railwave {
 struct PatchOrder {
   std::vector<int> first_element;  ///< of each patch, and the number of elements at the end; no patch spans two parts
   std::vector<int> mesh_number;    ///< of each node: its number before
+  std::vector<int> level;          ///< of each patch: its elements' level (see model/subcycling.hpp)
 };
-PatchOrder order_in_patches(Assembly& assembly);
+/// @param levels of each element; empty: all 0. No patch holds elements of two levels.
+PatchOrder order_in_patches(Assembly& assembly, const std::vector<int>& levels = {});
 
 }  // namespace railwave

@@ -16,7 +16,8 @@ void refuse_unknown_methods(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
   if (solver.precision == scene::Precision::single_precision)
     refuse(scene, "precision = \"float\"", "set it to \"double\" or \"mixed\"");
-  if (solver.subcycling) refuse(scene, "subcycling = true", "leave subcycling out, or set it to false");
+  if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
+    refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }
 
 }  // namespace railwave

@@ -16,6 +16,7 @@ double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady
 }  // namespace
 
 void Progress::begin(const Model& model) {
+  for (const std::string& line : describe_subcycling(model)) out_ << "subcycling: " << line << '\n';
   ProgressPlan plan;
   plan.element_count = model.element_count();
   plan.end_time = model.scene.time.end;

@@ -16,15 +16,16 @@ namespace {
 /// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2 = m (|v_n|^2 - |step a/2|^2)/2, and minus the work of gravity.
 struct NodalEnergy {
   static constexpr int values = 2;
-  NodalAcceleration acceleration;
+  PacedAcceleration acceleration;
   double lag, step;
 
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
-    const NodeArrays& nodes = acceleration.force.nodes;
-    const Vector3 a = acceleration(n);
+    const NodeArrays& nodes = acceleration.plain.force.nodes;
+    const double pace = acceleration.paces.pace(n);
+    const Vector3 a = pace * acceleration(n);
     const Vector3 v = row(nodes.velocity, n) + lag * a;
     sum[0] += 0.5 * nodes.mass(n) * (dot(v, v) - 0.25 * step * step * dot(a, a));
-    sum[1] += nodes.mass(n) * dot(acceleration.gravity, row(nodes.position, n) - row(nodes.reference, n));
+    sum[1] += nodes.mass(n) * dot(acceleration.plain.gravity, row(nodes.position, n) - row(nodes.reference, n));
   }
 };
 
@@ -151,7 +152,7 @@ void element_energies(const Model& model, EnergyAccount& energy) {
 EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
   double sum[2];
-  block_sum(NodalEnergy{model.acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
+  block_sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
   with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy); });

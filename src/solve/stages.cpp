@@ -22,12 +22,16 @@ constexpr long steps_between_frames = 64;
 /// More rows than this are not for one team.
 constexpr int most_rows_of_a_team = 4096;
 
-/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts.
+/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts, and
+/// where such elements take every step.
 bool go_together(const Model& model, const Instant& instant) {
-  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1;
+  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.elements.front().level == 0;
 }
 
-bool sets_go_along(const Model& model, const Instant& instant) { return go_together(model, instant) && model.sets.moving > 0; }
+/// Nodes at paces of their own do not work out their own loads.
+bool sets_go_along(const Model& model, const Instant& instant) {
+  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1;
+}
 
 RowLoads row_loads(const Model& model, double elapsed) {
   return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
@@ -65,9 +69,13 @@ void element_forces(const Model& model, const ElementGroup& group, const Array<f
     if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
     else return model.partial.narrow;
   }();
+  const double pace = static_cast<double>(1L << group.level);
+  NodeAdvance own = node_advance(model, instant.step);
+  own.velocity_step *= pace;
+  own.step *= pace;
   with_material(group, [&](const auto& material) {
     using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance>;
-    const Force force{material, group.patches, scale, node_advance(model, instant.step), instant.step, partial, group.first_partial};
+    const Force force{material, group.patches, scale, own, pace * instant.step, partial, group.first_partial};
     if constexpr (on_device && Advance) {
       if (go_together(model, instant) && &group == &model.elements.front()) {
         if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
@@ -93,12 +101,14 @@ void element_forces(const Model& model, const ElementGroup& group, const Instant
 Stage element_stage(Model& model, const ElementGroup& group) {
   const bool viscous = group.hourglass == scene::HourglassType::viscous;
   const auto run = [&model, &group](const Instant& instant) {
+    model.patches_have_advanced = instant.advancing;
+    if (!instant.settling && group.level > model.subcycling.phase(model.step)) return;
     if (model.step % steps_between_frames == 0) renew_frames(model, group);
     with_element_precision(model.scene, [&](auto number) { element_forces<decltype(number)>(model, group, instant); });
-    model.patches_have_advanced = instant.advancing;
   };
   const char* kind = group.plastic.active() ? ", elastoplastic" : "";
-  return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control", run};
+  const std::string pace = group.level == 0 ? "" : ", every " + std::to_string(1L << group.level) + " steps";
+  return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control" + pace, run};
 }
 
 /// A load that puts the values of its contributions in place by a kernel of its own.
@@ -152,6 +162,16 @@ Stage contact_stage(Model& model, ContactPair& pair) {
           }};
 }
 
+/// With subcycling: the nodes whose own step begins now.
+void advance_in_phase(const Model& model, const NodeAdvance& advance_node) {
+  const int phase = model.subcycling.phase(model.step);
+  PacedNodeUpdate update{model.paced_acceleration(), advance_node, {}};
+  update.acceleration.phase = phase;
+  if (model.patches_have_advanced) update.listed = model.listed_nodes;
+  const int count = model.patches_have_advanced ? model.subcycling.listed_end[phase] : model.nodes.count;
+  if (count > 0) Kokkos::parallel_for("paced_nodes", RowRange(0, count), update);
+}
+
 }  // namespace
 
 std::vector<Stage> force_stages(Model& model) {
@@ -168,7 +188,8 @@ std::vector<Stage> force_stages(Model& model) {
 
 void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
-  if (model.patches_have_advanced)
+  if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
+  else if (model.patches_have_advanced)
     Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
                          ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,
                                           row_loads(model, model.rows_elapsed), model.rows_are_due});

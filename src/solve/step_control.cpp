@@ -15,7 +15,10 @@ constexpr double worthwhile_gain = 0.01;
 /// Steps between looks for slave nodes that touch although the estimate did not foresee it.
 constexpr long steps_between_looks = 500;
 
-long whole_steps(double interval, double step) { return std::max(1L, std::lround(interval / step)); }
+/// Steps in the whole number of rounds nearest to an interval, at least one round.
+long whole_rounds(double interval, double step, long round) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(round) * step))) * round;
+}
 
 }  // namespace
 
@@ -72,12 +75,13 @@ bool StepControl::renew() {
   return changed;
 }
 
-EverySoOften::EverySoOften(double interval, double step) : interval_(interval), every_(whole_steps(interval, step)) {}
+EverySoOften::EverySoOften(double interval, double step, long round)
+    : interval_(interval), round_(round), every_(whole_rounds(interval, step, round)) {}
 
 void EverySoOften::step_changed(long step, double old_size, double new_size) {
   const long missing = step < next_ ? next_ - step : (every_ - (step - next_) % every_) % every_;
-  next_ = missing == 0 ? step : step + whole_steps(static_cast<double>(missing) * old_size, new_size);
-  every_ = whole_steps(interval_, new_size);
+  next_ = missing == 0 ? step : step + whole_rounds(static_cast<double>(missing) * old_size, new_size, round_);
+  every_ = whole_rounds(interval_, new_size, round_);
 }
 
 }  // namespace railwave

@@ -36,19 +36,20 @@ class StepControl {
   double smallest_ = 0, largest_ = 0;
 };
 
-/// Something due about every `interval` seconds, at steps: `interval` rounded to whole steps (at least one) and counted from
-/// the start, or from where a change of step left it, so that it keeps its times.
+/// Something due about every `interval` seconds, at steps: `interval` rounded to whole rounds of steps (at least one) and
+/// counted from the start, or from where a change of step left it, so that it keeps its times.
 class EverySoOften {
  public:
-  /// @param interval s; 0: every step
-  EverySoOften(double interval, double step);
+  /// @param interval s; 0: every round
+  /// @param round steps: 1, or those between two instants at which all is in phase
+  EverySoOften(double interval, double step, long round = 1);
   bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
   /// From `step` on; what is due at that very step stays due.
   void step_changed(long step, double old_size, double new_size);
 
  private:
   double interval_;
-  long every_, next_ = 0;
+  long round_, every_, next_ = 0;
 };
 
 }  // namespace railwave

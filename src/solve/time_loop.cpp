@@ -29,13 +29,15 @@ class Schedule {
  public:
   explicit Schedule(const Model& model)
       : model_(model),
-        history_(model.scene.output.history_interval, model.step_size),
-        fields_(model.scene.output.field_interval > 0 ? model.scene.output.field_interval : model.scene.time.end, model.step_size) {}
+        history_(model.scene.output.history_interval, model.step_size, model.subcycling.round()),
+        fields_(model.scene.output.field_interval > 0 ? model.scene.output.field_interval : model.scene.time.end, model.step_size,
+                model.subcycling.round()),
+        check_every_(model.subcycling.whole_rounds(steps_between_checks)) {}
 
   bool last() const { return model_.step == model_.step_count; }
   bool history() const { return history_.due(model_.step) || last(); }
   bool fields() const { return fields_.due(model_.step) || last(); }
-  bool check() const { return model_.step % steps_between_checks == 0; }
+  bool check() const { return model_.step % check_every_ == 0; }
 
   void step_changed(double from) {
     history_.step_changed(model_.step, from, model_.step_size);
@@ -45,6 +47,7 @@ class Schedule {
  private:
   const Model& model_;
   EverySoOften history_, fields_;
+  long check_every_;
 };
 
 /// What is wrong with the solution, or nothing.
@@ -89,7 +92,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
     const double step_before = model.step_size;
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
-    const bool stopping = stop_requested != 0;
+    const bool stopping = stop_requested != 0 && model.subcycling.in_phase(model.step);
     const bool looked_at = due.history() || due.fields() || due.check() || stopping;
     instant.advancing = !looked_at;
     for (const Stage& stage : stages) stage.run(instant);
@@ -125,7 +128,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   summary.steps = model.step;
   summary.wall_seconds = seconds_since(began);
   summary.element_steps_per_second =
-      static_cast<double>(model.element_count()) * static_cast<double>(model.step) / std::max(summary.wall_seconds, 1e-9);
+      static_cast<double>(model.element_count()) * static_cast<double>(model.step) / model.subcycling.gain() / std::max(summary.wall_seconds, 1e-9);
   for (RunObserver* observer : observers) observer->end(model, summary);
   return summary;
 }

@@ -27,8 +27,9 @@ TEST_CASE("a precision that the loop does not have is refused") {
   refused(scene, "precision = \"float\"", "\"double\"");
 }
 
-TEST_CASE("subcycling is refused while the loop does not have it") {
+TEST_CASE("subcycling with a step that rests on the whole scene is refused") {
   scene::Scene scene = block();
   scene.solver.subcycling = true;
-  refused(scene, "subcycling = true", "false");
+  scene.solver.step_estimate = scene::StepEstimate::global;
+  refused(scene, "subcycling = true", "global");
 }

@@ -1,0 +1,88 @@
+#include "model/subcycling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+
+int Subcycling::phase(long step) const {
+  int level = 0;
+  while (level + 1 < levels && step % (2L << level) == 0) ++level;
+  return level;
+}
+
+long Subcycling::whole_rounds(long steps) const { return std::max(1L, (steps + round() / 2) / round()) * round(); }
+
+double Subcycling::gain() const {
+  double all = 0, updates = 0;
+  for (std::size_t l = 0; l < elements.size(); ++l) {
+    all += static_cast<double>(elements[l]);
+    updates += static_cast<double>(elements[l]) / static_cast<double>(1L << l);
+  }
+  return updates > 0 ? all / updates : 1;
+}
+
+namespace {
+
+/// Level of each node: extra forces are evaluated at every step, elements at their own pace. Rows of partial forces ascend
+/// by level, so a node's first row is of its finest patch.
+std::vector<std::uint8_t> node_levels(const Model& model) {
+  const auto first = to_host(model.nodes.first_partial), place = to_host(model.nodes.partial_place);
+  const auto extra = to_host(model.nodes.extra);
+  std::vector<std::uint8_t> level(model.nodes.count, 0);
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (extra(n) < 0 && first(n + 1) > first(n))
+      while (place(first(n)) >= model.subcycling.paces.row_end[level[n]]) ++level[n];
+  return level;
+}
+
+}  // namespace
+
+void build_subcycling(Model& model) {
+  Subcycling& subcycling = model.subcycling;
+  subcycling = {};
+  for (const ElementGroup& group : model.elements) subcycling.levels = std::max(subcycling.levels, group.level + 1);
+  if (subcycling.levels == 1) return;
+  subcycling.elements.assign(subcycling.levels, 0);
+  int rows = 0;
+  for (const ElementGroup& group : model.elements) {
+    rows = group.first_partial + group.patches.count * group.patches.node_stride;
+    for (int l = group.level; l < most_levels; ++l) subcycling.paces.row_end[l] = rows;
+    for (int count : group.element_count) subcycling.elements[group.level] += count;
+  }
+  const auto level = node_levels(model);
+  subcycling.paces.level = to_device("node levels", level);
+
+  const auto listed = to_host(model.listed_nodes);
+  const auto level_of = [&](const ListedNode& node) { return level[node.node & ~special_bit]; };
+  std::stable_sort(listed.data(), listed.data() + listed.extent(0),
+                   [&](const ListedNode& a, const ListedNode& b) { return level_of(a) < level_of(b); });
+  Kokkos::deep_copy(model.listed_nodes, listed);
+  for (int l = 0; l < subcycling.levels; ++l)
+    subcycling.listed_end.push_back(static_cast<int>(
+        std::count_if(listed.data(), listed.data() + listed.extent(0), [&](const ListedNode& n) { return level_of(n) <= l; })));
+
+  // Whole rounds, so that the run ends in phase at the time asked for.
+  const long rounds = (model.step_count + subcycling.round() - 1) / subcycling.round();
+  model.step_count = rounds * subcycling.round();
+  model.step_size = model.scene.time.end / static_cast<double>(model.step_count);
+}
+
+std::vector<std::string> describe_subcycling(const Model& model) {
+  if (!model.scene.solver.subcycling) return {};
+  const Subcycling& subcycling = model.subcycling;
+  if (subcycling.levels == 1) return {"does not pay here: every element takes every step"};
+  std::vector<std::string> lines;
+  for (std::size_t l = 0; l < subcycling.elements.size(); ++l)
+    if (subcycling.elements[l] > 0)
+      lines.push_back(l == 0 ? fmt::format("{} elements at every step", subcycling.elements[l])
+                             : fmt::format("{} elements every {} steps", subcycling.elements[l], 1L << l));
+  lines.push_back(fmt::format("{:.3g} times fewer element updates; outputs every whole {} steps", subcycling.gain(), subcycling.round()));
+  return lines;
+}
+
+}  // namespace railwave

@@ -1,0 +1,192 @@
+#include <catch2/catch_test_macros.hpp>
+
+#include "tests/verify/march.hpp"
+#include "tests/verify/two_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+/// Planes of a bar along x, graded from 30 mm down to 1 mm in its middle and back, m.
+std::vector<double> graded_planes(int coarse, int fine) {
+  std::vector<double> half;
+  for (double h = 1e-3; h < 30e-3; h *= 1.1) half.push_back(h);
+  half.insert(half.end(), coarse, 30e-3);
+  std::vector<double> sizes(half.rbegin(), half.rend());
+  sizes.insert(sizes.end(), fine, 1e-3);
+  sizes.insert(sizes.end(), half.begin(), half.end());
+  std::vector<double> x{0};
+  for (double h : sizes) x.push_back(x.back() + h);
+  return x;
+}
+
+/// The bar as a scene and its assembly: 60 mm across, in 2 by 2 elements.
+struct GradedBar {
+  std::vector<double> planes;
+  scene::Scene scene;
+  Assembly assembly;
+
+  GradedBar(int coarse, int fine, double end) : planes(graded_planes(coarse, fine)) {
+    const int layers = static_cast<int>(planes.size()) - 1;
+    scene = block_scene({static_cast<double>(layers), 0.06, 0.06}, {layers, 2, 2}, end);
+    set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
+    scene.time.step_scale = 0.9;
+    assembly = assemble(scene);
+    for (Vec3& x : assembly.nodes) x[0] = planes[static_cast<std::size_t>(std::lround(x[0]))];
+  }
+
+  double length() const { return planes.back(); }
+  double wave_speed() const { return scene.materials[0].dilatational_speed(); }
+
+  void build(Model& model, bool subcycling) {
+    scene.solver.subcycling = subcycling;
+    build_model(scene, assembly, model);
+  }
+};
+
+/// A dilatational pulse that has run from one coarse end through the fine middle into the other: error of the displacement
+/// against the exact one, over the exact one, in the mean square.
+double pulse_error(double width, bool subcycling, double& gain) {
+  GradedBar bar(40, 30, 1);
+  const double start = 5 * width, path = bar.length() - 10 * width;
+  bar.scene.time.end = path / bar.wave_speed();
+  scene::Constraint held;
+  held.name = "held";
+  held.target = "block";
+  held.fixed = {false, true, true};
+  bar.scene.constraints.push_back(held);
+  Model model;
+  bar.build(model, subcycling);
+  gain = model.subcycling.gain();
+  const auto shape = [&](double s) { return 1e-6 * std::exp(-0.5 * s * s / (width * width)); };
+  set_position(model, [&](const Vec3& x, int) { return x + Vec3{shape(x[0] - start), 0, 0}; });
+  set_velocity(model, [&](const Vec3& x, int) {
+    const double s = x[0] - start;
+    return Vec3{bar.wave_speed() * s / (width * width) * shape(s), 0, 0};
+  });
+  run(model, {});
+  const auto nodes = all_nodes(model);
+  const auto u = node_field(model, NodeField::displacement, nodes).values;
+  double error = 0, size = 0;
+  for (int n : nodes) {
+    const double exact = shape(model.assembly.nodes[n][0] - start - path);
+    error += model.mass[n] * (u[3 * n] - exact) * (u[3 * n] - exact);
+    size += model.mass[n] * exact * exact;
+  }
+  return std::sqrt(error / size);
+}
+
+/// Every mode of the bar at once: random velocities.
+void shake(Model& model) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> any(-0.01, 0.01);
+  set_velocity(model, [&](const Vec3&, int) { return Vec3{any(generator), any(generator), any(generator)}; });
+}
+
+Vec3 momentum(const Model& model) {
+  const auto v = node_field(model, NodeField::velocity, all_nodes(model)).values;
+  Vec3 sum{};
+  for (int n = 0; n < model.nodes.count; ++n) sum = sum + model.mass[n] * Vec3{v[3 * n], v[3 * n + 1], v[3 * n + 2]};
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a pulse through a mesh graded from 30 mm to 1 mm and back is as exact with subcycling, for half the updates or less") {
+  for (double width : {0.06, 0.08, 0.12}) {
+    double gain = 0, plain_gain = 0;
+    const double plain = pulse_error(width, false, plain_gain), subcycled = pulse_error(width, true, gain);
+    INFO("pulse " << width << " m: error " << plain << " plain, " << subcycled << " subcycled; updates " << gain << " times fewer");
+    CHECK(plain_gain == 1);
+    CHECK(gain > 2);
+    CHECK(subcycled < 1.05 * plain);
+    CHECK(plain < 0.5);
+  }
+}
+
+TEST_CASE("subcycling keeps the energy over 60 000 steps of free vibration in all modes, and the momentum to rounding") {
+  for (double scale : {0.9, 0.8}) {
+    GradedBar bar(6, 12, 1);
+    bar.scene.time.step_scale = scale;
+    bar.scene.time.end = 60000 * scale * 1e-3 / bar.wave_speed();
+    bar.scene.output.history_interval = 320 * scale * 1e-3 / bar.wave_speed();
+    Model model;
+    bar.build(model, true);
+    REQUIRE(model.subcycling.levels > 3);
+    shake(model);
+    const Vec3 before = momentum(model);
+    Recorder recorder;
+    run(model, {&recorder});
+    CHECK(model.step >= 60000);
+    double first = 0, early = 0, late = 0, momentum_size = 0;
+    const auto& samples = recorder.samples;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double total = balance_total(samples[k].energy);
+      if (k == 0) first = total;
+      double& worst = k < samples.size() / 4 ? early : late;
+      worst = std::max(worst, std::fabs(total / first - 1));
+    }
+    for (int n = 0; n < model.nodes.count; ++n) momentum_size += 0.01 * model.mass[n];
+    INFO("step scale " << scale << ": energy off by " << early << " in the first quarter, " << late << " later");
+    CHECK(early < 0.05);
+    CHECK(late < 1.5 * early);
+    CHECK(norm(momentum(model) - before) < 1e-11 * momentum_size);
+  }
+}
+
+TEST_CASE("looking at every round changes nothing, nor does computing at nodes what patches could") {
+  GradedBar bar(4, 12, 1);
+  bar.scene.time.end = 640 * 0.9e-3 / bar.wave_speed();
+  Model one, other;
+  for (Model* model : {&one, &other}) {
+    bar.build(*model, true);
+    shake(*model);
+  }
+  run(one, {});
+  march(other, other.step_count, [] {});
+  const auto nodes = all_nodes(one);
+  const auto a = node_field(one, NodeField::displacement, nodes).values, b = node_field(other, NodeField::displacement, nodes).values;
+  double difference = 0, largest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    difference = std::max(difference, std::fabs(a[i] - b[i]));
+    largest = std::max(largest, std::fabs(a[i]));
+  }
+  CHECK(largest > 0);
+  CHECK(difference < 1e-9 * largest);
+}
+
+TEST_CASE("a scene of one level runs as without subcycling, bit for bit") {
+  scene::Scene scene = block_scene({0.04, 0.04, 0.04}, {4, 4, 4}, 2e-5);
+  std::vector<double> result[2];
+  for (bool subcycling : {false, true}) {
+    scene.solver.subcycling = subcycling;
+    Model model;
+    build_model(scene, model);
+    CHECK(model.subcycling.levels == 1);
+    shake(model);
+    run(model, {});
+    result[subcycling ? 1 : 0] = node_field(model, NodeField::displacement, all_nodes(model)).values;
+  }
+  CHECK(result[0] == result[1]);
+}
+
+TEST_CASE("surfaces in contact are of one level, their nodes of the finest") {
+  TwoBlocks blocks;
+  blocks.lower_size = {0.3, 0.3, 0.2};
+  blocks.lower_divisions = {10, 10, 7};
+  blocks.upper_divisions = {16, 16, 4};
+  scene::Scene scene = blocks.scene(1e-4);
+  scene.solver.subcycling = true;
+  Model model;
+  build_model(scene, model);
+  REQUIRE(model.subcycling.levels > 1);
+  const auto level = to_host(model.subcycling.paces.level);
+  for (const auto* nodes : {&model.contacts[0].slave_nodes, &model.contacts[0].master_nodes})
+    for (int n : *nodes) CHECK(level(n) == 0);
+  std::vector<int> of_element(model.assembly.elements.size());
+  for (const ElementGroup& group : model.elements)
+    for (std::size_t p = 0; p < group.first_element.size(); ++p)
+      for (int e = 0; e < group.element_count[p]; ++e) of_element[group.first_element[p] + e] = group.level;
+  for (const Face& face : model.assembly.surfaces.at("lower.z_max")) CHECK(of_element[face.element] == 0);
+}

@@ -99,16 +99,16 @@ struct MasterSums {
 /// Weighted displacement, velocity and acceleration at t_n of a set's nodes.
 struct MeanMotionSum {
   static constexpr int values = 9;
-  NodalAcceleration acceleration;
+  PacedAcceleration acceleration;
   NodeSets sets;
   int begin;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
-    const NodeArrays& nodes = acceleration.force.nodes;
+    const NodeArrays& nodes = acceleration.plain.force.nodes;
     const int n = sets.nodes(begin + k);
     const double w = sets.weight(begin + k);
-    const Vector3 a = acceleration(n), moved = row(nodes.position, n) - row(nodes.reference, n);
-    const Vector3 v = row(nodes.velocity, n) + lag * a;
+    const Vector3 a = acceleration.plain(n), moved = row(nodes.position, n) - row(nodes.reference, n);
+    const Vector3 v = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
     for (int i = 0; i < 3; ++i) {
       sum[i] += w * moved[i];
       sum[3 + i] += w * v[i];
@@ -203,7 +203,7 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
 MeanMotion mean_motion(const Model& model, int set) {
   const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
   double sum[9];
-  block_sum(MeanMotionSum{model.acceleration(), model.sets, begin, model.velocity_lag}, end - begin, sum,
+  block_sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin, sum,
             model.sum_space);
   MeanMotion mean;
   for (int i = 0; i < 3; ++i) {

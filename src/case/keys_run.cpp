@@ -57,9 +57,10 @@ Section solver_section() {
           "what the stable step is taken from: each element's height over the wave speed, each element's highest "
           "eigenvalue (safe for bodies one element thick), or the whole scene's highest frequency (the longest step)")
           .one_of({"element", "eigenvalue", "global"}),
-      key("subcycling", &Solver::subcycling, "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded keeps "
-          "the finest step; outputs fall on whole rounds of the levels, so their intervals are rounded to these; not with "
-          "`step_estimate = \"global\"`"),
+      key("subcycling", &Solver::subcycling,
+          "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded keeps "
+          "the finest step; outputs fall on whole rounds of the levels, so their intervals are rounded to these; settling "
+          "goes on without; not with `step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")
           .within(at_least(0)),
   };

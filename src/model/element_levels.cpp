@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "model/build_steps.hpp"
+#include "model/stable_step.hpp"
 #include "model/subcycling.hpp"
 
 namespace railwave {
@@ -17,8 +18,6 @@ constexpr int buffer = 2;
 constexpr double deadens_at_once = 2.4;
 /// Less is not worth smaller launches.
 constexpr double least_gain = 1.1;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// By element, what its own stable step would be.
 class OwnSteps {
@@ -35,15 +34,11 @@ class OwnSteps {
 
   /// The square of a sum's highest frequency is at most the sum of the squares.
   std::vector<double> steps() const {
-    std::vector<double> steps(model_.assembly.elements.size());
-    for (const auto& part : model_.assembly.parts) {
-      const double speed = model_.scene.materials[part.material].dilatational_speed();
-      for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
-        const double alone = model_.element_length[e] / speed;
-        double springs = 0;
-        for (int n : model_.assembly.elements[e]) springs = std::fmax(springs, at_node_[n]);
-        steps[e] = 2 / std::sqrt(4 / (alone * alone) + springs);
-      }
+    std::vector<double> steps = own_steps(model_);
+    for (std::size_t e = 0; e < steps.size(); ++e) {
+      double springs = 0;
+      for (int n : model_.assembly.elements[e]) springs = std::fmax(springs, at_node_[n]);
+      steps[e] = 2 / std::sqrt(4 / (steps[e] * steps[e]) + springs);
     }
     return steps;
   }

@@ -181,6 +181,10 @@ void estimate_by_elements(Model& model) {
 
 }  // namespace
 
+std::vector<double> own_steps(const Model& model) {
+  return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalue_steps(model).step : element_steps(model);
+}
+
 double largest_step(const Model& model) {
   const scene::Time& time = model.scene.time;
   return time.step > 0 ? std::fmin(time.step, model.stable_step.limit) : time.step_scale * model.stable_step.limit;

@@ -10,6 +10,9 @@ namespace railwave {
 /// The longest step that the case allows now, s: `time.step`, else `time.step_scale` of the stable step.
 double largest_step(const Model& model);
 
+/// Each element's own stable step by the estimate that the case chose, s; not for the global one.
+std::vector<double> own_steps(const Model& model);
+
 /// Estimates the whole scene's stable step anew at the present instant. The case must have asked for the global estimate.
 void renew_global_step(Model& model);
 

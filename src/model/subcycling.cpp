@@ -15,8 +15,6 @@ int Subcycling::phase(long step) const {
   return level;
 }
 
-long Subcycling::whole_rounds(long steps) const { return std::max(1L, (steps + round() / 2) / round()) * round(); }
-
 double Subcycling::gain() const {
   double all = 0, updates = 0;
   for (std::size_t l = 0; l < elements.size(); ++l) {

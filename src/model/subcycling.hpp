@@ -23,8 +23,6 @@ struct Subcycling {
   bool in_phase(long step) const { return step % round() == 0; }
   /// The coarsest level that is evaluated at a step.
   int phase(long step) const;
-  /// The number of whole rounds nearest to a number of steps, at least one, in steps.
-  long whole_rounds(long steps) const;
   /// By what factor element updates fall.
   double gain() const;
 };

@@ -16,9 +16,9 @@ double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady
 }  // namespace
 
 void Progress::begin(const Model& model) {
-  for (const std::string& line : describe_subcycling(model)) out_ << "subcycling: " << line << '\n';
   ProgressPlan plan;
   plan.element_count = model.element_count();
+  plan.updates_saved = model.subcycling.gain();
   plan.end_time = model.scene.time.end;
   plan.interval = model.scene.output.progress_interval;
   for (const auto& contact : model.scene.contacts) plan.contacts.push_back(contact.name);

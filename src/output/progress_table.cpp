@@ -77,7 +77,8 @@ void ProgressTable::print_line(const HistorySample& sample, double now) {
   }
   const double done = plan_.end_time > 0 ? std::min(1.0, sample.time / plan_.end_time) : 0;
   const long steps = sample.step - last_line_step_;
-  const double rate = now > last_line_ && steps > 0 ? static_cast<double>(plan_.element_count) * steps / (now - last_line_) : 0;
+  const double updates = static_cast<double>(plan_.element_count) * static_cast<double>(steps) / plan_.updates_saved;
+  const double rate = now > last_line_ ? updates / (now - last_line_) : 0;
   // By time: the step may change as the run goes.
   const std::string left = plan_.end_time > 0 && sample.time > first_time_
                                ? duration_text((now - start_) * std::max(0.0, plan_.end_time - sample.time) / (sample.time - first_time_))
@@ -132,6 +133,7 @@ void ProgressTable::end(const RunSummary& summary) {
     out_ << fmt::format("  steps between {:.4g} and {:.4g} us, the stable step renewed {} times\n", 1e6 * summary.smallest_step,
                         1e6 * summary.largest_step, summary.step_renewals);
   for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';
+  for (const std::string& line : summary.subcycling) out_ << "  subcycling: " << line << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n", duration_text(summary.wall_seconds),
                       1e-6 * summary.element_steps_per_second, plan_.element_count);
   if (samples_ > 0) {

@@ -14,6 +14,7 @@ namespace railwave {
 /// What the progress table must know of a run before it begins.
 struct ProgressPlan {
   long element_count = 0;
+  double updates_saved = 1;      ///< so many times fewer element updates than elements times steps
   double end_time = 0;           ///< s
   double interval = 5;           ///< wall seconds between lines; 0: a line for every history sample
   std::vector<std::string> contacts;

@@ -59,8 +59,9 @@ struct RunSummary {
   double smallest_step = 0, largest_step = 0;  ///< s
   int step_renewals = 0;                 ///< of the global estimate of the stable step
   std::vector<std::string> step_estimates;  ///< what each estimate of the stable step allows, and which one counts
+  std::vector<std::string> subcycling;   ///< how many elements go at which pace, and what that saves; none without it
   double wall_seconds = 0;
-  double element_steps_per_second = 0;
+  double element_steps_per_second = 0;   ///< of the element updates that were made
   std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute
 };
 

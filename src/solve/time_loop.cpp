@@ -17,8 +17,9 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// Steps between looks at the solution where no output asks for one earlier.
-constexpr long steps_between_checks = 500;
+/// Steps between looks at the solution where no output asks for one earlier: whole rounds of any levels.
+constexpr long steps_between_checks = 512;
+static_assert(steps_between_checks % (1L << (most_levels - 1)) == 0);
 
 using Clock = std::chrono::steady_clock;
 
@@ -31,13 +32,12 @@ class Schedule {
       : model_(model),
         history_(model.scene.output.history_interval, model.step_size, model.subcycling.round()),
         fields_(model.scene.output.field_interval > 0 ? model.scene.output.field_interval : model.scene.time.end, model.step_size,
-                model.subcycling.round()),
-        check_every_(model.subcycling.whole_rounds(steps_between_checks)) {}
+                model.subcycling.round()) {}
 
   bool last() const { return model_.step == model_.step_count; }
   bool history() const { return history_.due(model_.step) || last(); }
   bool fields() const { return fields_.due(model_.step) || last(); }
-  bool check() const { return model_.step % check_every_ == 0; }
+  bool check() const { return model_.step % steps_between_checks == 0; }
 
   void step_changed(double from) {
     history_.step_changed(model_.step, from, model_.step_size);
@@ -47,7 +47,6 @@ class Schedule {
  private:
   const Model& model_;
   EverySoOften history_, fields_;
-  long check_every_;
 };
 
 /// What is wrong with the solution, or nothing.
@@ -123,12 +122,13 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   summary.largest_step = control.largest();
   summary.step_renewals = control.renewals();
   summary.step_estimates = describe_stable_step(model);
+  summary.subcycling = describe_subcycling(model);
   summary.completed = summary.reason.empty();
   summary.time = model.time;
   summary.steps = model.step;
   summary.wall_seconds = seconds_since(began);
-  summary.element_steps_per_second =
-      static_cast<double>(model.element_count()) * static_cast<double>(model.step) / model.subcycling.gain() / std::max(summary.wall_seconds, 1e-9);
+  const double updates = static_cast<double>(model.element_count()) * static_cast<double>(model.step) / model.subcycling.gain();
+  summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
   for (RunObserver* observer : observers) observer->end(model, summary);
   return summary;
 }

@@ -42,10 +42,10 @@ struct Shown {
 };
 
 /// A second of wall time a step.
-Shown show(long last, const RunSummary& summary) {
+Shown show(long last, const RunSummary& summary, const ProgressPlan& planned = plan()) {
   std::ostringstream out;
   double wall = 7;
-  ProgressTable table(out, plan(), [&] { return wall; });
+  ProgressTable table(out, planned, [&] { return wall; });
   wall += 1000;  // preparations before the first step
   for (long step = 0; step <= last; ++step) {
     table.history(sample(step));
@@ -90,6 +90,16 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   CHECK_THAT(text, ContainsSubstring("largest energy (4000 J): 0.05 %; of the largest elastic energy (125 J): 1.6 %"));
   CHECK_THAT(text, ContainsSubstring("normal 100.000 kN, tangential 25.000 kN, traction coefficient 0.2500"));
   CHECK_THAT(text, ContainsSubstring("left out, because the scene does not need it\n    gravity\n    connectors\n"));
+}
+
+TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {
+  ProgressPlan planned = plan();
+  planned.updates_saved = 2.5;
+  RunSummary summary;
+  summary.subcycling = {"750000 elements every 4 steps", "2.5 times fewer element updates"};
+  const Shown shown = show(10, summary, planned);
+  CHECK_THAT(shown.lines.at(3), ContainsSubstring(" 0.4 "));
+  CHECK_THAT(shown.text, ContainsSubstring("  subcycling: 750000 elements every 4 steps\n  subcycling: 2.5 times fewer"));
 }
 
 TEST_CASE("a run that did not complete says why, and how far it came") {

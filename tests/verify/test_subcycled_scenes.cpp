@@ -1,0 +1,172 @@
+#include <catch2/catch_test_macros.hpp>
+
+#include "tests/verify/graded_bar.hpp"
+#include "tests/verify/two_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+// Subcycling beside what else a scene has: contact with friction, settling, materials that yield.
+
+namespace {
+
+/// A block of small elements on one of large ones, which is held at its foot.
+scene::Scene block_on_coarse_one(const Vec3& lower_size, const std::array<int, 3>& lower_divisions, double friction) {
+  TwoBlocks blocks;
+  blocks.lower_size = lower_size;
+  blocks.lower_divisions = lower_divisions;
+  blocks.upper_divisions = {16, 16, 4};
+  blocks.friction = friction;
+  scene::Scene scene = blocks.scene(3e-4);
+  hold(scene, "lower.z_min", {true, true, true});
+  scene.output.history_interval = 1e-6;
+  return scene;
+}
+
+struct Sliding {
+  std::vector<double> time;
+  std::vector<Vec3> force;  ///< N, on the upper block
+  double gain = 0, imbalance = 0;
+  EnergyAccount last;
+
+  /// Between two samples.
+  Vec3 at(double t) const {
+    std::size_t k = 1;
+    while (k + 1 < time.size() && time[k] < t) ++k;
+    const double s = (t - time[k - 1]) / (time[k] - time[k - 1]);
+    return (1 - s) * force[k - 1] + s * force[k];
+  }
+};
+
+/// The upper block slides at 20 m/s while it is pressed on, up to 20 kN.
+Sliding slide(bool subcycling) {
+  scene::Scene scene = block_on_coarse_one({0.24, 0.24, 0.16}, {12, 12, 8}, 0.3);
+  scene.solver.subcycling = subcycling;
+  add_ramp(scene, "press", 0, 1e-4);
+  add_force(scene, "upper.z_max", {0, 0, -2e4}, "press");
+  scene::InitialMotion motion;
+  motion.name = "slide";
+  motion.parts = {"upper"};
+  motion.velocity = {20, 0, 0};
+  scene.initial_motions.push_back(motion);
+  Model model;
+  build_model(scene, model);
+  Recorder recorder;
+  run(model, {&recorder});
+  Sliding result;
+  result.gain = model.subcycling.gain();
+  for (const HistorySample& sample : recorder.samples) {
+    CHECK(model.subcycling.in_phase(sample.step));
+    result.time.push_back(sample.time);
+    result.force.push_back(sample.contacts[0].normal_force + sample.contacts[0].tangential_force);
+    result.imbalance = std::max(result.imbalance, std::fabs(sample.energy.balance_error));
+  }
+  result.last = recorder.samples.back().energy;
+  return result;
+}
+
+/// What a pulse of `share` of the yield strain has spent in plastic flow after its way through the graded bar, J; with the
+/// energy that came with it, and what the account misses.
+struct Flow {
+  double plastic = 0, first = 0, imbalance = 0, gain = 0;
+};
+
+Flow flow(double share, bool subcycling) {
+  const double yield_stress = 400e6, width = 0.08;
+  GradedBar bar(20, 30, 1);
+  scene::Material& material = bar.scene.materials[0];
+  material.yield_stress = yield_stress;
+  material.tangent_modulus = 21e9;
+  // Held sideways, the stress deviator is that of 2 mu times the strain.
+  const double strain = share * yield_stress / (2 * material.shear_modulus());
+  const Pulse pulse{width, strain * width * std::exp(0.5), 5 * width, bar.wave_speed()};
+  bar.scene.time.end = (bar.length() - 10 * width) / bar.wave_speed();
+  bar.scene.output.history_interval = bar.scene.time.end / 50;
+  hold(bar.scene, "block", {false, true, true});
+  Model model;
+  bar.build(model, subcycling);
+  pulse.set(model);
+  Recorder recorder;
+  run(model, {&recorder});
+  Flow result;
+  result.gain = model.subcycling.gain();
+  result.first = balance_total(recorder.samples.front().energy);
+  for (const HistorySample& sample : recorder.samples)
+    result.imbalance = std::max(result.imbalance, std::fabs(sample.energy.balance_error));
+  result.plastic = recorder.samples.back().energy.plastic;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("contact forces and friction of a sliding block are the same with subcycling below it") {
+  const Sliding plain = slide(false), subcycled = slide(true);
+  CHECK(subcycled.gain > 1.5);
+  double largest = 0, difference = 0;
+  for (std::size_t k = 0; k < subcycled.time.size(); ++k) {
+    largest = std::max(largest, norm(subcycled.force[k]));
+    difference = std::max(difference, norm(subcycled.force[k] - plain.at(subcycled.time[k])));
+  }
+  const double elastic = plain.last.internal + plain.last.contact;
+  INFO("force " << largest << " N, difference " << difference << "; updates " << subcycled.gain << " times fewer; friction "
+                << plain.last.friction << " and " << subcycled.last.friction << " J, elastic " << elastic << " J, imbalance "
+                << plain.imbalance << " and " << subcycled.imbalance << " J");
+  CHECK(largest > 2e4);
+  CHECK(difference < 5e-3 * largest);
+  CHECK(std::fabs(subcycled.last.friction - plain.last.friction) < 1e-3 * plain.last.friction);
+  CHECK(subcycled.imbalance < 1e-2 * elastic);
+}
+
+TEST_CASE("a scene settles at the finest pace, and rests when its run goes at several") {
+  scene::Scene scene = block_on_coarse_one({0.08, 0.08, 0.06}, {6, 6, 4}, 0);
+  // Settling leans on stiffness control; a viscous one would let go of what that holds when the run begins.
+  for (scene::Part& part : scene.parts) set_hourglass(part, scene::HourglassType::stiffness, 0.05);
+  scene.gravity = {0, 0, -1e5};
+  scene.settle.active = true;
+  scene.settle.tolerance = 1e-4;
+  scene.time.step_scale = 0.6;  // edge and corner nodes bear the whole contact spring on a part of the mass
+  scene.solver.subcycling = true;
+  Model model;
+  build_model(scene, model);
+  REQUIRE(model.subcycling.levels > 1);
+  const double weight = 1e5 * mass_of(model, "upper");
+  Recorder recorder;
+  run(model, {&recorder});
+  double worst = 0;
+  for (const HistorySample& sample : recorder.samples)
+    worst = std::max(worst, norm(sample.contacts[0].normal_force - Vec3{0, 0, weight}) / weight);
+  INFO("contact force against weight: worst relative difference " << worst);
+  CHECK(recorder.samples.size() > 100);
+  CHECK(worst < 5e-3);
+}
+
+TEST_CASE("a pulse that yields loses as much in plastic flow with subcycling, and one that does not loses nothing") {
+  // Of the same pulse on even meshes; those of 2.5 mm elements lose 1140 J at 0.1 and 1142 J at 0.9 of the stable step.
+  const double exact = 1141;
+  const Flow plain = flow(1.5, false), subcycled = flow(1.5, true), elastic = flow(0.9, true);
+  INFO("plastic " << plain.plastic << " and " << subcycled.plastic << " J of " << plain.first << " J; imbalance " << plain.imbalance
+                  << " and " << subcycled.imbalance << " J; below yield " << elastic.plastic << " J");
+  CHECK(subcycled.gain > 2);
+  CHECK(std::fabs(subcycled.plastic - exact) < 1.05 * std::fabs(plain.plastic - exact));
+  CHECK(std::fabs(plain.plastic - exact) < 0.15 * exact);
+  CHECK(subcycled.imbalance < 1e-2 * subcycled.first);
+  CHECK(elastic.plastic == 0);
+}
+
+TEST_CASE("the eigenvalue estimate gives the paces of a graded bar one element thick, and it stays stable") {
+  GradedBar bar(6, 12, 1, 1);
+  bar.scene.solver.step_estimate = scene::StepEstimate::eigenvalue;
+  Model model;
+  bar.scene.time.end = 20000 * 1e-3 / bar.wave_speed();
+  bar.scene.output.history_interval = bar.scene.time.end / 100;
+  bar.build(model, true);
+  REQUIRE(model.subcycling.levels > 3);
+  shake(model);
+  Recorder recorder;
+  run(model, {&recorder});
+  const double first = balance_total(recorder.samples.front().energy);
+  double worst = 0;
+  for (const HistorySample& sample : recorder.samples) worst = std::max(worst, std::fabs(sample.energy.balance_error) / first);
+  INFO("energy off by " << worst);
+  CHECK(worst < 0.05);
+}

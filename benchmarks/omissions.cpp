@@ -47,6 +47,7 @@ std::vector<Variant> variants() {
       {"stiffness instead of viscous hourglass", {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"}, keep},
       {"stiffness, elements and nodes alone", {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"}, bare},
       {"mixed instead of double precision", {"solver.precision=mixed"}, keep},
+      {"coarse regions subcycled", {"solver.subcycling=true"}, keep},
       {"with plasticity", {"materials.steel.yield_stress=500e6", "materials.steel.tangent_modulus=21e9"}, keep},
   };
 }

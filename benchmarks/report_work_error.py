@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 COLOURS = {"double": "#10407f", "mixed": "#0a7a4a", "float": "#c46a00"}
-MEASURES = {"bar wave": "velocity, L2", "Rayleigh pulse": "displacement, L2", "Hertz press": "pressure, L2", "Cattaneo shift": "shear, L2"}
+MEASURES = {"bar wave": "velocity, L2", "graded pulse": "displacement, L2", "Rayleigh pulse": "displacement, L2", "Hertz press": "pressure, L2", "Cattaneo shift": "shear, L2"}
 UNSTABLE = 2.0  # a relative error above this is no solution
 
 
@@ -24,6 +24,7 @@ class Run:
         self.penalty = float(row["penalty_scale"])
         self.coefficient = float(row["hourglass_coefficient"])
         self.scale = float(row["step_scale"])
+        self.subcycled = row.get("subcycling") == "1"
 
     @property
     def stable(self):
@@ -43,6 +44,8 @@ class Run:
             words.append(f"{row['step_rule']} step")
         if self.scale != 0.9:
             words.append(f"step scale {self.scale:g}")
+        if self.subcycled:
+            words.append(f"subcycling ({float(row['updates_saved']):.2f} times fewer updates)")
         if self.penalty != 1:
             words.append(f"penalty scale {self.penalty:g}")
         return ", ".join(words) or "own choice"
@@ -59,6 +62,8 @@ def front(runs):
 
 
 def marker(run):
+    if run.subcycled:
+        return "^"
     if run.penalty != 1:
         return "v" if run.penalty < 0.3 else "D"
     if run.row["step_rule"] == "global":
@@ -71,7 +76,7 @@ def marker(run):
 
 
 MARKERS = [("o", "viscous, element step"), ("s", "stiffness hourglass"), ("X", "eigenvalue step"), ("P", "global step"),
-           ("<", "step scale 0.6"), ("D", "penalty scale 0.5"), ("v", "penalty scale 0.1")]
+           ("<", "step scale 0.6"), ("^", "subcycling"), ("D", "penalty scale 0.5"), ("v", "penalty scale 0.1")]
 
 
 def picture(results, path):

@@ -19,6 +19,7 @@ struct Method {
   std::string step_rule = "element";  ///< or "eigenvalue", "global"
   double step_scale = 0.9;
   double penalty_scale = 1;
+  bool subcycling = false;
 };
 
 /// What came out.
@@ -39,6 +40,7 @@ inline void apply(const Method& method, scene::Scene& scene) {
   if (method.step_rule == "eigenvalue") scene.solver.step_estimate = scene::StepEstimate::eigenvalue;
   if (method.step_rule == "global") scene.solver.step_estimate = scene::StepEstimate::global;
   scene.time.step_scale = method.step_scale;
+  scene.solver.subcycling = method.subcycling;
 }
 
 inline void hold(scene::Scene& scene, const std::string& target, const std::array<bool, 3>& fixed) {

@@ -72,6 +72,7 @@ TEST_CASE("subcycling keeps the energy over 60 000 steps of free vibration in al
     Recorder recorder;
     run(model, {&recorder});
     CHECK(model.step >= 60000);
+    CHECK(std::fabs(model.time / bar.scene.time.end - 1) < 1e-12);
     double first = 0, early = 0, late = 0, momentum_size = 0;
     const auto& samples = recorder.samples;
     for (std::size_t k = 0; k < samples.size(); ++k) {

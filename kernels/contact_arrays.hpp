@@ -42,10 +42,12 @@ struct alignas(16) WindowEntry {
   int unused;
 };
 
-/// Which slave nodes can touch until the window is laid out anew, ascending.
+/// Which slave nodes can touch until the window is laid out anew, ascending, and which of them can until the next look.
 struct ContactWindow {
   int count = 0;
   Array<WindowEntry*> entries;
+  Array<int*> near;        ///< places in `entries`, in any order: what the nodes do does not depend on each other
+  Array<int*> near_count;  ///< one
 };
 
 inline constexpr int status_apart = 0, status_sticks = 1, status_slips = 2;
@@ -55,13 +57,6 @@ KOKKOS_INLINE_FUNCTION double segment_shape(int corner, double xi, double eta) {
   const double sign_xi = corner == 1 || corner == 2 ? 1.0 : -1.0;
   const double sign_eta = corner >= 2 ? 1.0 : -1.0;
   return 0.25 * (1.0 + sign_xi * xi) * (1.0 + sign_eta * eta);
-}
-
-/// r(xi, eta) on a segment, eq. 2.24.
-KOKKOS_INLINE_FUNCTION Vector3 segment_point(const Vector3 (&corner)[4], double xi, double eta) {
-  Vector3 r{{0, 0, 0}};
-  for (int k = 0; k < 4; ++k) r = r + segment_shape(k, xi, eta) * corner[k];
-  return r;
 }
 
 }  // namespace railwave

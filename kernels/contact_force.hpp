@@ -17,22 +17,23 @@ struct ContactForce {
   ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
 
+  /// The i-th of the nodes that can touch, if they are so many.
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    if (i >= window.near_count(0)) return;
     const ContactArrays& contact = search.contact;
-    const WindowEntry entry = window.entries(i);
-    if (entry.near == 0) return;
+    const WindowEntry entry = window.entries(window.near(i));
     const int s = entry.slave;
     const Vector3 slave = row(search.position, entry.node);
     const bool touched = contact.status(s) != status_apart;
     const int tracked = contact.tracked(s);
-    const Vector3 place{{contact.place(s, 0), contact.place(s, 1), 0}};
+    const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
 
     const Projection now = where(slave, tracked, place, touched);
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;
-      contact.place(s, 0) = now.xi;
-      contact.place(s, 1) = now.eta;
+      contact.place(s, 0) = now.place.xi;
+      contact.place(s, 1) = now.place.eta;
     }
     contact.gap(s) = now.gap;
     if (!(now.gap < 0)) {
@@ -56,18 +57,18 @@ struct ContactForce {
 
   /// Where the slave stands now; gap 1e300 where beside the surface. What ends being apart is searched anew, so that it
   /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
-  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int tracked, const Vector3& place, bool touched) const {
+  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int tracked, const SegmentPlace& place, bool touched) const {
     Projection now{};
     now.segment = tracked;
-    now.xi = place[0];
-    now.eta = place[1];
+    now.place = place;
     double beyond = 1e300;
     auto verdict = ContactTrack::unknown;
     if (!search.contact.folded_inwards) verdict = ContactTrack::follow(search, slave, now, beyond);
     const bool over = verdict == ContactTrack::over_segment;
-    if (verdict == ContactTrack::unknown || (over && now.gap < 0 && !touched)) {
+    const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
+    if (verdict == ContactTrack::unknown || begins) {
       double found_beyond;
-      const int start = search.corner_at(now.segment, now.xi, now.eta);
+      const int start = search.corner_at(now.segment, now.place);
       const Projection found =
           search.nearest(slave, search.closest_node(slave, start), touched ? tracked : -1, found_beyond);
       if (!over || found_beyond <= ContactSearch::outside_tolerance) {
@@ -92,15 +93,13 @@ struct ContactForce {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, const Vector3& slave, int previous, const Vector3& place, const Projection& now,
+  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now,
                                      double stiffness, double bound, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
     if (previous >= 0) {
-      Vector3 corner[4];
-      search.corners_from(slave, previous, corner);
-      moved = now.offset - segment_point(corner, place[0], place[1]);
+      moved = now.offset - search.see(slave, previous).point(place);
       held = row(contact.tangential_force, s);
     }
     Vector3 trial = held - stiffness * moved;
@@ -114,15 +113,21 @@ struct ContactForce {
     return trial;
   }
 
-  /// Equal and opposite to the last bit: the last corner takes what the others leave.
+  /// Equal and opposite to the last bit: the last corner takes what the others leave. The rows are fetched before the first
+  /// addition, for no load moves past an atomic operation and each would wait for memory by itself.
   KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now, const Vector3& force) const {
-    FixedForce left = extra.fixed(force);
-    extra.add(extra_row(node), left);
+    const int slave_row = extra_row(node);
+    int master_row[4];
+    for (int k = 0; k < 4; ++k) master_row[k] = extra_row(segment.node[k]);
+    const Vector3 quanta = extra.in_quanta(force);
+    const FixedForce whole = extra.fixed(quanta);
+    FixedForce reaction[4], left = whole;
     for (int k = 0; k < 4; ++k) {
-      const FixedForce share = k < 3 ? extra.fixed(segment_shape(k, now.xi, now.eta) * force) : left;
-      for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
-      extra.subtract(extra_row(segment.node[k]), share);
+      reaction[k] = k < 3 ? extra.fixed(segment_shape(k, now.place.xi, now.place.eta) * quanta) : left;
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= reaction[k].quanta[c];
     }
+    extra.add(slave_row, whole);
+    for (int k = 0; k < 4; ++k) extra.subtract(master_row[k], reaction[k]);
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact_search.hpp"
+#include "kernels/contact_track.hpp"
 
 namespace railwave {
 
@@ -24,12 +25,11 @@ struct ContactLook {
     entry.near = 1;
     if (!touching) {
       const Vector3 slave = row(search.position, entry.node);
-      const int start = search.corner_at(contact.tracked(s), contact.place(s, 0), contact.place(s, 1));
       double beyond;
-      const Projection found = search.nearest(slave, search.closest_node(slave, start), -1, beyond);
+      const Projection found = where(slave, s, beyond);
       contact.tracked(s) = found.segment;
-      contact.place(s, 0) = found.xi;
-      contact.place(s, 1) = found.eta;
+      contact.place(s, 0) = found.place.xi;
+      contact.place(s, 1) = found.place.eta;
       const bool beside = beyond > ContactSearch::outside_tolerance;
       contact.gap(s) = beside ? 1e300 : found.gap;
       const bool penetrating = !beside && found.gap < 0;
@@ -38,6 +38,18 @@ struct ContactLook {
       if (penetrating && !was_near) Kokkos::atomic_add(&missed(0), 1);
     }
     window.entries(i) = entry;
+    if (entry.near != 0) window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
+  }
+
+  /// The fast way for the many that it is sure of.
+  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int s, double& beyond) const {
+    const ContactArrays& contact = search.contact;
+    Projection now{};
+    now.segment = contact.tracked(s);
+    now.place = {contact.place(s, 0), contact.place(s, 1)};
+    const int start = search.corner_at(now.segment, now.place);
+    if (!contact.folded_inwards && ContactTrack::follow(search, slave, now, beyond) != ContactTrack::unknown) return now;
+    return search.nearest(slave, search.closest_node(slave, start), -1, beyond);
   }
 
   /// How far slave and segment can move, m, and how far beside a segment a node still counts as over it.

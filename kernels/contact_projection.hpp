@@ -4,19 +4,38 @@
 
 namespace railwave {
 
+/// A place on a segment's bilinear surface, within its sides or beyond them.
+struct SegmentPlace {
+  double xi, eta;
+
+  /// How far outside the segment, in xi or eta; at most 0: inside.
+  KOKKOS_INLINE_FUNCTION double outside() const { return std::fmax(std::fabs(xi), std::fabs(eta)) - 1.0; }
+  KOKKOS_INLINE_FUNCTION SegmentPlace clamped() const {
+    return {std::fmax(-1.0, std::fmin(1.0, xi)), std::fmax(-1.0, std::fmin(1.0, eta))};
+  }
+};
+
 /// Where a slave node stands over a segment of the master surface.
 struct Projection {
   int segment;       ///< -1: beside the surface
-  double xi, eta;
+  SegmentPlace place;
   double gap;        ///< along the normal, m; negative: penetration
   Vector3 offset;    ///< contact point r(xi, eta) less the slave's position, m
   Vector3 normal;    ///< outward unit normal of the master there
 };
 
-/// How far outside its segment a projection lies, in xi or eta; at most 0: inside.
-KOKKOS_INLINE_FUNCTION double outside(const Projection& p) {
-  return std::fmax(std::fabs(p.xi), std::fabs(p.eta)) - 1.0;
-}
+/// A segment seen from a slave node: small numbers, whose rounding does not disturb the iteration. r(xi, eta) less the
+/// slave's position is middle + xi across + eta along + xi eta twist (eq. 2.24).
+struct SeenSegment {
+  int segment;
+  Vector3 middle, across, along, twist;  ///< m
+
+  KOKKOS_INLINE_FUNCTION Vector3 point(const SegmentPlace& p) const {
+    return middle + p.xi * (across + p.eta * twist) + p.eta * along;
+  }
+  KOKKOS_INLINE_FUNCTION Vector3 slope_xi(double eta) const { return across + eta * twist; }
+  KOKKOS_INLINE_FUNCTION Vector3 slope_eta(double xi) const { return along + xi * twist; }
+};
 
 /// Projection of slave nodes on single segments.
 struct ContactProjection {
@@ -25,28 +44,27 @@ struct ContactProjection {
 
   static constexpr double on_segment = 1e-12;  ///< `outside` up to this is rounding
 
-  /// A segment's corners less the slave's position: small numbers, whose rounding does not disturb the iteration.
-  KOKKOS_INLINE_FUNCTION void corners_from(const Vector3& slave, int segment, Vector3 (&corner)[4]) const {
+  KOKKOS_INLINE_FUNCTION SeenSegment see(const Vector3& slave, int segment) const {
     const Segment s = contact.surface(segment);
+    Vector3 corner[4];
     for (int k = 0; k < 4; ++k) corner[k] = row(position, s.node[k]) - slave;
+    const Vector3 low = corner[0] + corner[1], high = corner[3] + corner[2];
+    const Vector3 low_way = corner[1] - corner[0], high_way = corner[2] - corner[3];
+    return {segment, 0.25 * (low + high), 0.25 * (low_way + high_way), 0.25 * (high - low), 0.25 * (high_way - low_way)};
   }
 
-  /// Contact point on one segment by Newton iteration on the squared distance (eq. 2.25), from a place nearby.
-  KOKKOS_INLINE_FUNCTION Projection project(const Vector3& slave, int segment, double xi = 0, double eta = 0) const {
-    Vector3 corner[4];
-    corners_from(slave, segment, corner);
-    const Vector3 twist = 0.25 * ((corner[0] - corner[1]) + (corner[2] - corner[3]));
+  /// Contact point by Newton iteration on the squared distance (eq. 2.25), from a place nearby.
+  KOKKOS_INLINE_FUNCTION static SegmentPlace nearest_place(const SeenSegment& seen, const SegmentPlace& start) {
+    double xi = start.xi, eta = start.eta;
     for (int iteration = 0; iteration < 12; ++iteration) {
-      const Vector3 r = segment_point(corner, xi, eta);
-      const Vector3 along_xi = (0.25 * (1 - eta)) * (corner[1] - corner[0]) + (0.25 * (1 + eta)) * (corner[2] - corner[3]);
-      const Vector3 along_eta = (0.25 * (1 - xi)) * (corner[3] - corner[0]) + (0.25 * (1 + xi)) * (corner[2] - corner[1]);
-      const Vector3 n = cross(along_xi, along_eta);
-      const double a = dot(along_xi, along_xi), c = dot(along_eta, along_eta), area = dot(n, n);
+      const Vector3 r = seen.point({xi, eta}), slope_xi = seen.slope_xi(eta), slope_eta = seen.slope_eta(xi);
+      const Vector3 n = cross(slope_xi, slope_eta);
+      const double a = dot(slope_xi, slope_xi), c = dot(slope_eta, slope_eta), area = dot(n, n);
       // Of the distance times twist only the part along the normal, all that is left of it at the contact point: with the
       // distance whole the first iterations can miss on distorted segments. Multiplied by `area` throughout, so that one
       // division does.
-      const double b = dot(along_xi, along_eta) * area + dot(r, n) * dot(n, twist);
-      const double p = dot(along_xi, r), q = dot(along_eta, r);
+      const double b = dot(slope_xi, slope_eta) * area + dot(r, n) * dot(n, seen.twist);
+      const double p = dot(slope_xi, r), q = dot(slope_eta, r);
       const double scale = area / (b * b - a * c * area * area);
       const double step_xi = scale * (c * p * area - b * q), step_eta = scale * (a * q * area - b * p);
       // A slave far beside a warped segment must not send the iteration to infinity.
@@ -55,26 +73,15 @@ struct ContactProjection {
       // Convergence is quadratic: after such a step the error is of the order of its square, 1e-14.
       if (std::fabs(step_xi) + std::fabs(step_eta) < 1e-7) break;
     }
-    return finish(segment, corner, xi, eta);
+    return {xi, eta};
   }
 
-  /// The nearest place within the segment's sides of a projection beyond them.
-  KOKKOS_INLINE_FUNCTION Projection clamped(const Vector3& slave, const Projection& beyond) const {
-    Vector3 corner[4];
-    corners_from(slave, beyond.segment, corner);
-    return finish(beyond.segment, corner, std::fmax(-1.0, std::fmin(1.0, beyond.xi)),
-                  std::fmax(-1.0, std::fmin(1.0, beyond.eta)));
-  }
-
-  KOKKOS_INLINE_FUNCTION static Projection finish(int segment, const Vector3 (&corner)[4], double xi, double eta) {
+  KOKKOS_INLINE_FUNCTION static Projection at(const SeenSegment& seen, const SegmentPlace& place) {
     Projection result;
-    const Vector3 along_xi = (1 - eta) * (corner[1] - corner[0]) + (1 + eta) * (corner[2] - corner[3]);
-    const Vector3 along_eta = (1 - xi) * (corner[3] - corner[0]) + (1 + xi) * (corner[2] - corner[1]);
-    const Vector3 normal = cross(along_xi, along_eta);
-    result.segment = segment;
-    result.xi = xi;
-    result.eta = eta;
-    result.offset = segment_point(corner, xi, eta);
+    const Vector3 normal = cross(seen.slope_xi(place.eta), seen.slope_eta(place.xi));
+    result.segment = seen.segment;
+    result.place = place;
+    result.offset = seen.point(place);
     result.normal = (1.0 / norm(normal)) * normal;
     result.gap = -dot(result.normal, result.offset);
     return result;

@@ -50,44 +50,44 @@ struct ContactSearch : ContactProjection {
     return dot(c1s, m) >= 0 && dot(c1s, cross(s, c2)) >= 0;
   }
 
-  /// Takes the segment around a node that the slave's projection is least outside of.
-  KOKKOS_INLINE_FUNCTION void try_around(const Vector3& slave, int node, int tried, Projection& best, double& least) const {
-    for (int s = contact.first_segment(node); s < contact.first_segment(node + 1) && least > on_segment; ++s) {
-      if (contact.segment_of_node(s) == tried) continue;
-      const Projection other = project(slave, contact.segment_of_node(s));
-      if (outside(other) < least) {
-        least = outside(other);
-        best = other;
-      }
-    }
-  }
-
   /// The segment that holds the slave's projection, or the one that it is least outside of; then clamped to its sides.
   /// @param previous segment touched at the last step, -1: none
-  /// @param beyond how far outside the projection lies, before it was clamped
+  /// @param beyond how far outside the projection lay, before it was clamped
   KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int node, int previous, double& beyond) const {
     const int begin = contact.first_segment(node), end = contact.first_segment(node + 1);
     int chosen = -1;
     for (int s = begin; s < end && chosen < 0; ++s)
-      if (contact.segment_of_node(s) == previous && between_edges(slave, node, previous)) chosen = previous;
+      if (contact.segment_of_node(s) == previous && between_edges(slave, node, previous)) chosen = s;
     for (int s = begin; s < end && chosen < 0; ++s)
-      if (between_edges(slave, node, contact.segment_of_node(s))) chosen = contact.segment_of_node(s);
+      if (between_edges(slave, node, contact.segment_of_node(s))) chosen = s;
 
-    Projection best{};
+    SeenSegment best{};
+    SegmentPlace place{};
     beyond = 1e300;
-    if (chosen >= 0) {
-      best = project(slave, chosen);
-      beyond = outside(best);
-    }
-    // Folds, warped and slender segments: the test with plane edges and the true projection can disagree, and on a
-    // disordered mesh the segment that holds the projection need not touch the closest node.
-    if (beyond > on_segment) try_around(slave, node, chosen, best, beyond);
-    for (int s = begin; s < end && beyond > on_segment; ++s)
-      for (int k = 0; k < 4 && beyond > on_segment; ++k) {
-        const int other = contact.segments(contact.segment_of_node(s), k);
-        if (other != node) try_around(slave, other, chosen, best, beyond);
+    // First the chosen segment. Folds, warped and slender segments: the test with plane edges and the true projection can
+    // disagree, and on a disordered mesh the segment that holds the projection need not touch the closest node; so then
+    // those around that node, and those around their corners. One loop, so that one copy of the projection does.
+    for (int turn = chosen < 0 ? -1 : -2; turn < 4 * (end - begin) && beyond > on_segment; ++turn) {
+      int first = chosen, last = chosen + 1;
+      if (turn > -2) {
+        const int around = turn < 0 ? node : contact.segments(contact.segment_of_node(begin + turn / 4), turn % 4);
+        if (turn >= 0 && around == node) continue;
+        first = contact.first_segment(around);
+        last = contact.first_segment(around + 1);
       }
-    return beyond > 0 ? clamped(slave, best) : best;
+      for (int s = first; s < last && beyond > on_segment; ++s) {
+        const int segment = contact.segment_of_node(s);
+        if (turn > -2 && chosen >= 0 && segment == contact.segment_of_node(chosen)) continue;
+        const SeenSegment seen = see(slave, segment);
+        const SegmentPlace found = nearest_place(seen, {0, 0});
+        if (found.outside() < beyond) {
+          beyond = found.outside();
+          best = seen;
+          place = found;
+        }
+      }
+    }
+    return at(best, place.clamped());
   }
 
   /// The same, with segment -1 where the slave stands beside the surface.
@@ -99,8 +99,8 @@ struct ContactSearch : ContactProjection {
   }
 
   /// Master node of a segment's corner next to a place on it: where a walk begins.
-  KOKKOS_INLINE_FUNCTION int corner_at(int segment, double xi, double eta) const {
-    return contact.segments(segment, eta < 0 ? (xi < 0 ? 0 : 1) : (xi < 0 ? 3 : 2));
+  KOKKOS_INLINE_FUNCTION int corner_at(int segment, const SegmentPlace& p) const {
+    return contact.segments(segment, p.eta < 0 ? (p.xi < 0 ? 0 : 1) : (p.xi < 0 ? 3 : 2));
   }
 };
 

@@ -9,42 +9,44 @@ namespace railwave {
 struct ContactTrack {
   enum Verdict {
     over_segment,  ///< the projection lies inside a segment
-    surely_apart,  ///< over a convex fold or beyond the surface's end, and outside all segments there
+    over_fold,     ///< in the wedge along the side of two segments where it lies inside neither
+    surely_apart,  ///< beyond the surface's end or over a convex corner, and outside all segments there
     unknown
   };
 
-  /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment unless it lies inside
-  /// @param beyond how far outside it lies, before it was clamped
+  /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment
+  /// @param beyond how far outside it lay, before it was clamped
   KOKKOS_INLINE_FUNCTION static Verdict follow(const ContactProjection& search, const Vector3& slave, Projection& now,
                                                double& beyond) {
     int segment = now.segment, from = -1;
-    double xi = now.xi, eta = now.eta;
-    bool apart = true;
+    SegmentPlace place = now.place;
+    bool apart = true, arrived = false, came_over_side = false;
     beyond = 1e300;
-    for (int hop = 0; hop < 4; ++hop) {
-      const Projection here = search.project(slave, segment, xi, eta);
-      if (outside(here) <= ContactProjection::on_segment) {
+    for (int hop = 0; hop < 4 && !arrived; ++hop) {
+      const SeenSegment seen = search.see(slave, segment);
+      place = ContactProjection::nearest_place(seen, place);
+      const double outside = place.outside();
+      const Projection here = ContactProjection::at(seen, place.clamped());
+      if (outside < beyond) {
+        beyond = outside;
         now = here;
-        beyond = 0;
-        return over_segment;
       }
-      const Projection edge = search.clamped(slave, here);
-      apart = apart && edge.gap > 0;
-      if (outside(here) < beyond) {
-        beyond = outside(here);
-        now = edge;
-      }
-      const int next = beyond_side(search.contact.surface(segment), here);
-      if (next < 0 || next == from) break;
+      if (outside <= ContactProjection::on_segment) return over_segment;
+      apart = apart && here.gap > 0;
+      const int next = beyond_side(search.contact.surface(segment), place);
+      const bool over_side = std::fmin(std::fabs(place.xi), std::fabs(place.eta)) <= 1.0;
+      if (next >= 0 && next == from && over_side && came_over_side) return over_fold;
+      arrived = next < 0 || next == from;
+      came_over_side = over_side;
       from = segment;
       segment = next;
-      xi = eta = 0;
+      place = {0, 0};
     }
-    return apart ? surely_apart : unknown;
+    return apart && arrived ? surely_apart : unknown;
   }
 
-  /// The neighbour over the side that a projection lies farthest beyond.
-  KOKKOS_INLINE_FUNCTION static int beyond_side(const Segment& segment, const Projection& p) {
+  /// The neighbour over the side that a place lies farthest beyond.
+  KOKKOS_INLINE_FUNCTION static int beyond_side(const Segment& segment, const SegmentPlace& p) {
     const bool along_xi = std::fabs(p.xi) >= std::fabs(p.eta);
     return along_xi ? segment.neighbour[p.xi > 0 ? 1 : 3] : segment.neighbour[p.eta > 0 ? 2 : 0];
   }

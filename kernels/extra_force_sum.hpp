@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "kernels/vector3.hpp"
 
 namespace railwave {
@@ -14,24 +16,30 @@ struct FixedForce {
 /// exactly.
 struct ExtraForceSum {
   Array<double* [3]> load;                  ///< N, of loads and connectors
-  Array<unsigned long long* [3]> contact;   ///< quanta, two's complement
+  Array<std::uint64_t* [3]> contact;        ///< quanta, two's complement; Kokkos knows 64-bit atomics by this type alone
   double quantum = 1;                       ///< N, a power of two: 2^-57 of a force beyond any that a sound contact bears
 
   /// Larger forces (and NaN) saturate; 32 such on one node still do not overflow.
   static constexpr double largest = 144115188075855872.0;  // 2^57
 
-  KOKKOS_INLINE_FUNCTION FixedForce fixed(const Vector3& force) const {
+  /// A force in quanta, saturated.
+  KOKKOS_INLINE_FUNCTION Vector3 in_quanta(const Vector3& force) const {
+    Vector3 result;
+    for (int i = 0; i < 3; ++i) result[i] = std::fmax(-largest, std::fmin(largest, force[i] * (1 / quantum)));
+    return result;
+  }
+  /// The same in whole quanta.
+  KOKKOS_INLINE_FUNCTION static FixedForce fixed(const Vector3& quanta) {
     FixedForce result;
-    for (int i = 0; i < 3; ++i)
-      result.quanta[i] = static_cast<long long>(std::rint(std::fmax(-largest, std::fmin(largest, force[i] / quantum))));
+    for (int i = 0; i < 3; ++i) result.quanta[i] = static_cast<long long>(std::rint(quanta[i]));
     return result;
   }
 
   KOKKOS_INLINE_FUNCTION void add(int r, const FixedForce& force) const {
-    for (int i = 0; i < 3; ++i) Kokkos::atomic_add(&contact(r, i), static_cast<unsigned long long>(force.quanta[i]));
+    for (int i = 0; i < 3; ++i) Kokkos::atomic_add(&contact(r, i), static_cast<std::uint64_t>(force.quanta[i]));
   }
   KOKKOS_INLINE_FUNCTION void subtract(int r, const FixedForce& force) const {
-    for (int i = 0; i < 3; ++i) Kokkos::atomic_add(&contact(r, i), static_cast<unsigned long long>(-force.quanta[i]));
+    for (int i = 0; i < 3; ++i) Kokkos::atomic_add(&contact(r, i), static_cast<std::uint64_t>(-force.quanta[i]));
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 contact_force(int r) const {

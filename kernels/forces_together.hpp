@@ -16,9 +16,8 @@ struct ForcesTogether {
   Patch patches;
   int set_teams;      ///< 1, or 0 where no load follows from a set
   int contact_teams;
-  int contact_count;
 
-  /// Slaves that one team takes: few, for it is the longest of them that the team waits for.
+  /// Slaves that one team takes at once: few, for it is the longest of them that the team waits for.
   static constexpr int slaves_of_team = 32;
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
@@ -26,8 +25,10 @@ struct ForcesTogether {
     if (rank < set_teams) {
       set_loads(team);
     } else if (rank < set_teams + contact_teams) {
-      const int i = (rank - set_teams) * slaves_of_team + team.team_rank();
-      if (team.team_rank() < slaves_of_team && i < contact_count) contact(i);
+      if (team.team_rank() >= slaves_of_team) return;
+      const int near_count = contact.window.near_count(0);
+      for (int i = (rank - set_teams) * slaves_of_team + team.team_rank(); i < near_count; i += contact_teams * slaves_of_team)
+        contact(i);
     } else {
       patches.run(team, rank - set_teams - contact_teams);
     }

@@ -123,7 +123,7 @@ struct PresentGap {
     const ContactArrays& contact = search.contact;
     const int s = entry.slave;
     const Vector3 slave = row(search.position, entry.node);
-    const int start = search.corner_at(contact.tracked(s), contact.place(s, 0), contact.place(s, 1));
+    const int start = search.corner_at(contact.tracked(s), {contact.place(s, 0), contact.place(s, 1)});
     const Projection found = search.locate(slave, search.closest_node(slave, start), -1);
     gap(s) = found.segment < 0 ? 1e300 : found.gap;
   }

@@ -260,7 +260,7 @@ void build_extra(const Collector& collector) {
   extra.row_count = rows;
   extra.contribution_count = collector.contributions();
   extra.sum.load = Array<double* [3]>("load on row", rows);
-  extra.sum.contact = Array<unsigned long long* [3]>("contact force on row", rows);
+  extra.sum.contact = Array<std::uint64_t* [3]>("contact force on row", rows);
   extra.sum.quantum = contact_quantum(model);
   extra.loaded_count = static_cast<int>(loaded.size());
   extra.loaded = to_device("loaded rows", loaded);

@@ -112,7 +112,7 @@ std::size_t device_bytes(const Model& model) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
                    c.surface, c.tracked, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
-                   pair.window.entries, pair.slaves_at_layout, pair.masters_at_layout);
+                   pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);
   }
   return total;
 }

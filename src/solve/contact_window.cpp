@@ -11,7 +11,7 @@ namespace railwave {
 namespace {
 
 /// The window reaches this many of the largest segment's diagonals beyond a segment.
-constexpr double margin_in_segments = 0.5;
+constexpr double margin_in_segments = 3;
 /// Most steps between two measurements of how far the surfaces have moved since the window was laid out.
 constexpr long most_steps_between_looks = 512;
 /// A layout is made early rather than followed by another look so soon.
@@ -40,29 +40,44 @@ Array<double* [3]> rows_of(const Array<double* [3]>& values, const Array<int*>& 
 
 using Rows = Array<double* [3]>::HostMirror;
 
-/// Points in cubic cells, for finding those near a place.
+/// Points in cubic cells as wide as the reach, for finding those within it of a place.
 class CellGrid {
  public:
-  CellGrid(const Rows& points, double cell) : points_(points), cell_(cell) {
-    for (int i = 0; i < static_cast<int>(points.extent(0)); ++i) cells_[key(index(i, 0), index(i, 1), index(i, 2))].push_back(i);
+  CellGrid(const Rows& points, double reach) : points_(points), cell_(reach) {
+    for (int i = 0; i < static_cast<int>(points.extent(0)); ++i) {
+      cells_[key(index(i, 0), index(i, 1), index(i, 2))].push_back(i);
+      for (int k = 0; k < 3; ++k) {
+        low_[k] = std::fmin(low_[k], points(i, k) - reach);
+        high_[k] = std::fmax(high_[k], points(i, k) + reach);
+      }
+    }
   }
 
-  /// Calls found(i, squared distance) for every point within `reach` (at most one cell) of (x, y, z).
-  template <class Found>
-  void near(const double (&x)[3], double reach, const Found& found) const {
+  /// The nearest point within the reach, of several the first, or -1; where `any` does, the first that comes.
+  int near(const double (&x)[3], bool any) const {
     long c[3];
-    for (int k = 0; k < 3; ++k) c[k] = static_cast<long>(std::floor(x[k] / cell_));
-    for (long i = c[0] - 1; i <= c[0] + 1; ++i)
-      for (long j = c[1] - 1; j <= c[1] + 1; ++j)
-        for (long k = c[2] - 1; k <= c[2] + 1; ++k) {
-          const auto cell = cells_.find(key(i, j, k));
+    for (int k = 0; k < 3; ++k) {
+      if (!(x[k] >= low_[k] && x[k] <= high_[k])) return -1;
+      c[k] = static_cast<long>(std::floor(x[k] / cell_));
+    }
+    int nearest = -1;
+    double least = cell_ * cell_;
+    constexpr int outwards[3] = {0, -1, 1};
+    for (int i : outwards)
+      for (int j : outwards)
+        for (int k : outwards) {
+          const auto cell = cells_.find(key(c[0] + i, c[1] + j, c[2] + k));
           if (cell == cells_.end()) continue;
           for (int p : cell->second) {
             const double dx = points_(p, 0) - x[0], dy = points_(p, 1) - x[1], dz = points_(p, 2) - x[2];
             const double squared = dx * dx + dy * dy + dz * dz;
-            if (squared <= reach * reach) found(p, squared);
+            if (squared > least || (squared == least && nearest >= 0 && nearest < p)) continue;
+            least = squared;
+            nearest = p;
+            if (any) return p;
           }
         }
+    return nearest;
   }
 
  private:
@@ -75,12 +90,13 @@ class CellGrid {
 
   Rows points_;
   double cell_;
+  double low_[3] = {1e300, 1e300, 1e300}, high_[3] = {-1e300, -1e300, -1e300};
   std::unordered_map<long, std::vector<int>> cells_;
 };
 
 /// Largest squared distance of a surface's nodes from where they were, and largest squared speed, in blocks.
 struct SurfaceMotion {
-  static constexpr int block = 256;
+  static constexpr int block = 16;
   Array<const double* [3]> position, velocity;
   Array<const int*> nodes;
   Array<const double* [3]> before;
@@ -171,22 +187,20 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
   std::vector<int> near(contact.slave_count, 1);
   const auto before = to_host(pair.window.entries);
   for (int i = 0; i < pair.window.count; ++i) near[before(i).slave] = before(i).near;
+  const auto tracked = to_host(contact.tracked);
   std::vector<int> nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
   for (int s = 0; s < contact.slave_count; ++s) {
-    const double x[3] = {slaves(s, 0), slaves(s, 1), slaves(s, 2)};
-    double least = reach * reach * 1.01;
-    grid.near(x, reach, [&](int m, double squared) {
-      if (squared < least || (squared == least && m < nearest[s])) {
-        least = squared;
-        nearest[s] = m;
-      }
-    });
-    if (least > reach * reach) continue;
+    // A node that is tracked already needs no place to begin at.
+    const int found = grid.near({slaves(s, 0), slaves(s, 1), slaves(s, 2)}, tracked(s) >= 0);
+    if (found < 0) continue;
     entries.push_back({s, pair.slave_nodes[s], near[s], 0});
+    nearest[s] = found;
     inside[s] = 1;
   }
   pair.window.count = static_cast<int>(entries.size());
   pair.window.entries = to_device("window", entries);
+  pair.window.near = unset_array<int*>("near nodes", entries.size());
+  pair.window.near_count = Array<int*>("number of near nodes", 1);
   Kokkos::parallel_for("enter_or_leave", Range(0, contact.slave_count),
                        EnterOrLeave{contact, to_device("inside window", inside), to_device("nearest", nearest)});
 }
@@ -231,6 +245,7 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
   pair.next_near_look = model.step + steps;
   const double interval = static_cast<double>(steps) * instant.step;
+  Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   Kokkos::parallel_for("contact_look", ContactRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
                                    interval, static_cast<double>(steps) * sudden, pair.missed});

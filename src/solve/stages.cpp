@@ -1,5 +1,7 @@
 #include "solve/stages.hpp"
 
+#include <algorithm>
+
 #include "kernels/listed_nodes.hpp"
 #include "model/element_precision.hpp"
 #include "model/group_material.hpp"
@@ -18,6 +20,9 @@ NodeAdvance node_advance(const Model& model, double step) {
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which costs
 /// strain a few parts in 1e9.
 constexpr long steps_between_frames = 64;
+
+/// Of 32 slave nodes each: a GPU has about as many multiprocessors.
+constexpr int most_contact_teams = 128;
 
 /// More rows than this are not for one team.
 constexpr int most_rows_of_a_team = 4096;
@@ -57,10 +62,10 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
   const ContactPair& pair = model.contacts.front();
   using Together = ForcesTogether<Patch, Friction>;
   const int set_teams = sets_go_along(model, instant) ? 1 : 0;
-  const int contact_teams = (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team;
+  // How many nodes can touch is known on the device only; should they be more, teams take several turns.
+  const int contact_teams = std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team);
   launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
-               Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams,
-                        pair.window.count});
+               Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams});
 }
 
 template <class S, class Hourglass, bool Advance>
@@ -154,7 +159,7 @@ Stage contact_stage(Model& model, ContactPair& pair) {
   return {"contact " + pair.contact->name + (Friction ? ", friction" : ", frictionless"),
           [&model, &pair, first](const Instant& instant) {
             // The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
-            if (first && model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, 0ULL);
+            if (first && model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, std::uint64_t{0});
             model.contact_uncleared = true;
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;

@@ -72,11 +72,15 @@ struct Ask {
   Array<const int* [2]> from;
   int only;  ///< segment to project on, -1: locate
   Array<Answer*> answers;
+  KOKKOS_INLINE_FUNCTION Projection beyond_its_sides(const Vector3& x) const {
+    const SeenSegment seen = search.see(x, only);
+    return search.at(seen, search.nearest_place(seen, {0, 0}));
+  }
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const Vector3 x = row(slave, i);
     const int closest = search.closest_node(x, from(i, 0));
-    const Projection p = only >= 0 ? search.project(x, only) : search.locate(x, closest, from(i, 1));
-    answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, x + p.offset, p.normal};
+    const Projection p = only >= 0 ? beyond_its_sides(x) : search.locate(x, closest, from(i, 1));
+    answers(i) = {closest, p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal};
   }
 };
 
@@ -92,7 +96,7 @@ struct Travel {
       closest = search.closest_node(x, closest);
       const Projection p = search.locate(x, closest, previous);
       previous = p.segment;
-      answers(i) = {closest, p.segment, p.xi, p.eta, p.gap, x + p.offset, p.normal};
+      answers(i) = {closest, p.segment, p.place.xi, p.place.eta, p.gap, x + p.offset, p.normal};
     }
   }
 };

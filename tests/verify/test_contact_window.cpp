@@ -54,7 +54,7 @@ TwoBlocks small_on_large() {
 TEST_CASE("how often the contact window is laid out changes no bit of an impact that slides") {
   TwoBlocks blocks = small_on_large();
   blocks.gap = 1e-4;
-  scene::Scene scene = blocks.scene(1.5e-4);
+  scene::Scene scene = blocks.scene(3e-4);  // 18 mm, so that the window is laid out more than once
   scene::InitialMotion motion;
   motion.parts = {"upper"};
   motion.velocity = {60, 10, -8};
@@ -80,13 +80,13 @@ TEST_CASE("how often the contact window is laid out changes no bit when a body a
 TEST_CASE("slaves outside the window are too far from every segment to touch it") {
   TwoBlocks blocks = small_on_large();
   blocks.gap = 1e-3;
-  blocks.upper_size = {0.03, 0.01, 0.005};
-  blocks.upper_divisions = {15, 5, 2};
+  blocks.upper_size = {0.12, 0.01, 0.005};  // its ends hang over
+  blocks.upper_divisions = {50, 5, 2};
   scene::Scene scene = blocks.scene(3e-4);
   scene::InitialMotion motion;
   motion.parts = {"upper"};
   motion.velocity = {30, 0, -20};
-  motion.angular_velocity = {0, 3000, 0};  // one end meets the lower block, the other rises 10 mm
+  motion.angular_velocity = {0, 800, 0};  // one end meets the lower block, the other rises
   scene.initial_motions.push_back(motion);
   Model model;
   build_model(scene, model);

@@ -18,8 +18,9 @@ NodeAdvance node_advance(const Model& model, double step) {
 }
 
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which costs
-/// strain a few parts in 1e9.
+/// strain a few parts in 1e9. Whole rounds of any levels, so that every patch is evaluated when its frame is due.
 constexpr long steps_between_frames = 64;
+static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
 
 /// Of 32 slave nodes each: a GPU has about as many multiprocessors.
 constexpr int most_contact_teams = 128;

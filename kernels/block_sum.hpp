@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/spaces.hpp"
+#include "kernels/team.hpp"
 
 namespace railwave {
 
@@ -13,13 +13,18 @@ inline constexpr int sum_block = 32;
 template <class Term>
 struct BlockSum {
   Term term;
-  int count;
+  int count, blocks;
   double* result;  ///< block after block
 
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
     double sum[Term::values] = {};
-    const int end = (b + 1) * sum_block < count ? (b + 1) * sum_block : count;
-    for (int i = b * sum_block; i < end; ++i) term(i, sum);
+    if constexpr (on_device) {
+      // A block is every so many items: threads side by side read what lies side by side.
+      for (int i = b; i < count; i += blocks) term(i, sum);
+    } else {
+      const int end = (b + 1) * sum_block < count ? (b + 1) * sum_block : count;
+      for (int i = b * sum_block; i < end; ++i) term(i, sum);
+    }
     for (int k = 0; k < Term::values; ++k) result[b * Term::values + k] = sum[k];
   }
 };
@@ -51,9 +56,9 @@ void block_sum(const Term& term, int count, double* result, const Array<double*>
   const auto work = space.extent(0) >= needed ? space : unset_array<double*>("block sums", needed);
   const int blocks = (count + sum_block - 1) / sum_block, groups = (blocks + sum_block - 1) / sum_block;
   double* const second = work.data() + static_cast<std::size_t>(blocks) * values;
-  Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, work.data()});
+  Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, blocks, work.data()});
   Kokkos::parallel_for("left_sum", Range(0, groups),
-                       BlockSum<LeftSum<values>>{LeftSum<values>{work.data()}, blocks, second});
+                       BlockSum<LeftSum<values>>{LeftSum<values>{work.data()}, blocks, groups, second});
   const auto sums = Kokkos::subview(work, Kokkos::make_pair(static_cast<std::size_t>(blocks) * values,
                                                             static_cast<std::size_t>(blocks + groups) * values));
   const auto host = Kokkos::create_mirror_view(sums);

@@ -21,6 +21,7 @@ Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, con
 }
 
 void set_initial_motion(Model& model) {
+  if (model.scene.initial_motions.empty()) return;
   const auto position = to_host(model.nodes.position);
   const auto velocity = to_host(model.nodes.velocity);
   for (const scene::InitialMotion& motion : model.scene.initial_motions)

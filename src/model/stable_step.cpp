@@ -16,17 +16,6 @@
 namespace railwave {
 namespace {
 
-/// Stable step of each element, V / (A_max C_d).
-std::vector<double> element_steps(const Model& model) {
-  std::vector<double> steps(model.element_length.size());
-  for (const auto& part : model.assembly.parts) {
-    const double speed = model.scene.materials[part.material].dilatational_speed();
-    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-      steps[e] = model.element_length[e] / speed;
-  }
-  return steps;
-}
-
 /// Stable steps of each element by its highest eigenvalues.
 struct EigenvalueSteps {
   std::vector<double> step, control;
@@ -45,6 +34,18 @@ EigenvalueSteps eigenvalue_steps(const Model& model) {
       steps.step[e] = own.step;
       steps.control[e] = own.control;
     }
+  }
+  return steps;
+}
+
+/// Stable step of each element, V / (A_max C_d), which knows of waves only, and no more than its hourglass control allows: a
+/// viscous one of more than about 0.13 would else go unstable.
+std::vector<double> element_steps(const Model& model, const EigenvalueSteps& eigenvalues) {
+  std::vector<double> steps(model.element_length.size());
+  for (const auto& part : model.assembly.parts) {
+    const double speed = model.scene.materials[part.material].dilatational_speed();
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      steps[e] = std::fmin(model.element_length[e] / speed, eigenvalues.control[e]);
   }
   return steps;
 }
@@ -156,8 +157,8 @@ double together(double step, double frequency) { return 2 / std::sqrt(4 / (step 
 
 void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
-  const auto heights = element_steps(model);
   const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
+  const auto heights = element_steps(model, eigenvalues);
   std::tie(stable.element, stable.elements) = least_of(heights);
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
   stable.by_elements = stable.elements;
@@ -182,7 +183,8 @@ void estimate_by_elements(Model& model) {
 }  // namespace
 
 std::vector<double> own_steps(const Model& model) {
-  return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalue_steps(model).step : element_steps(model);
+  const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
+  return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalues.step : element_steps(model, eigenvalues);
 }
 
 double largest_step(const Model& model) {

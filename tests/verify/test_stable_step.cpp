@@ -144,6 +144,25 @@ TEST_CASE("viscous hourglass control is in the global step as the damping it is"
   }
 }
 
+TEST_CASE("strong viscous hourglass control shortens the element estimate to what it can bear") {
+  for (double coefficient : {0.1, 0.2, 0.4}) {
+    scene::Scene scene = body({6, 6, 6}, scene::StepEstimate::element, scene::HourglassType::viscous);
+    set_hourglass(scene.parts[0], scene::HourglassType::viscous, coefficient);
+    scene.time.step_scale = 0.9;
+    Model model;
+    build_model(scene, model);
+    INFO("coefficient " << coefficient);
+    CHECK(largest_speed(model, 5000) < 1e-3);
+
+    // By the elements' heights alone, 10 mm over the speed of dilatational waves.
+    Model by_heights;
+    build_model(scene, by_heights);
+    by_heights.step_size = 0.9 * 0.01 / scene.materials[0].dilatational_speed();
+    if (coefficient > 0.15) CHECK(!(largest_speed(by_heights, 5000) < 1));
+    else CHECK_THAT(model.stable_step.elements, WithinRel(0.01 / scene.materials[0].dilatational_speed(), 1e-6));
+  }
+}
+
 TEST_CASE("contact at f_SI = 1 in a chain of 1 mm elements allows 0.88 of the elements' own step") {
   // The chain is one-dimensional: without hourglass motion, which viscous control damps.
   const auto chain = [](double hourglass) {

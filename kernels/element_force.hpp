@@ -35,19 +35,20 @@ struct Elastic {
 /// its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N.
 /// The sums go to `partial`, which the nodes add up in fixed order (no atomics: bitwise the same on any number of threads);
 /// nodes that are the patch's alone are advanced at once where `Advance` says so.
-template <class S, class Material, class Hourglass, bool Advance>
+/// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
+template <class S, class Material, class Hourglass, bool Advance, class Nodes = NodeAdvance>
 struct PatchForce {
   using T = Pack<S>;
 
   Material material;
   PatchArrays patches;
   Array<const float*> hourglass_scale;
-  NodeAdvance nodes;
+  Nodes nodes;
   double step;              ///< s, for the dissipated hourglass energy
   Array<PartialForce<S>*> partial;  ///< N
   int first_partial;        ///< row of the patches' first node
 
-  using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance>;
+  using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
 
   /// Scratch memory of a team, bytes.
   static std::size_t scratch_size(const PatchArrays& patches) {
@@ -209,7 +210,7 @@ struct PatchForce {
     if constexpr (Advance) {
       const int n = patches.node(place);
       if (n < 0) {
-        staged.advance(nodes, n & ~advance_bit, l, force);
+        staged.advance(nodes, p, n & ~advance_bit, l, force);
         return;
       }
     }

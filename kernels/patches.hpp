@@ -94,8 +94,17 @@ struct RenewFrames {
   }
 };
 
+/// The modes of one component over a batch's elements.
+template <class S>
+KOKKOS_FORCEINLINE_FUNCTION void corner_modes(const S* component, const BatchCorners<S>& corners, Pack<S> (&m)[7]) {
+  Pack<S> u[8];
+  for (int N = 0; N < 8; ++N) u[N] = corners.gather(component, N);
+  modes_of(u, m);
+}
+
 /// A patch's nodes in scratch memory, component by component.
-template <class S, bool WithVelocity, bool WithMass>
+/// @tparam Nodes what moves them: NodeAdvance, or CarriedAdvance where nodes are in single precision (carried_patches.hpp)
+template <class S, bool WithVelocity, bool WithMass, class Nodes = NodeAdvance>
 struct StagedNodes {
   S* position;           ///< m; in single precision from the frame's point
   S* displacement;       ///< m, from the reference, in single precision from the frame's rigid motion
@@ -167,7 +176,7 @@ struct StagedNodes {
   }
 
   /// Moves a node under a force, N; what is staged in full precision need not be fetched again.
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int n, int l, const Vector3& force) const {
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int /*p*/, int n, int l, const Vector3& force) const {
     const Vector3 a = nodes.acceleration(inverse_mass[l], force);
     if constexpr (!narrow && WithVelocity)
       nodes.move(n, a, {{position[l], position[stride + l], position[2 * stride + l]}},
@@ -175,11 +184,8 @@ struct StagedNodes {
     else nodes.move(n, a);
   }
 
-  /// The modes of one component over a batch's elements.
   KOKKOS_FORCEINLINE_FUNCTION void modes(const S* component, const BatchCorners<S>& corners, Pack<S> (&m)[7]) const {
-    Pack<S> u[8];
-    for (int N = 0; N < 8; ++N) u[N] = corners.gather(component, N);
-    modes_of(u, m);
+    corner_modes(component, corners, m);
   }
 };
 

@@ -9,6 +9,7 @@ void refuse_unknown_methods(const scene::Scene& scene);  ///< solver_support.cpp
 void check_elements(const Model& model);  ///< element_groups.cpp: InputError for an element that is inverted or flat
 void build_elements(Model& model);     ///< element_groups.cpp: patches, hourglass scales, lengths, masses
 void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
+void build_carried_nodes(Model& model);  ///< carriers.cpp: nodes in single precision
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void build_stable_step(Model& model);  ///< stable_step.cpp

@@ -29,6 +29,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_contacts(model);
   build_loads(model);
   build_node_arrays(model);
+  build_carried_nodes(model);
   model.sum_space = unset_array<double*>("space of sums", account_space(model));
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
@@ -79,6 +80,7 @@ void reset_to_start(Model& model) {
     pair.next_look = -1;
     pair.slaves_at_layout = {};
   }
+  model.carried.begun = false;
   model.time = 0;
   model.step = 0;
   model.velocity_lag = 0;
@@ -106,8 +108,10 @@ std::size_t device_bytes(const Model& model) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
                    p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants,
-                   group.plastic.constants, group.plastic.history, group.plastic.volume);
+                   group.plastic.constants, group.plastic.history, group.plastic.volume, group.carried.local, group.carried.arm);
   }
+  const CarriedNodes& carried = model.carried;
+  total += bytes(carried.node, carried.listed_arm, carried.motion, carried.steps);
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,

@@ -6,6 +6,7 @@
 
 #include "case/scene.hpp"
 #include "kernels/bilinear.hpp"
+#include "kernels/carried_nodes.hpp"
 #include "kernels/contact_arrays.hpp"
 #include "kernels/element_force.hpp"
 #include "kernels/nodes.hpp"
@@ -24,6 +25,35 @@ struct PlasticArrays {
   bool active() const { return constants.extent(0) > 0; }
 };
 
+/// What patches have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
+struct CarriedPatches {
+  Array<float*> local;
+  Array<CarriedArm*> arm;
+};
+
+/// Nodes in single precision and their carriers, one for each part and point mass: the rigid motion that suits its velocities
+/// best when the run begins. From then on these nodes are the state, and the double ones follow: those that extra forces or
+/// constraints concern at every step, the others when somebody looks. Empty unless the case asks for precision = "float".
+struct CarriedNodes {
+  struct Range {
+    int first, count;                  ///< nodes of a carrier
+  };
+
+  Array<CarriedNode*> node;
+  Array<CarriedArm*> listed_arm;       ///< of each listed node
+  Array<CarrierMotion*> motion;        ///< by carrier
+  Array<CarrierStep*> steps;           ///< of a block of steps, see LayCarrierSteps
+  std::vector<Range> range;            ///< by carrier
+  std::vector<CarrierMotion> host_motion;
+  bool begun = false;                  ///< the nodes have been taken over
+  long block_step = 0;                 ///< the block's first step
+  double block_time = 0;               ///< s, its time since the nodes were taken over
+  double block_size = 0;               ///< s, of its steps; 0: none is laid
+
+  bool active() const { return !range.empty(); }
+  double time_of(long step) const { return block_time + static_cast<double>(step - block_step) * block_size; }
+};
+
 /// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control.
 struct ElementGroup {
   std::string parts;                   ///< their names, for the summary
@@ -32,6 +62,7 @@ struct ElementGroup {
   PatchArrays patches;
   Array<ElasticConstants*> constants;  ///< by the patches' material row
   PlasticArrays plastic;
+  CarriedPatches carried;
   int first_partial = 0;               ///< row of the first patch's first node in the partial forces
   std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
   std::vector<int> element_count;      ///< of each patch
@@ -109,6 +140,7 @@ struct Model {
   long step_count = 0;                 ///< steps from 0 to the end, if the step stays
 
   NodeArrays nodes;
+  CarriedNodes carried;
   Array<double* [3][3]> constraints;
   PatchOrder order;
   std::vector<ElementGroup> elements;

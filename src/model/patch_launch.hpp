@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/carried_patches.hpp"
 #include "kernels/forces_together.hpp"
 
 namespace railwave {
@@ -11,12 +12,17 @@ inline constexpr int blocks_at_once = sizeof(S) == sizeof(double) ? 4 : 7;
 
 template <class Functor>
 struct LaunchBoundsOf;
-template <class S, class Material, class Hourglass, bool Advance>
-struct LaunchBoundsOf<PatchForce<S, Material, Hourglass, Advance>> {
+template <class S, class Material, class Hourglass, bool Advance, class Nodes>
+struct LaunchBoundsOf<PatchForce<S, Material, Hourglass, Advance, Nodes>> {
   using type = Kokkos::LaunchBounds<patch_size, blocks_at_once<S>>;
 };
 template <class S, class Material, class Hourglass>
 struct LaunchBoundsOf<PatchState<S, Material, Hourglass>> {
+  using type = Kokkos::LaunchBounds<patch_size, 1>;
+};
+
+template <>
+struct LaunchBoundsOf<CarriedPatchUpdate> {
   using type = Kokkos::LaunchBounds<patch_size, 1>;
 };
 

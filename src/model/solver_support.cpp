@@ -14,8 +14,8 @@ namespace {
 
 void refuse_unknown_methods(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
-  if (solver.precision == scene::Precision::single_precision)
-    refuse(scene, "precision = \"float\"", "set it to \"double\" or \"mixed\"");
+  if (solver.precision == scene::Precision::single_precision && solver.subcycling)
+    refuse(scene, "precision = \"float\" with subcycling = true", "leave one of the two out, or set precision to \"mixed\"");
   if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
     refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kernels/listed_nodes.hpp"
+#include "model/carriers.hpp"
 #include "model/element_precision.hpp"
 #include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
@@ -69,19 +70,18 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
                Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams});
 }
 
-template <class S, class Hourglass, bool Advance>
-void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
+/// Steps from one evaluation of a group's elements to the next.
+double pace_of(const ElementGroup& group) { return static_cast<double>(1L << group.level); }
+
+template <class S, class Hourglass, bool Advance, class Nodes>
+void patch_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Nodes& nodes, const Instant& instant) {
   const auto partial = [&] {
     if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
     else return model.partial.narrow;
   }();
-  const double pace = static_cast<double>(1L << group.level);
-  NodeAdvance own = node_advance(model, instant.step);
-  own.velocity_step *= pace;
-  own.step *= pace;
   with_material(group, [&](const auto& material) {
-    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance>;
-    const Force force{material, group.patches, scale, own, pace * instant.step, partial, group.first_partial};
+    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance, Nodes>;
+    const Force force{material, group.patches, scale, nodes, pace_of(group) * instant.step, partial, group.first_partial};
     if constexpr (on_device && Advance) {
       if (go_together(model, instant) && &group == &model.elements.front()) {
         if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
@@ -91,6 +91,22 @@ void element_forces(const Model& model, const ElementGroup& group, const Array<f
     }
     launch_patches(group.patches, force);
   });
+}
+
+template <class S, class Hourglass, bool Advance>
+void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
+  if constexpr (sizeof(S) < sizeof(double)) {
+    // While a scene settles its nodes are in double precision whatever the run's own.
+    if (model.carried.active() && !instant.settling) {
+      const CarriedAdvance nodes = carried_advance(model, group.carried, instant.step);
+      patch_forces<S, Hourglass, Advance>(model, group, scale, nodes, instant);
+      return;
+    }
+  }
+  NodeAdvance nodes = node_advance(model, instant.step);
+  nodes.velocity_step *= pace_of(group);
+  nodes.step *= pace_of(group);
+  patch_forces<S, Hourglass, Advance>(model, group, scale, nodes, instant);
 }
 
 template <class S>
@@ -104,17 +120,33 @@ void element_forces(const Model& model, const ElementGroup& group, const Instant
   else element_forces<S, StiffnessHourglass, false>(model, group, patches.hourglass_scale, instant);
 }
 
+/// Nodes in single precision need frames only for what the account and the outputs compute from the double ones.
+bool frames_are_due(const Model& model, const Instant& instant) {
+  if (model.carried.active() && !instant.settling) return !instant.advancing;
+  return model.step % steps_between_frames == 0;
+}
+
 Stage element_stage(Model& model, const ElementGroup& group) {
   const bool viscous = group.hourglass == scene::HourglassType::viscous;
   const auto run = [&model, &group](const Instant& instant) {
     model.patches_have_advanced = instant.advancing;
     if (!instant.settling && group.level > model.subcycling.phase(model.step)) return;
-    if (model.step % steps_between_frames == 0) renew_frames(model, group);
+    if (frames_are_due(model, instant)) renew_frames(model, group);
     with_element_precision(model.scene, [&](auto number) { element_forces<decltype(number)>(model, group, instant); });
   };
   const char* kind = group.plastic.active() ? ", elastoplastic" : "";
   const std::string pace = group.level == 0 ? "" : ", every " + std::to_string(1L << group.level) + " steps";
   return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control" + pace, run};
+}
+
+/// Before all else: nodes in single precision, and the double ones where somebody looks.
+Stage carrier_stage(Model& model) {
+  return {"carriers of nodes in single precision", [&model](const Instant& instant) {
+            if (instant.settling) return;
+            if (!model.carried.begun) take_nodes_over(model);
+            else if (!instant.advancing) give_nodes_back(model);
+            lay_carrier_steps(model, instant.step);
+          }};
 }
 
 /// A load that puts the values of its contributions in place by a kernel of its own.
@@ -178,10 +210,22 @@ void advance_in_phase(const Model& model, const NodeAdvance& advance_node) {
   if (count > 0) Kokkos::parallel_for("paced_nodes", RowRange(0, count), update);
 }
 
+/// Nodes in single precision.
+void advance_carried(const Model& model, double step) {
+  if (!model.patches_have_advanced)
+    for (const ElementGroup& group : model.elements)
+      launch_patches(group.patches, CarriedPatchUpdate{group.patches, carried_advance(model, group.carried, step),
+                                                       model.partial.narrow, group.first_partial});
+  Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
+                       CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, step), model.listed_nodes,
+                                           model.carried.listed_arm, row_loads(model, model.rows_elapsed), model.rows_are_due});
+}
+
 }  // namespace
 
 std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages;
+  if (model.carried.active()) stages.push_back(carrier_stage(model));
   for (const LoadArrays& load : model.loads)
     if (load.torque < 0) stages.push_back(load_stage(model, load));
   if (model.extra.loaded_count > 0) stages.push_back(set_load_stage(model));
@@ -195,6 +239,7 @@ std::vector<Stage> force_stages(Model& model) {
 void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
   if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
+  else if (model.carried.active()) advance_carried(model, step);
   else if (model.patches_have_advanced)
     Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
                          ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,

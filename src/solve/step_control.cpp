@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/carriers.hpp"
 #include "model/host_copy.hpp"
 #include "model/stable_step.hpp"
 
@@ -66,6 +67,7 @@ bool StepControl::plan() {
 
 bool StepControl::renew() {
   if (!due() || model_.step == model_.step_count) return false;
+  if (model_.carried.begun) give_nodes_back(model_);
   renew_global_step(model_);
   ++renewals_;
   renewed_at_ = model_.step;

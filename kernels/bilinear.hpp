@@ -22,13 +22,14 @@ struct Bilinear {
     S turn[3][3];  ///< R, which single precision leaves out of displacements
   };
 
-  template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(const PatchArrays& patches, int p) const {
+  /// @param turn see StagedNodes::turn
+  template <class S, class Turn>
+  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(const PatchArrays& patches, int p, const Turn& turn) const {
     OfPatch<S> result;
     result.constants = constants(patches.material(p));
     if constexpr (sizeof(S) < sizeof(double))
       for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(patches.frame(p, 3 * i + j));
+        for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(turn(i, j));
     return result;
   }
 

@@ -27,6 +27,11 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
     inverse_mass = position + (WithVelocity ? 9 : 6) * stride;
   }
 
+  /// The turn that displacements leave out.
+  KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const PatchArrays& /*patches*/, int p, const CarriedArrays& nodes) {
+    return nodes.carrier(nodes.arm(p).carrier).turn;
+  }
+
   struct Fetched {
     CarriedNode node;
     float local[3];

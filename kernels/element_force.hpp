@@ -10,8 +10,8 @@ struct Elastic {
   Array<const ElasticConstants*> constants;  ///< by row
 
   /// What the elements of a patch share.
-  template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION ElasticConstants of_patch(const PatchArrays& patches, int p) const {
+  template <class S, class Turn>
+  KOKKOS_FORCEINLINE_FUNCTION ElasticConstants of_patch(const PatchArrays& patches, int p, const Turn& /*turn*/) const {
     return constants(patches.material(p));
   }
   KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const ElasticConstants& patch) { return patch; }
@@ -64,7 +64,7 @@ struct PatchForce {
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, patch_size);
     const int elements = patches.element_count(p);
-    const auto constants = material.template of_patch<S>(patches, p);
+    const auto constants = material.template of_patch<S>(patches, p, Staged::turn(patches, p, nodes.nodes));
     const SumLists lists = sum_lists(team, p);
     if constexpr (on_device) {
       // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
@@ -283,7 +283,7 @@ struct PatchState {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
     const T to_cauchy = determinant(H);
-    const auto constants = material.template of_patch<S>(patches, p);
+    const auto constants = material.template of_patch<S>(patches, p, Staged::turn(patches, p, nodes));
     T h[6];
     material.template leave_elastic_part<S>(constants, batch, H, e);
     hencky_strain(e, h);

@@ -64,6 +64,14 @@ struct PatchArrays {
   Array<double*> hourglass_energy;     ///< power_sums for each patch: J dissipated so far
 };
 
+/// The turn that a patch's frame takes out, by rows.
+struct FrameTurn {
+  const PatchArrays& patches;
+  int p;
+
+  KOKKOS_FORCEINLINE_FUNCTION double operator()(int i, int j) const { return patches.frame(p, 3 * i + j); }
+};
+
 /// Lays the frames along three of each patch's nodes as they stand now.
 struct RenewFrames {
   PatchArrays patches;
@@ -146,6 +154,11 @@ struct StagedNodes {
     } else {
       for (int l = 0; l < stride; ++l) put(l, Fetched(nodes, number[l] & ~advance_bit));
     }
+  }
+
+  /// The turn that displacements leave out, in single precision.
+  KOKKOS_FORCEINLINE_FUNCTION static FrameTurn turn(const PatchArrays& patches, int p, const NodeArrays& /*nodes*/) {
+    return {patches, p};
   }
 
   struct Fetched {

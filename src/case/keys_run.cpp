@@ -51,7 +51,10 @@ Section solver_section() {
   auto section = single_section("solver", &Scene::solver, "How the time loop computes: its numbers and its steps.");
   section.keys = {
       key("precision", &Solver::precision,
-          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double")
+          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double; `float` keeps "
+          "the nodes in single precision too, as what the rigid motion with which each part begins leaves of their motion, and "
+          "contact, loads, constraints and the energy account in double: for bodies that go on much as they begin, as rounding "
+          "grows with the way between")
           .one_of({"double", "mixed", "float"}),
       key("step_estimate", &Solver::step_estimate,
           "what the stable step is taken from: each element's height over the wave speed, each element's highest "

@@ -194,7 +194,7 @@ enum class StepEstimate { element, eigenvalue, global };
 
 /// How the time loop computes; what it computes is the other sections' matter.
 struct Solver {
-  Precision precision = Precision::double_precision;  ///< mixed: elements in single, nodes in double precision
+  Precision precision = Precision::double_precision;  ///< mixed: elements in single, nodes in double; single: both in single
   StepEstimate step_estimate = StepEstimate::element; ///< what the stable step is taken from
   bool subcycling = false;         ///< coarse regions take larger steps than fine ones
   int renew_steps = 20000;         ///< steps between renewals of the global estimate; 0: never

@@ -21,10 +21,24 @@ void refused(const scene::Scene& scene, const std::string& wish, const std::stri
 
 }  // namespace
 
-TEST_CASE("a precision that the loop does not have is refused") {
+TEST_CASE("nodes in single precision are refused where some take longer steps than others") {
   scene::Scene scene = block();
   scene.solver.precision = scene::Precision::single_precision;
-  refused(scene, "precision = \"float\"", "\"double\"");
+  scene.solver.subcycling = true;
+  refused(scene, "precision = \"float\"", "\"mixed\"");
+}
+
+TEST_CASE("a scene without subcycling may have any precision, and the summary says which") {
+  for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+    scene::Scene scene = block();
+    scene.solver.precision = precision;
+    Model model;
+    build_model(scene, model);
+    int lines = 0;
+    for (const std::string& line : model.left_out) lines += line.find("double precision") != std::string::npos ? 1 : 0;
+    CHECK(lines == (precision == scene::Precision::double_precision ? 0 : 1));
+    CHECK(model.carried.active() == (precision == scene::Precision::single_precision));
+  }
 }
 
 TEST_CASE("subcycling with a step that rests on the whole scene is refused") {

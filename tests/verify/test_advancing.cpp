@@ -66,7 +66,7 @@ TEST_CASE("nodes that patches advance at once move as all others do, bit by bit"
   spring.damping = {10, 20, 30};
   scene.connectors.push_back(spring);
   for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
-    for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed}) {
+    for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
       for (scene::Part& part : scene.parts) set_hourglass(part, hourglass, 0.1);
       scene.solver.precision = precision;
       const auto plain = outcome(scene, 200, false), advanced = outcome(scene, 200, true);

@@ -72,7 +72,7 @@ double slope(const std::vector<PullPoint>& points, double from, double to) {
 }  // namespace
 
 TEST_CASE("a bar pulled past yield stiffens along its two slopes and keeps its energy account") {
-  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed}) {
+  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     double imbalance = 1, plastic = 0;
     const auto points = pull(precision, imbalance, plastic);
     const double elastic_slope = slope(points, 50e6, 350e6), plastic_slope = slope(points, 440e6, 560e6);

@@ -2,6 +2,7 @@
 
 #include "kernels/carrier.hpp"
 #include "kernels/set_loads.hpp"
+#include "kernels/team.hpp"
 
 namespace railwave {
 
@@ -57,13 +58,24 @@ struct CarriedAdvance {
 
   /// @param carrier_change by what the carrier's velocity changes for each arm, 1/s
   /// @param arm m
-  KOKKOS_FORCEINLINE_FUNCTION CarriedNode moved(CarriedNode node, const float (&a)[3], const Matrix3<float>& carrier_change,
-                                                const float (&arm)[3]) const {
+  KOKKOS_FORCEINLINE_FUNCTION CarriedNode move(int n, const float (&a)[3], const Matrix3<float>& carrier_change,
+                                               const float (&arm)[3]) const {
+    CarriedNode node = nodes.node(n);
     for (int i = 0; i < 3; ++i) {
       // The small changes first, so that one rounding is left to the large velocity.
       const float change = multiply_add(velocity_step, a[i], -product(carrier_change, i, arm[0], arm[1], arm[2]));
       node.velocity[i] += change;
       node.displacement[i] = multiply_add(step, node.velocity[i], node.displacement[i]);
+    }
+    if constexpr (on_device) {
+      nodes.node(n) = node;
+    } else {
+      // A host had better not put the numbers together first.
+      CarriedNode& own = nodes.node(n);
+      for (int i = 0; i < 3; ++i) {
+        own.displacement[i] = node.displacement[i];
+        own.velocity[i] = node.velocity[i];
+      }
     }
     return node;
   }
@@ -85,18 +97,16 @@ struct CarriedListedUpdate {
     const NodeArrays& wide = acceleration.force.nodes;
     const int n = node.node & ~special_bit;
     const bool special = node.node < 0;
-    const CarriedNode before = advance.nodes.node(n);
     const CarrierStep& carrier = advance.nodes.carrier(own.carrier);
     const int r = special ? wide.extra(n) : -1;
     if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows(rows.extra.loaded_of_row(r));
     float a[3];
-    advance.acceleration(before.inverse_mass, acceleration.force(node), a);
+    advance.acceleration(advance.nodes.node(n).inverse_mass, acceleration.force(node), a);
     if (special) {
       const Vector3 free = acceleration.constrain(n, {{a[0], a[1], a[2]}});
       for (int k = 0; k < 3; ++k) a[k] = static_cast<float>(free[k]);
     }
-    const CarriedNode after = advance.moved(before, a, carrier.change_at_start, own.x);
-    advance.nodes.node(n) = after;
+    const CarriedNode after = advance.move(n, a, carrier.change_at_start, own.x);
     if (special) {
       const Vector3 X = row(wide.reference, n), x = carrier.next.position(X), v = carrier.next.velocity_of(X);
       for (int k = 0; k < 3; ++k) {

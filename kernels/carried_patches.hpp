@@ -106,7 +106,7 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
       arm[i] = product(carrier.turn, i, origin.x[0], origin.x[1], origin.x[2]) +
                (position[i * stride + l] - displacement[i * stride + l]);
     // Its velocity is fetched again: what is staged has the carrier's in it.
-    nodes.nodes.node(n) = nodes.moved(nodes.nodes.node(n), a, carrier.change, arm);
+    nodes.move(n, a, carrier.change, arm);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION void modes(const float* component, const BatchCorners<float>& corners, Pack<float> (&m)[7]) const {

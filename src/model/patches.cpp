@@ -7,12 +7,14 @@
 namespace railwave {
 namespace {
 
-/// In the way that makes fewer patches.
+/// A few patches less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 % slower.
+constexpr double worthwhile_share = 0.95;
+
 void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
   std::vector<int> grown = elements, first_grown = first;
   halve_into_patches(assembly, elements, begin, end, first);
   grow_patches(assembly, grown, begin, end, first_grown);
-  if (first.size() <= first_grown.size()) return;
+  if (first_grown.size() >= worthwhile_share * first.size()) return;
   std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
   first = std::move(first_grown);
 }

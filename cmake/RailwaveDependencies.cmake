@@ -16,6 +16,8 @@ endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
+find_package(Threads REQUIRED)
+
 find_package(HDF5 REQUIRED COMPONENTS C)
 add_library(railwave_hdf5 INTERFACE)
 target_include_directories(railwave_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "output/field_names.hpp"
+
 namespace railwave {
 namespace {
 
@@ -32,11 +34,7 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
     } else if (name == "plastic_strain") {
       element_columns_.push_back({&FieldSource::plastic_strain, 1, group.create_growing<double>(name, {elements}, each_time)});
     } else {
-      const NodeField field = name == "displacement" ? NodeField::displacement
-                              : name == "velocity"   ? NodeField::velocity
-                              : name == "acceleration" ? NodeField::acceleration
-                                                       : throw std::logic_error("there is no field " + name);
-      node_columns_.push_back({field, group.create_growing<double>(name, {nodes, 3}, each_time)});
+      node_columns_.push_back({node_field_named(name), group.create_growing<double>(name, {nodes, 3}, each_time)});
     }
   }
 }

@@ -29,9 +29,6 @@ Result check(Result result, const std::string& what) {
   return result;
 }
 
-/// HDF5 would print its error stack to the terminal; the reason travels in the exception instead.
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
 template <class T>
 hid_t native_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
@@ -63,6 +60,8 @@ hsize_t count_of(const Shape& shape) {
 }
 
 }  // namespace
+
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this != &other) {

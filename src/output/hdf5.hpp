@@ -10,6 +10,10 @@
 /// throws std::runtime_error saying what was tried and HDF5's own reason.
 namespace railwave::hdf5 {
 
+/// HDF5 would print its error stack to the terminal; the reason travels in the exception instead. HDF5 built for several
+/// threads keeps this for each thread: to be called in each one that uses it. File::create() and File::open() do so.
+void be_quiet();
+
 /// An HDF5 identifier together with the function that closes it.
 class Handle {
  public:

@@ -47,7 +47,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
 
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
-  writer_ = std::make_unique<ResultsWriter>(path_, description_);
+  writer_ = std::make_unique<BackgroundWriter>(path_, description_);
 }
 
 void ResultsFile::history(const Model&, const HistorySample& sample) { writer_->history(sample); }

@@ -3,12 +3,13 @@
 #include <memory>
 #include <string>
 
-#include "output/results_writer.hpp"
+#include "output/background_writer.hpp"
 #include "solve/observer.hpp"
 
 namespace railwave {
 
-/// Writes what the time loop tells into scene.output.file and its XDMF companion.
+/// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop waits
+/// for the device's copies only. What the disk refuses it throws at the loop's next output, at the latest at the end.
 class ResultsFile : public RunObserver {
  public:
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
@@ -23,7 +24,7 @@ class ResultsFile : public RunObserver {
  private:
   std::string path_;
   RunDescription description_;
-  std::unique_ptr<ResultsWriter> writer_;
+  std::unique_ptr<BackgroundWriter> writer_;
 };
 
 }  // namespace railwave

@@ -52,6 +52,9 @@ class ResultsWriter {
   void fields(const FieldSource& source, double time, long step);
   void end(const RunSummary& summary);
 
+  /// Never changes, so any thread may read it.
+  const RunDescription& description() const { return description_; }
+
  private:
   void create_sections(const FieldSource& source);
 
@@ -60,7 +63,7 @@ class ResultsWriter {
   void flush(std::optional<double> time = {});
 
   std::string path_;
-  RunDescription description_;
+  const RunDescription description_;
   hdf5::File file_;
   std::unique_ptr<HistorySection> history_;
   std::vector<FieldSection> field_sections_;

@@ -118,7 +118,8 @@ inline HistorySample sample(long step) {
 constexpr long steps = 400, steps_between_fields = 100;
 
 /// Feeds a writer as the time loop would: a history sample at every step, fields at every hundredth, up to and with `last`.
-inline void feed(ResultsWriter& writer, long last) {
+template <class Writer>
+void feed(Writer& writer, long last) {
   for (long step = 0; step <= last; ++step) {
     writer.history(sample(step));
     if (step % steps_between_fields == 0) writer.fields(Source(1e-6 * step), 1e-6 * step, step);

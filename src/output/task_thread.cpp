@@ -1,0 +1,65 @@
+#include "output/task_thread.hpp"
+
+#include <utility>
+
+namespace railwave {
+
+TaskThread::TaskThread(std::size_t room) : room_(room), thread_([this] { work(); }) {}
+
+TaskThread::~TaskThread() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  added_.notify_one();
+  thread_.join();
+}
+
+void TaskThread::add(std::function<void()> task, std::size_t size) {
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    done_.wait(lock, [&] { return failure_ || taken_ == 0 || taken_ + size <= room_; });
+    throw_if_failed();
+    waiting_.push_back({std::move(task), size});
+    taken_ += size;
+  }
+  added_.notify_one();
+}
+
+void TaskThread::finish() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  done_.wait(lock, [&] { return failure_ || taken_ == 0; });
+  throw_if_failed();
+}
+
+void TaskThread::throw_if_failed() const {
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void TaskThread::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    added_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
+    if (waiting_.empty()) return;
+    Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+      next.task();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    next.task = nullptr;  // what it holds goes before its room is given to another
+    lock.lock();
+    taken_ -= next.size;
+    if (failure) {
+      failure_ = failure;
+      waiting_.clear();
+      taken_ = 0;
+    }
+    done_.notify_all();
+  }
+}
+
+}  // namespace railwave

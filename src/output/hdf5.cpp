@@ -29,6 +29,13 @@ Result check(Result result, const std::string& what) {
   return result;
 }
 
+/// At the program's exit HDF5 would try once more to write what a full disk has refused, and crash. It heeds this only before
+/// anything else; all that we open we close.
+void stay_out_of_exit() {
+  static const herr_t said = H5dont_atexit();
+  static_cast<void>(said);
+}
+
 template <class T>
 hid_t native_type() {
   if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
@@ -251,6 +258,7 @@ std::string Group::text_attribute(const std::string& name) const {
 }
 
 File File::create(const std::string& path) {
+  stay_out_of_exit();
   be_quiet();
   const std::string what = "making results file " + path;
   const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), what), H5Pclose);
@@ -266,6 +274,7 @@ File File::create(const std::string& path) {
 }
 
 File File::open(const std::string& path) {
+  stay_out_of_exit();
   be_quiet();
   return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening " + path), H5Fclose), path};
 }

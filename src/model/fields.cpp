@@ -20,7 +20,7 @@ struct FetchNodes {
   double lag;
   NodeField field;
   Array<const int*> wanted;
-  Array<double* [3]> result;
+  Array<double*> result;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
@@ -29,7 +29,7 @@ struct FetchNodes {
     if (field == NodeField::displacement) value = value - row(nodes.reference, n);
     if (field == NodeField::velocity) value = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
     if (field == NodeField::acceleration) value = acceleration.plain(n);
-    for (int k = 0; k < 3; ++k) result(i, k) = value[k];
+    for (int k = 0; k < 3; ++k) result(3 * i + k) = value[k];
   }
 };
 
@@ -70,46 +70,64 @@ ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const s
   return side;
 }
 
-/// Calls `use(i, slot)` for each of the elements that are the group's.
-template <class Use>
-void for_each_slot(const ElementGroup& group, const std::vector<int>& elements, const Use& use) {
+/// Of the wanted elements those that are the group's: their places among the wanted, and their slots in the group's tiles.
+Array<int* [2]> wanted_slots(const ElementGroup& group, const std::vector<int>& elements) {
+  std::vector<std::array<int, 2>> slots;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
     if (after == group.first_element.begin()) continue;
     const int p = static_cast<int>(after - group.first_element.begin()) - 1, place = elements[i] - group.first_element[p];
-    if (place < group.element_count[p]) use(i, p * patch_size + place);
+    if (place < group.element_count[p]) slots.push_back({static_cast<int>(i), p * patch_size + place});
   }
+  return to_device("wanted slots", slots);
+}
+
+/// Takes `components` of a group's tiles of `stored` values, from value `first`, to where they are wanted. S: the elements'
+/// precision, by which the tiles are laid out.
+template <class S, class Value>
+struct FetchElements {
+  Array<int* [2]> slots;
+  Array<Value*> tiles;
+  int stored, first, components;
+  Array<double*> result;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    for (int c = 0; c < components; ++c)
+      result(static_cast<std::size_t>(components) * slots(i, 0) + c) = tiles(tiled_slot<S>(slots(i, 1), stored, first + c));
+  }
+};
+
+template <class S, class Value>
+void fetch_elements(const FetchElements<S, Value>& fetch) {
+  Kokkos::parallel_for("fetch_elements", Range(0, static_cast<int>(fetch.slots.extent(0))), fetch);
 }
 
 template <class S>
 HostField stress_in(const Model& model, const std::vector<int>& elements) {
-  HostField result{6, std::vector<double>(6 * elements.size())};
+  const auto result = unset_array<double*>("stress field", 6 * elements.size());
+  Kokkos::deep_copy(result, 0.0);
   for (const ElementGroup& group : model.elements) {
+    const auto slots = wanted_slots(group, elements);
+    if (slots.extent(0) == 0) continue;
     const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.patches.count) * patch_size);
     const auto unused = unset_array<double* [2]>("patch energy", group.patches.count);
     with_material(group, [&](const auto& material) {
       using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
       launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress, unused});
     });
-    const auto host = to_host(stress);
-    for_each_slot(group, elements, [&](std::size_t i, int slot) {
-      for (int c = 0; c < 6; ++c) result.values[6 * i + c] = host(tiled_slot<S>(slot, 6, c));
-    });
+    fetch_elements(FetchElements<S, S>{slots, stress, 6, 0, 6, result});
   }
-  return result;
+  return {6, to_vector(result)};
 }
 
 template <class S>
 HostField plastic_strain_in(const Model& model, const std::vector<int>& elements) {
-  HostField result{1, std::vector<double>(elements.size())};
-  for (const ElementGroup& group : model.elements) {
-    if (!group.plastic.active()) continue;
-    const auto host = to_host(group.plastic.history);
-    for_each_slot(group, elements, [&](std::size_t i, int slot) {
-      result.values[i] = host(tiled_slot<S>(slot, Bilinear::history_values, 6));
-    });
-  }
-  return result;
+  const auto result = unset_array<double*>("plastic strain field", elements.size());
+  Kokkos::deep_copy(result, 0.0);
+  for (const ElementGroup& group : model.elements)
+    if (group.plastic.active())
+      fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.plastic.history, Bilinear::history_values, 6, 1, result});
+  return {1, to_vector(result)};
 }
 
 /// Gaps of all nodes in the window; those far from the master are not followed at each step.
@@ -140,14 +158,10 @@ Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& p
 }  // namespace
 
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
-  const auto result = unset_array<double* [3]>("node field", nodes.size());
+  const auto result = unset_array<double*>("node field", 3 * nodes.size());
   Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
                        FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
-  const auto host = to_host(result);
-  HostField values{3, std::vector<double>(3 * nodes.size())};
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (int k = 0; k < 3; ++k) values.values[3 * i + k] = host(i, k);
-  return values;
+  return {3, to_vector(result)};
 }
 
 HostField element_stress(const Model& model, const std::vector<int>& elements) {

@@ -35,4 +35,13 @@ typename View::HostMirror to_host(const View& device) {
   return host;
 }
 
+/// The array's present values as plain data, by one copy.
+template <class T>
+std::vector<T> to_vector(const Array<T*>& device) {
+  std::vector<T> values(device.extent(0));
+  using Plain = Kokkos::View<T*, Kokkos::HostSpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+  Kokkos::deep_copy(Plain(values.data(), values.size()), device);
+  return values;
+}
+
 }  // namespace railwave

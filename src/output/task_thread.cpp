@@ -50,7 +50,7 @@ void TaskThread::work() {
     } catch (...) {
       failure = std::current_exception();
     }
-    next.task = nullptr;  // what it holds goes before its room is given to another
+    next.task = nullptr;  // what it holds goes before its room is free, and outside the lock
     lock.lock();
     taken_ -= next.size;
     if (failure) {

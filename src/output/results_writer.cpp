@@ -149,6 +149,7 @@ void ResultsWriter::end(const RunSummary& summary) {
   root.set_attribute("wall_seconds", summary.wall_seconds);
   root.set_attribute("element_steps_per_second", summary.element_steps_per_second);
   root.set_attribute("left_out", summary.left_out);
+  if (!summary.warnings.empty()) root.set_attribute("warnings", summary.warnings);
   history_.reset();
   field_sections_.clear();
   contact_sections_.clear();

@@ -1,5 +1,7 @@
 #include "solve/contact_window.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -249,6 +251,16 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   Kokkos::parallel_for("contact_look", ContactRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
                                    interval, static_cast<double>(steps) * sudden, pair.missed});
+}
+
+std::vector<std::string> late_contacts(const Model& model) {
+  std::vector<std::string> lines;
+  for (const ContactPair& pair : model.contacts)
+    if (const int late = to_host(pair.missed)(0); late > 0)
+      lines.push_back(fmt::format("contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
+                                  "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
+                                  pair.contact->name, late, steps_between_near_looks));
+  return lines;
 }
 
 }  // namespace railwave

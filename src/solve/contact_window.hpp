@@ -14,4 +14,7 @@ using ContactRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32
 /// are surely apart, so the result does not depend on how often either is done.
 void keep_window(Model& model, ContactPair& pair, const Instant& instant);
 
+/// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen.
+std::vector<std::string> late_contacts(const Model& model);
+
 }  // namespace railwave

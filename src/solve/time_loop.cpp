@@ -8,6 +8,7 @@
 
 #include "model/stable_step.hpp"
 #include "solve/account.hpp"
+#include "solve/contact_window.hpp"
 #include "solve/settle.hpp"
 #include "solve/stages.hpp"
 #include "solve/step_control.hpp"
@@ -123,6 +124,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   summary.step_renewals = control.renewals();
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
+  summary.warnings = late_contacts(model);
   summary.completed = summary.reason.empty();
   summary.time = model.time;
   summary.steps = model.step;

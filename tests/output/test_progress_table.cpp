@@ -82,7 +82,9 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   summary.wall_seconds = 3725;
   summary.element_steps_per_second = 2.5e7;
   summary.left_out = {"gravity", "connectors"};
+  summary.warnings = {"contact tread: late"};
   const std::string text = show(100, summary).text;
+  CHECK_THAT(text, ContainsSubstring("\n  warning: contact tread: late\n"));
   CHECK_THAT(text, ContainsSubstring("\ncompleted\n"));
   CHECK_THAT(text, ContainsSubstring("in 100 steps of 1 us"));
   CHECK_THAT(text, ContainsSubstring("wall time 1 h 02 min, 25.00 million"));

@@ -1,5 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 
+#include "solve/contact_window.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
@@ -115,4 +116,20 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
   CHECK(touching > 0);
   // Where a slave touches a segment, its nearest node is at most half a diagonal away.
   CHECK(nearest > 0.5 * pair.segment_size);
+}
+
+TEST_CASE("a look that comes too late for a body set in motion at once is told") {
+  TwoBlocks blocks = small_on_large();
+  blocks.gap = 2e-3;
+  scene::Scene scene = blocks.scene(1e-3);
+  Model model;
+  build_model(scene, model);
+  march(model, 10, [] {});
+  CHECK(late_contacts(model).empty());
+  // Nobody can foresee that; the next look finds the upper block inside the lower.
+  set_velocity(model, [&](const Vec3& x, int) { return Vec3{0, 0, x[2] > 1e-3 ? -400.0 : 0}; });
+  march(model, 120, [] {});
+  const auto lines = late_contacts(model);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].find("steps late") != std::string::npos);
 }

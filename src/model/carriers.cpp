@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/flush_denormals.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
 
@@ -118,6 +119,7 @@ void build_carried_nodes(Model& model) {
 }
 
 void take_nodes_over(Model& model) {
+  flush_denormals();
   CarriedNodes& carried = model.carried;
   const Rows position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
   carried.host_motion.clear();

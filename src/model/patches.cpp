@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kernels/patches.hpp"
 #include "model/divide_into_patches.hpp"
 
 namespace railwave {
@@ -13,6 +14,9 @@ constexpr double worthwhile_share = 0.95;
 void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
   std::vector<int> grown = elements, first_grown = first;
   halve_into_patches(assembly, elements, begin, end, first);
+  // Full ones all of them: growing cannot do better, and takes a second for a million elements.
+  const std::size_t fewest = first_grown.size() + (end - begin + patch_size - 1) / patch_size;
+  if (fewest >= worthwhile_share * first.size()) return;
   grow_patches(assembly, grown, begin, end, first_grown);
   if (first_grown.size() >= worthwhile_share * first.size()) return;
   std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);

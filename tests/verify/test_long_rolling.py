@@ -4,8 +4,6 @@ Prints every figure. Set RAILWAVE_RESULTS to a results file of cases/rolling.tom
 """
 import os
 import re
-import subprocess
-import sys
 import tempfile
 import time
 import tomllib
@@ -13,23 +11,13 @@ import tomllib
 import h5py
 import numpy as np
 
-SOURCE = os.environ["RAILWAVE_SOURCE_DIR"]
-PROGRAM = os.path.join(os.environ["RAILWAVE_BIN_DIR"], "railwave")
-CASE = os.path.join(SOURCE, "cases", "rolling.toml")
-failures = []
+from figures import CASE, conclude, program, show
 
-
-def show(what, figure, limit):
-    """One line for one figure; figures and limits are shares of one."""
-    verdict = "ok" if figure <= limit else "FAILED"
-    print(f"{what:70s} {figure:11.3e}  (at most {limit:g})  {verdict}")
-    if figure > limit:
-        failures.append(what)
 
 
 def wheel_weight(case):
     """N: the wheel's own weight and what the suspension presses on it."""
-    told = subprocess.run([PROGRAM, "check", CASE], check=True, capture_output=True, text=True).stdout
+    told = program("check", capture_output=True, text=True).stdout
     mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", told).group(1))
     return mass * -case["gravity"]["acceleration"][2] - case["connectors"]["primary_suspension"]["preload"][2]
 
@@ -83,11 +71,10 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             results = os.path.join(folder, "rolling.h5")
             began = time.monotonic()
-            subprocess.run([PROGRAM, "run", CASE, "--set", f"output.file={results}"], check=True)
+            program("run", {"output.file": results})
             print(f"the run took {time.monotonic() - began:.0f} s")
             check(results, case)
-    if failures:
-        sys.exit("not reached: " + "; ".join(failures))
+    conclude()
 
 
 main()

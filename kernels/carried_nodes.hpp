@@ -1,19 +1,11 @@
 #pragma once
 
 #include "kernels/carrier.hpp"
+#include "kernels/lanes.hpp"
 #include "kernels/set_loads.hpp"
 #include "kernels/team.hpp"
 
 namespace railwave {
-
-/// a b + c in single precision, fused where the machine can; see the one for double.
-KOKKOS_FORCEINLINE_FUNCTION float multiply_add(float a, float b, float c) {
-#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMAF) || defined(__FMA__)
-  return fmaf(a, b, c);
-#else
-  return a * b + c;
-#endif
-}
 
 /// Row i of a matrix times a vector given by its components.
 KOKKOS_FORCEINLINE_FUNCTION float product(const Matrix3<float>& m, int i, float x, float y, float z) {

@@ -61,9 +61,8 @@ struct ContactForce {
     Projection now{};
     now.segment = tracked;
     now.place = place;
-    double beyond = 1e300;
-    auto verdict = ContactTrack::unknown;
-    if (!search.contact.folded_inwards) verdict = ContactTrack::follow(search, slave, now, beyond);
+    double beyond;
+    const auto verdict = ContactTrack::follow(search, slave, now, beyond);
     const bool over = verdict == ContactTrack::over_segment;
     const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
     if (verdict == ContactTrack::unknown || begins) {

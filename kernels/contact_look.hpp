@@ -48,7 +48,7 @@ struct ContactLook {
     now.segment = contact.tracked(s);
     now.place = {contact.place(s, 0), contact.place(s, 1)};
     const int start = search.corner_at(now.segment, now.place);
-    if (!contact.folded_inwards && ContactTrack::follow(search, slave, now, beyond) != ContactTrack::unknown) return now;
+    if (ContactTrack::follow(search, slave, now, beyond) != ContactTrack::unknown) return now;
     return search.nearest(slave, search.closest_node(slave, start), -1, beyond);
   }
 

@@ -11,17 +11,18 @@ struct ContactTrack {
     over_segment,  ///< the projection lies inside a segment
     over_fold,     ///< in the wedge along the side of two segments where it lies inside neither
     surely_apart,  ///< beyond the surface's end or over a convex corner, and outside all segments there
-    unknown
+    unknown        ///< always where the master is folded inwards: there more than one segment can hold a projection
   };
 
   /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment
   /// @param beyond how far outside it lay, before it was clamped
   KOKKOS_INLINE_FUNCTION static Verdict follow(const ContactProjection& search, const Vector3& slave, Projection& now,
                                                double& beyond) {
+    beyond = 1e300;
+    if (search.contact.folded_inwards) return unknown;
     int segment = now.segment, from = -1;
     SegmentPlace place = now.place;
     bool apart = true, arrived = false, came_over_side = false;
-    beyond = 1e300;
     for (int hop = 0; hop < 4 && !arrived; ++hop) {
       const SeenSegment seen = search.see(slave, segment);
       place = ContactProjection::nearest_place(seen, place);

@@ -149,5 +149,12 @@ KOKKOS_INLINE_FUNCTION double multiply_add(double a, double b, double c) {
   return a * b + c;
 #endif
 }
+KOKKOS_INLINE_FUNCTION float multiply_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMAF) || defined(__FMA__)
+  return fmaf(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
 
 }  // namespace railwave

@@ -1,124 +1,25 @@
 #include "solve/stages.hpp"
 
-#include <algorithm>
-
 #include "kernels/listed_nodes.hpp"
 #include "model/carriers.hpp"
-#include "model/element_precision.hpp"
-#include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contact_window.hpp"
+#include "solve/contributions.hpp"
+#include "solve/element_forces.hpp"
 
 namespace railwave {
-namespace {
 
 NodeAdvance node_advance(const Model& model, double step) {
-  // From the velocities' instant, half a step back (at the start: none, thesis table 2.1), to half a step ahead.
   const Vec3& g = model.scene.gravity;
   return {model.nodes, {{g[0], g[1], g[2]}}, model.velocity_lag + 0.5 * step, step};
 }
+
+namespace {
 
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which costs
 /// strain a few parts in 1e9. Whole rounds of any levels, so that every patch is evaluated when its frame is due.
 constexpr long steps_between_frames = 64;
 static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
-
-/// Of 32 slave nodes each: a GPU has about as many multiprocessors.
-constexpr int most_contact_teams = 128;
-
-/// More rows than this are not for one team.
-constexpr int most_rows_of_a_team = 4096;
-
-/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts, and
-/// where such elements take every step.
-bool go_together(const Model& model, const Instant& instant) {
-  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.elements.front().level == 0;
-}
-
-/// Nodes at paces of their own do not work out their own loads.
-bool sets_go_along(const Model& model, const Instant& instant) {
-  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1;
-}
-
-RowLoads row_loads(const Model& model, double elapsed) {
-  return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
-}
-
-SetLoads set_loads(const Model& model, const Instant& instant) {
-  const SetMotion motion{model.sets, model.nodes.position, model.nodes.velocity};
-  TorqueNow torques{model.torques, motion};
-  for (const LoadArrays& load : model.loads)
-    if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
-  const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
-  const bool here = !sets_go_along(model, instant) && model.extra.loaded_count <= most_rows_of_a_team;
-  return {motion, connectors, torques, row_loads(model, instant.elapsed), here ? model.extra.loaded_count : 0};
-}
-
-template <bool Friction>
-ContactForce<Friction> contact_force(const Model& model, const ContactPair& pair) {
-  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra};
-}
-
-template <class Patch, bool Friction>
-void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant) {
-  const ContactPair& pair = model.contacts.front();
-  using Together = ForcesTogether<Patch, Friction>;
-  const int set_teams = sets_go_along(model, instant) ? 1 : 0;
-  // How many nodes can touch is known on the device only; should they be more, teams take several turns.
-  const int contact_teams = std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team);
-  launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
-               Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams});
-}
-
-/// Steps from one evaluation of a group's elements to the next.
-double pace_of(const ElementGroup& group) { return static_cast<double>(1L << group.level); }
-
-template <class S, class Hourglass, bool Advance, class Nodes>
-void patch_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Nodes& nodes, const Instant& instant) {
-  const auto partial = [&] {
-    if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
-    else return model.partial.narrow;
-  }();
-  with_material(group, [&](const auto& material) {
-    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance, Nodes>;
-    const Force force{material, group.patches, scale, nodes, pace_of(group) * instant.step, partial, group.first_partial};
-    if constexpr (on_device && Advance) {
-      if (go_together(model, instant) && &group == &model.elements.front()) {
-        if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
-        else forces_together<Force, false>(model, group.patches, force, instant);
-        return;
-      }
-    }
-    launch_patches(group.patches, force);
-  });
-}
-
-template <class S, class Hourglass, bool Advance>
-void element_forces(const Model& model, const ElementGroup& group, const Array<float*>& scale, const Instant& instant) {
-  if constexpr (sizeof(S) < sizeof(double)) {
-    // While a scene settles its nodes are in double precision whatever the run's own.
-    if (model.carried.active() && !instant.settling) {
-      const CarriedAdvance nodes = carried_advance(model, group.carried, instant.step);
-      patch_forces<S, Hourglass, Advance>(model, group, scale, nodes, instant);
-      return;
-    }
-  }
-  NodeAdvance nodes = node_advance(model, instant.step);
-  nodes.velocity_step *= pace_of(group);
-  nodes.step *= pace_of(group);
-  patch_forces<S, Hourglass, Advance>(model, group, scale, nodes, instant);
-}
-
-template <class S>
-void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
-  const PatchArrays& patches = group.patches;
-  const bool viscous = group.hourglass == scene::HourglassType::viscous;
-  if (instant.settling) element_forces<S, StiffnessHourglass, false>(model, group, patches.settling_hourglass, instant);
-  else if (viscous && instant.advancing) element_forces<S, ViscousHourglass, true>(model, group, patches.hourglass_scale, instant);
-  else if (viscous) element_forces<S, ViscousHourglass, false>(model, group, patches.hourglass_scale, instant);
-  else if (instant.advancing) element_forces<S, StiffnessHourglass, true>(model, group, patches.hourglass_scale, instant);
-  else element_forces<S, StiffnessHourglass, false>(model, group, patches.hourglass_scale, instant);
-}
 
 /// Nodes in single precision need frames only for what the account and the outputs compute from the double ones.
 bool frames_are_due(const Model& model, const Instant& instant) {
@@ -132,7 +33,10 @@ Stage element_stage(Model& model, const ElementGroup& group) {
     model.patches_have_advanced = instant.advancing;
     if (!instant.settling && group.level > model.subcycling.phase(model.step)) return;
     if (frames_are_due(model, instant)) renew_frames(model, group);
-    with_element_precision(model.scene, [&](auto number) { element_forces<decltype(number)>(model, group, instant); });
+    // While a scene settles its nodes are in double precision whatever the run's own.
+    if (!model.scene.solver.elements_in_single()) element_forces<double, NodeAdvance>(model, group, instant);
+    else if (instant.settling || !model.carried.active()) element_forces<float, NodeAdvance>(model, group, instant);
+    else element_forces<float, CarriedAdvance>(model, group, instant);
   };
   const char* kind = group.plastic.active() ? ", elastoplastic" : "";
   const std::string pace = group.level == 0 ? "" : ", every " + std::to_string(1L << group.level) + " steps";

@@ -1,0 +1,27 @@
+#include "solve/contributions.hpp"
+
+namespace railwave {
+
+bool go_together(const Model& model, const Instant& instant) {
+  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.elements.front().level == 0;
+}
+
+bool sets_go_along(const Model& model, const Instant& instant) {
+  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1;
+}
+
+RowLoads row_loads(const Model& model, double elapsed) {
+  return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
+}
+
+SetLoads set_loads(const Model& model, const Instant& instant) {
+  const SetMotion motion{model.sets, model.nodes.position, model.nodes.velocity};
+  TorqueNow torques{model.torques, motion};
+  for (const LoadArrays& load : model.loads)
+    if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
+  const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
+  const bool here = !sets_go_along(model, instant) && model.extra.loaded_count <= most_rows_of_a_team;
+  return {motion, connectors, torques, row_loads(model, instant.elapsed), here ? model.extra.loaded_count : 0};
+}
+
+}  // namespace railwave

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "kernels/contact_force.hpp"
+#include "kernels/set_loads.hpp"
+#include "solve/stages.hpp"
+
+namespace railwave {
+
+/// More rows than this are not for one team.
+inline constexpr int most_rows_of_a_team = 4096;
+
+/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts, and
+/// where such elements take every step.
+bool go_together(const Model& model, const Instant& instant);
+
+/// The same of the sets. Nodes at paces of their own do not work out their own loads.
+bool sets_go_along(const Model& model, const Instant& instant);
+
+/// Gather of the loads' contributions at the nodes.
+RowLoads row_loads(const Model& model, double elapsed);
+
+/// Sets of nodes that move as one, connectors and torques.
+SetLoads set_loads(const Model& model, const Instant& instant);
+
+template <bool Friction>
+ContactForce<Friction> contact_force(const Model& model, const ContactPair& pair) {
+  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra};
+}
+
+}  // namespace railwave

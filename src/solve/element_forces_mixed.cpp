@@ -1,0 +1,7 @@
+#include "solve/element_forces_of.hpp"
+
+namespace railwave {
+
+template void element_forces<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&);
+
+}  // namespace railwave

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <algorithm>
+
+#include "model/group_material.hpp"
+#include "model/patch_launch.hpp"
+#include "solve/contributions.hpp"
+#include "solve/element_forces.hpp"
+
+/// What the files element_forces_*.cpp instantiate.
+namespace railwave {
+
+/// Of 32 slave nodes each: a GPU has about as many multiprocessors.
+inline constexpr int most_contact_teams = 128;
+
+template <class Patch, bool Friction>
+void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant) {
+  const ContactPair& pair = model.contacts.front();
+  using Together = ForcesTogether<Patch, Friction>;
+  const int set_teams = sets_go_along(model, instant) ? 1 : 0;
+  // How many nodes can touch is known on the device only; should they be more, teams take several turns.
+  const int contact_teams = std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team);
+  launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
+               Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams});
+}
+
+template <class S>
+const Array<PartialForce<S>*>& partial_forces(const Model& model) {
+  if constexpr (sizeof(S) == sizeof(double)) return model.partial.wide;
+  else return model.partial.narrow;
+}
+
+template <class S, class Hourglass, bool Advance, class Nodes>
+void patch_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant) {
+  const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
+  const Array<float*>& scale = instant.settling ? group.patches.settling_hourglass : group.patches.hourglass_scale;
+  with_material(group, [&](const auto& material) {
+    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance, Nodes>;
+    const Force force{material, group.patches, scale, nodes, pace * instant.step, partial_forces<S>(model), group.first_partial};
+    if constexpr (on_device && Advance) {
+      if (go_together(model, instant) && &group == &model.elements.front()) {
+        if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
+        else forces_together<Force, false>(model, group.patches, force, instant);
+        return;
+      }
+    }
+    launch_patches(group.patches, force);
+  });
+}
+
+inline NodeAdvance advance_of(const Model& model, const ElementGroup& group, double step, const NodeAdvance* /*kind*/) {
+  NodeAdvance nodes = node_advance(model, step);
+  nodes.velocity_step *= static_cast<double>(1L << group.level);
+  nodes.step *= static_cast<double>(1L << group.level);
+  return nodes;
+}
+
+inline CarriedAdvance advance_of(const Model& model, const ElementGroup& group, double step, const CarriedAdvance* /*kind*/) {
+  return carried_advance(model, group.carried, step);
+}
+
+template <class S, class Nodes>
+void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
+  const Nodes nodes = advance_of(model, group, instant.step, static_cast<const Nodes*>(nullptr));
+  const bool viscous = group.hourglass == scene::HourglassType::viscous && !instant.settling;
+  const bool advancing = instant.advancing && !instant.settling;
+  if (viscous && advancing) patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant);
+  else if (viscous) patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant);
+  else if (advancing) patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant);
+  else patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant);
+}
+
+}  // namespace railwave

@@ -22,6 +22,7 @@ class Run:
         self.seconds = float(row["seconds"])
         self.error = float(row["error"])
         self.penalty = float(row["penalty_scale"])
+        self.multiplier = row.get("contact", "penalty") == "multiplier"
         self.coefficient = float(row["hourglass_coefficient"])
         self.scale = float(row["step_scale"])
         self.subcycled = row.get("subcycling") == "1"
@@ -46,6 +47,8 @@ class Run:
             words.append(f"step scale {self.scale:g}")
         if self.subcycled:
             words.append(f"subcycling ({float(row['updates_saved']):.2f} times fewer updates)")
+        if self.multiplier:
+            words.append("contact by multipliers")
         if self.penalty != 1:
             words.append(f"penalty scale {self.penalty:g}")
         return ", ".join(words) or "own choice"
@@ -64,6 +67,8 @@ def front(runs):
 def marker(run):
     if run.subcycled:
         return "^"
+    if run.multiplier:
+        return "h"
     if run.penalty != 1:
         return "v" if run.penalty < 0.3 else "D"
     if run.row["step_rule"] == "global":
@@ -76,7 +81,8 @@ def marker(run):
 
 
 MARKERS = [("o", "viscous, element step"), ("s", "stiffness hourglass"), ("X", "eigenvalue step"), ("P", "global step"),
-           ("<", "step scale 0.6"), ("^", "subcycling"), ("D", "penalty scale 0.5"), ("v", "penalty scale 0.1")]
+           ("<", "step scale 0.6"), ("^", "subcycling"), ("D", "penalty scale 0.5"), ("v", "penalty scale 0.1"),
+           ("h", "contact by multipliers")]
 
 
 def picture(results, path):

@@ -60,7 +60,10 @@ std::vector<Method> methods(const Options& options, const Problem& problem) {
       });
     return result;
   }
-  if (problem.contact) add([](Method& m) { m.penalty_scale = 0.1; });
+  if (problem.contact) {
+    add([](Method& m) { m.penalty_scale = 0.1; });
+    add([](Method& m) { m.contact = scene::ContactAlgorithm::multiplier; });
+  }
   if (!settles)
     for (const char* rule : {"eigenvalue", "global"}) add([&](Method& m) { m.step_rule = rule; });
   if (options.smoke) return result;
@@ -98,9 +101,10 @@ bool solve(const Options& options, const Problem& problem, double size, const Me
   } catch (const InputError&) {
     return true;  // not in this build
   }
-  fmt::print("{:14} {:6.4f} mm {:6} {:10} {:4.2f} {:9} {:4.2f} f_SI {:3.1f}{}: {:7} elements {:6} steps {:8.3f} s  error {:8.4f} %",
+  const bool multiplier = method.contact == scene::ContactAlgorithm::multiplier;
+  fmt::print("{:14} {:6.4f} mm {:6} {:10} {:4.2f} {:9} {:4.2f} {}{}: {:7} elements {:6} steps {:8.3f} s  error {:8.4f} %",
              problem.name, 1e3 * size, method.choice.precision, method.step_rule, method.step_scale, method.choice.hourglass,
-             method.hourglass_coefficient, method.penalty_scale, method.subcycling ? " subcycled" : "", best.elements, best.steps,
+             method.hourglass_coefficient, multiplier ? "multiplier" : fmt::format("f_SI {:3.1f}", method.penalty_scale), method.subcycling ? " subcycled" : "", best.elements, best.steps,
              best.seconds, 100 * best.error);
   for (const auto& [name, value] : best.details) fmt::print("  {} {:.4g}", name, value);
   fmt::print("\n");
@@ -109,7 +113,7 @@ bool solve(const Options& options, const Problem& problem, double size, const Me
   row.set("problem", problem.name).set("element_size", size).set("precision", method.choice.precision)
       .set("step_rule", method.step_rule).set("step_scale", method.step_scale).set("hourglass", method.choice.hourglass)
       .set("hourglass_coefficient", method.hourglass_coefficient).set("penalty_scale", method.penalty_scale)
-      .set("subcycling", method.subcycling ? 1 : 0)
+      .set("contact", multiplier ? "multiplier" : "penalty").set("subcycling", method.subcycling ? 1 : 0)
       .set("elements", best.elements).set("steps", best.steps).set("seconds", best.seconds).set("error", best.error);
   for (const auto& [name, value] : best.details) row.set(name, value);
   return std::isfinite(best.error) && (method.choice.precision != "double" || best.error < problem.allowed);

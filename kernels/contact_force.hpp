@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/contact_search.hpp"
 #include "kernels/contact_track.hpp"
 #include "kernels/extra_force.hpp"
 
@@ -28,7 +27,7 @@ struct ContactForce {
     const int tracked = contact.tracked(s);
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
 
-    const Projection now = where(slave, tracked, place, touched);
+    const Projection now = ContactTrack::where(search, slave, tracked, place, touched);
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;
@@ -53,30 +52,6 @@ struct ContactForce {
     }
     contact.status(s) = status;
     push(entry.node, contact.surface(now.segment), now, force);
-  }
-
-  /// Where the slave stands now; gap 1e300 where beside the surface. What ends being apart is searched anew, so that it
-  /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
-  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int tracked, const SegmentPlace& place, bool touched) const {
-    Projection now{};
-    now.segment = tracked;
-    now.place = place;
-    double beyond;
-    const auto verdict = ContactTrack::follow(search, slave, now, beyond);
-    const bool over = verdict == ContactTrack::over_segment;
-    const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
-    if (verdict == ContactTrack::unknown || begins) {
-      double found_beyond;
-      const int start = search.corner_at(now.segment, now.place);
-      const Projection found =
-          search.nearest(slave, search.closest_node(slave, start), touched ? tracked : -1, found_beyond);
-      if (!over || found_beyond <= ContactSearch::outside_tolerance) {
-        now = found;
-        beyond = found_beyond;
-      }
-    }
-    if (beyond > ContactSearch::outside_tolerance) now.gap = 1e300;
-    return now;
   }
 
   KOKKOS_INLINE_FUNCTION void part(int s, int previous) const {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/contact_search.hpp"
 #include "kernels/contact_track.hpp"
 
 namespace railwave {

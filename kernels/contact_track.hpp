@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/contact_projection.hpp"
+#include "kernels/contact_search.hpp"
 
 namespace railwave {
 
@@ -44,6 +44,32 @@ struct ContactTrack {
       place = {0, 0};
     }
     return apart && arrived ? surely_apart : unknown;
+  }
+
+  /// Where a slave stands now; gap 1e300 where beside the surface. What ends being apart is searched anew, so that it
+  /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
+  /// @param tracked, place where it was over the surface a step ago
+  /// @param touched whether it was in contact then
+  KOKKOS_INLINE_FUNCTION static Projection where(const ContactSearch& search, const Vector3& slave, int tracked,
+                                                 const SegmentPlace& place, bool touched) {
+    Projection now{};
+    now.segment = tracked;
+    now.place = place;
+    double beyond;
+    const auto verdict = follow(search, slave, now, beyond);
+    const bool over = verdict == over_segment;
+    const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
+    if (verdict == unknown || begins) {
+      double found_beyond;
+      const int start = search.corner_at(now.segment, now.place);
+      const Projection found = search.nearest(slave, search.closest_node(slave, start), touched ? tracked : -1, found_beyond);
+      if (!over || found_beyond <= ContactSearch::outside_tolerance) {
+        now = found;
+        beyond = found_beyond;
+      }
+    }
+    if (beyond > ContactSearch::outside_tolerance) now.gap = 1e300;
+    return now;
   }
 
   /// The neighbour over the side that a place lies farthest beyond.

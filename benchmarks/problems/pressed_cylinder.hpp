@@ -43,6 +43,7 @@ struct PressedCylinder {
     contact.slave = "upper.contact";
     contact.master = "lower.contact";
     contact.penalty_scale = method.penalty_scale;
+    contact.algorithm = method.contact;
     made.contacts.push_back(contact);
     hold(made, "upper", {false, true, false});
     hold(made, "lower", {false, true, false});

@@ -19,6 +19,7 @@ struct Method {
   std::string step_rule = "element";  ///< or "eigenvalue", "global"
   double step_scale = 0.9;
   double penalty_scale = 1;
+  scene::ContactAlgorithm contact = scene::ContactAlgorithm::penalty;
   bool subcycling = false;
 };
 

@@ -38,11 +38,16 @@ Section constraint_section() {
 Section contact_section() {
   using scene::Contact;
   auto section = named_section("contacts", "contact", &Scene::contacts,
-                               "Pairs of surfaces that may touch: penalty contact with Coulomb friction.");
+                               "Pairs of surfaces that may touch, with Coulomb friction.");
   section.keys = {
       key("slave", &Contact::slave, "surface whose nodes must not enter the other").names(surface).needed(),
       key("master", &Contact::master, "surface whose faces the nodes meet").names(surface).needed(),
       key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out").within(between(0, 2)),
+      key("algorithm", &Contact::algorithm,
+          "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the next step, "
+          "nor slips where friction holds it")
+          .one_of({"penalty", "multiplier"}),
+      key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next").within(between(1, 100)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
       key("close_gap", &Contact::close_gap,
           "before the run, the slave's part is moved along this direction until it first touches")

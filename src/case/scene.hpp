@@ -159,10 +159,14 @@ struct Constraint : Place {
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
+enum class ContactAlgorithm { penalty, multiplier };
+
 struct Contact : Place {
   std::string slave;               ///< `part.surface`
   std::string master;              ///< `part.surface`
   double friction = 0;             ///< Coulomb coefficient
+  ContactAlgorithm algorithm = ContactAlgorithm::penalty;
+  int sweeps = 4;                  ///< of the multipliers' iteration, in a step
   double penalty_scale = 1.0;      ///< f_SI of thesis eq. 2.26d
   std::optional<Vec3> close_gap;   ///< the slave's part is moved along this direction until first touch, before the run
 };

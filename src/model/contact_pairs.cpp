@@ -151,6 +151,10 @@ void build_pair(Model& model, const scene::Contact& contact) {
   arrays.tangential_force = Array<double* [3]>("tangential force", arrays.slave_count);
   arrays.status = Array<int*>("status", arrays.slave_count);
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
+  if (contact.algorithm == scene::ContactAlgorithm::multiplier)
+    pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
+                        Array<std::uint64_t*>("crowd", masters), Array<double* [3]>("way since stuck", arrays.slave_count),
+                        Array<double*>("impact energy", arrays.slave_count)};
   pair.missed = Array<int*>("missed", 1);
   model.contacts.push_back(pair);
 }

@@ -93,6 +93,10 @@ void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep&
   SpringCollector collector(model);
   collector.add_connectors();
   for (const ContactPair& pair : model.contacts) {
+    if (!pair.has_springs()) {
+      result.seen.emplace_back(pair.slave_nodes.size(), 1);
+      continue;
+    }
     const auto springs = possible_contact_springs(model, pair, horizon);
     collector.add_contact(springs, pair.arrays.friction > 0);
     result.springs += static_cast<long>(springs.size());

@@ -77,6 +77,8 @@ void reset_to_start(Model& model) {
     zero(contact.tangential_force);
     zero(contact.status);
     zero(contact.friction_energy);
+    zero(pair.multipliers.crowd);
+    zero(pair.multipliers.impact_energy);
     pair.next_look = -1;
     pair.slaves_at_layout = {};
   }

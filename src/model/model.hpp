@@ -9,6 +9,7 @@
 #include "kernels/carried_nodes.hpp"
 #include "kernels/contact_arrays.hpp"
 #include "kernels/element_force.hpp"
+#include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
 #include "kernels/set_loads.hpp"
 #include "model/assembly.hpp"
@@ -92,11 +93,13 @@ struct ContactPair {
   const scene::Contact* contact = nullptr;
   ContactArrays arrays;
   ContactWindow window;
+  MultiplierArrays multipliers;        ///< of the second algorithm, see kernels/contact_multiplier.hpp
   Array<double* [3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
   long next_look = -1;                 ///< step at which the window is looked at again
   long next_near_look = -1;            ///< step at which the nodes that can touch are picked out of it again
   long layouts = 0;                    ///< how often it was laid out
   long looks = 0;                      ///< how often it was looked at, the host waiting
+  bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;              ///< no other pair's forces reach the master's nodes
   Array<int*> missed;                  ///< one: see ContactLook
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers

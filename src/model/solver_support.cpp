@@ -16,6 +16,10 @@ void refuse_unknown_methods(const scene::Scene& scene) {
   const scene::Solver& solver = scene.solver;
   if (solver.precision == scene::Precision::single_precision && solver.subcycling)
     refuse(scene, "precision = \"float\" with subcycling = true", "leave one of the two out, or set precision to \"mixed\"");
+  for (const scene::Contact& contact : scene.contacts)
+    if (solver.subcycling && contact.algorithm == scene::ContactAlgorithm::multiplier)
+      refuse(scene, fmt::format("subcycling = true with [contacts.{}] algorithm = \"multiplier\"", contact.name),
+             "leave one of the two out: multipliers look one step ahead, and nodes at paces of their own have steps of their own");
   if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
     refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }

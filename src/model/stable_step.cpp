@@ -141,7 +141,8 @@ double connector_frequency(const Model& model) {
 template <class StepAt>
 double contacts_step(const Model& model, const StepAt& step_at) {
   double least = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : model.contacts) least = std::fmin(least, contact_step(model, pair, step_at));
+  for (const ContactPair& pair : model.contacts)
+    if (pair.has_springs()) least = std::fmin(least, contact_step(model, pair, step_at));
   return least;
 }
 
@@ -163,7 +164,8 @@ void estimate_by_elements(Model& model) {
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
   stable.by_elements = stable.elements;
   stable.by_eigenvalues = stable.eigenvalue;
-  if (!model.contacts.empty()) {
+  // Multipliers are constraints: they add no frequency above the elements' own.
+  if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return pair.has_springs(); })) {
     const auto at_node = steps_at_nodes(model, heights);
     stable.contact = contacts_step(model, [&](double k, int n) { return contact_step_at(k, model.mass[n], at_node[n]); });
     const auto step = steps_at_nodes(model, eigenvalues.step), control = steps_at_nodes(model, eigenvalues.control);

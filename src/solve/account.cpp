@@ -66,6 +66,16 @@ struct ContactEnergy {
   }
 };
 
+/// Taken out by the impacts of nodes whose forces are multipliers, and dissipated by friction.
+struct MultiplierEnergy {
+  static constexpr int values = 2;
+  Array<const double*> impact_energy, friction_energy;
+  KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
+    sum[0] += impact_energy(s);
+    sum[1] += friction_energy(s);
+  }
+};
+
 /// Sums over the slave's nodes: normal force, tangential force, what the shape functions pass on to the master; nodes in
 /// contact, nodes that slip.
 struct SlaveSums {
@@ -157,7 +167,8 @@ EnergyAccount account_energies(const Model& model, double step) {
   energy.external_work = sum[1];
   with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy); });
   for (const ContactPair& pair : model.contacts) {
-    block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum, model.sum_space);
+    if (pair.has_springs()) block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum, model.sum_space);
+    else block_sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, pair.arrays.slave_count, sum, model.sum_space);
     energy.contact += sum[0];
     energy.friction += sum[1];
   }

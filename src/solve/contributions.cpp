@@ -3,7 +3,8 @@
 namespace railwave {
 
 bool go_together(const Model& model, const Instant& instant) {
-  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.elements.front().level == 0;
+  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.contacts.front().has_springs() &&
+         model.elements.front().level == 0;
 }
 
 bool sets_go_along(const Model& model, const Instant& instant) {

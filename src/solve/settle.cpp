@@ -36,6 +36,7 @@ std::vector<double> relaxation_masses(const Model& model) {
   }
   const double spring_share = 0.5 / (safety * safety);
   for (const ContactPair& pair : model.contacts) {
+    if (!pair.has_springs()) continue;
     double stiffest = 0;
     for (double k : pair.segment_stiffness) stiffest = std::max(stiffest, k);
     for (int n : pair.slave_nodes) mass[n] += spring_share * stiffest;
@@ -105,6 +106,7 @@ void forget_history(Model& model) {
   Kokkos::deep_copy(model.extra.work, 0.0);
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
+    Kokkos::deep_copy(pair.multipliers.impact_energy, 0.0);
     pair.next_look = -1;
   }
   for (ElementGroup& group : model.elements) Kokkos::deep_copy(group.patches.hourglass_energy, 0.0);
@@ -124,6 +126,7 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
                                 Array<double* [3]>("unbalanced", model.nodes.count), local_damping};
   Instant instant;
   instant.settling = true;
+  instant.relaxation = &update;
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;

@@ -3,6 +3,7 @@
 #include "kernels/listed_nodes.hpp"
 #include "model/carriers.hpp"
 #include "model/patch_launch.hpp"
+#include "solve/contact_multiplier.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
 #include "solve/element_forces.hpp"
@@ -90,14 +91,18 @@ Stage set_load_stage(Model& model) {
           }};
 }
 
+/// The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
+Stage contact_clearing_stage(Model& model) {
+  return {"clearing of contact forces", [&model](const Instant&) {
+            if (model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, std::uint64_t{0});
+            model.contact_uncleared = true;
+          }};
+}
+
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
-  const bool first = &pair == &model.contacts.front();
   return {"contact " + pair.contact->name + (Friction ? ", friction" : ", frictionless"),
-          [&model, &pair, first](const Instant& instant) {
-            // The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
-            if (first && model.contact_uncleared) Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, std::uint64_t{0});
-            model.contact_uncleared = true;
+          [&model, &pair](const Instant& instant) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;
             Kokkos::parallel_for("contact_force", ContactRange(0, pair.window.count), contact_force<Friction>(model, pair));
@@ -133,10 +138,15 @@ std::vector<Stage> force_stages(Model& model) {
   for (const LoadArrays& load : model.loads)
     if (load.torque < 0) stages.push_back(load_stage(model, load));
   if (model.extra.loaded_count > 0) stages.push_back(set_load_stage(model));
+  if (!model.contacts.empty()) stages.push_back(contact_clearing_stage(model));
   for (ContactPair& pair : model.contacts)
-    stages.push_back(pair.arrays.friction > 0 ? contact_stage<true>(model, pair) : contact_stage<false>(model, pair));
-  // Last: its patches may move their nodes at once, where all else must still find them.
+    if (pair.has_springs())
+      stages.push_back(pair.arrays.friction > 0 ? contact_stage<true>(model, pair) : contact_stage<false>(model, pair));
+  // Its patches may move their nodes at once, where all else must still find them: all but multipliers, which need the
+  // elements' forces and concern no node that a patch moves.
   for (const ElementGroup& group : model.elements) stages.push_back(element_stage(model, group));
+  for (ContactPair& pair : model.contacts)
+    if (!pair.has_springs()) stages.push_back(multiplier_stage(model, pair));
   return stages;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/relaxation.hpp"
 #include "model/model.hpp"
 
 namespace railwave {
@@ -14,6 +15,7 @@ struct Instant {
   double step = 0;           ///< s to the next instant
   double elapsed = 0;        ///< s since the instant before; 0 at the first
   bool settling = false;     ///< pseudo-time of a dynamic relaxation
+  const RelaxationUpdate* relaxation = nullptr;  ///< how that moves the nodes
   bool advancing = false;    ///< nobody looks at this instant: patches may move the nodes that are theirs alone at once
 };
 

@@ -4,6 +4,12 @@
 
 namespace railwave::verify {
 
+inline constexpr auto both_algorithms = {scene::ContactAlgorithm::penalty, scene::ContactAlgorithm::multiplier};
+
+inline const char* name_of(scene::ContactAlgorithm algorithm) {
+  return algorithm == scene::ContactAlgorithm::penalty ? "penalty" : "multiplier";
+}
+
 /// A block on a larger one, both about the z axis: "upper" on "lower", touching planes at z = 0, contact "touch" with the
 /// upper block as slave.
 struct TwoBlocks {
@@ -11,6 +17,7 @@ struct TwoBlocks {
   std::array<int, 3> upper_divisions{8, 8, 2}, lower_divisions{16, 16, 4};
   double gap = 0;       ///< m, before the run
   double friction = 0;
+  scene::ContactAlgorithm algorithm = scene::ContactAlgorithm::penalty;
 
   scene::Scene scene(double end) const {
     scene::Scene made = block_scene(upper_size, upper_divisions, end);
@@ -28,6 +35,7 @@ struct TwoBlocks {
     contact.slave = "upper.z_min";
     contact.master = "lower.z_max";
     contact.friction = friction;
+    contact.algorithm = algorithm;
     made.contacts.push_back(contact);
     return made;
   }

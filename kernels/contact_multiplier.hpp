@@ -1,0 +1,218 @@
+#pragma once
+
+#include "kernels/contact_track.hpp"
+#include "kernels/multiplier_arrays.hpp"
+
+namespace railwave {
+
+/// Where nodes go by themselves in the step from t_n: what their velocities and the forces other than a contact's do.
+struct FreeMotion {
+  NodalAcceleration acceleration;
+  double velocity_step;                          ///< s, of NodeAdvance
+  double step;                                   ///< s
+  Array<const double*> relaxation_mass;          ///< kg, of the dynamic relaxation; empty in a run
+  Array<const double* [3]> body_acceleration;    ///< m/s2, of true masses; empty in a run
+
+  /// m/N, movement in the step for a force, but for constraints.
+  KOKKOS_INLINE_FUNCTION double compliance(int n) const {
+    return step * velocity_step / (relaxation_mass.extent(0) != 0 ? relaxation_mass(n) : acceleration.force.nodes.mass(n));
+  }
+
+  /// m, movement in the step.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
+    const NodeArrays& nodes = acceleration.force.nodes;
+    Vector3 force = acceleration.force(n) + nodes.mass(n) * acceleration.gravity;
+    if (body_acceleration.extent(0) != 0) force = force + nodes.mass(n) * row(body_acceleration, n);
+    return step * row(nodes.velocity, n) + acceleration.constrain(n, compliance(n) * force);
+  }
+};
+
+/// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991). The
+/// forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force or none;
+/// and with which a node that sticks has not moved over the master, unless that takes more than friction can give.
+/// Every multiplier moves nodes that others move too. They are found by Jacobi's iteration, projected on Coulomb's cone,
+/// from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do to its nodes, the
+/// iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the node stuck, at the next step.
+/// Forces are summed in whole quanta: a run is bitwise repeatable.
+template <bool Friction>
+struct ContactMultiplier {
+  ContactSearch search;
+  ContactWindow window;
+  ExtraForceSum extra;
+  FreeMotion free_motion;
+  MultiplierArrays multipliers;
+  int sweeps;
+
+  static constexpr double crowd_quantum = 1.0 / (1ull << 40);
+  /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
+  /// hundredth of the fastest wave.
+  static constexpr double near_share = 0.01;
+
+  struct Begin {};
+  struct Push {};
+  struct Correct {};
+  struct Finish {};
+
+  KOKKOS_INLINE_FUNCTION int count() const { return window.near_count(0); }
+  KOKKOS_INLINE_FUNCTION WindowEntry entry(int i) const { return window.entries(window.near(i)); }
+
+  /// On a host: one phase over the nodes that can touch, if they are so many.
+  template <class Phase>
+  KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
+    if (i < count()) run(phase, i);
+  }
+
+  /// On a device: all phases in one team, whose barriers cost less than launches.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    phase_of_team(team, Begin{});
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      phase_of_team(team, Push{});
+      phase_of_team(team, Correct{});
+    }
+    phase_of_team(team, Push{});
+    phase_of_team(team, Finish{});
+  }
+
+  template <class Member, class Phase>
+  KOKKOS_INLINE_FUNCTION void phase_of_team(const Member& team, const Phase& phase) const {
+    for (int i = team.team_rank(); i < count(); i += team.team_size()) run(phase, i);
+    team.team_barrier();
+  }
+
+  /// Locate, project, foresee; the last step's force is where the iteration starts.
+  KOKKOS_INLINE_FUNCTION void run(const Begin& /*phase*/, const int i) const {
+    const ContactArrays& contact = search.contact;
+    const WindowEntry near = entry(i);
+    const int s = near.slave;
+    const Vector3 slave = row(search.position, near.node);
+    const int status = contact.status(s), tracked = contact.tracked(s);
+    const bool touched = status != status_apart;
+    const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
+    const Projection now = ContactTrack::where(search, slave, tracked, place, touched);
+    MultiplierRow& r = multipliers.rows(s);
+    r.held = touched ? row(contact.normal_force, s) + row(contact.tangential_force, s) : Vector3{{0, 0, 0}};
+    r.moved = touched ? now.offset - search.see(slave, tracked).point(place) : Vector3{{0, 0, 0}};
+    r.normal = now.normal;
+    r.gap = now.gap;
+    if (now.segment >= 0) {
+      contact.tracked(s) = now.segment;
+      contact.place(s, 0) = now.place.xi;
+      contact.place(s, 1) = now.place.eta;
+    }
+    const Segment segment = contact.surface(now.segment);
+    const Vector3 diagonal = row(search.position, segment.node[2]) - row(search.position, segment.node[0]);
+    r.active = now.gap < near_share * norm(diagonal) || (touched && now.gap < 1e299);
+    r.force = r.pending = Vector3{{0, 0, 0}};
+    r.pressing = r.compliance = 0;
+    r.slips = 1;
+    if (r.active == 0) return;
+
+    r.node[0] = near.node;
+    r.weight[0] = 1;
+    for (int k = 0; k < 4; ++k) {
+      r.node[k + 1] = segment.node[k];
+      r.weight[k + 1] = -segment_shape(k, now.place.xi, now.place.eta);
+      Kokkos::atomic_add(&multipliers.crowd(contact.segments(now.segment, k)), crowd_share(r.weight[k + 1]));
+    }
+    r.free = Vector3{{0, 0, 0}};
+    for (int k = 0; k < 5; ++k) {
+      r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
+      r.compliances[k] = free_motion.compliance(r.node[k]);
+      r.free = r.free + r.weight[k] * (free_motion(r.node[k]) - movement(r, k));
+    }
+    if constexpr (Friction) {
+      // Towards where the node stuck, should it have crept from there.
+      Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
+      way = way - dot(way, now.normal) * now.normal;
+      for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
+      r.free = r.free + way;
+    }
+    r.pressing = norm(row(contact.normal_force, s));
+    if (!touched) return;
+    r.pending = r.pressing * now.normal;
+    if constexpr (Friction) {
+      Vector3 tangential = row(contact.tangential_force, s);
+      tangential = tangential - dot(tangential, now.normal) * now.normal;
+      r.pending = r.pending + tangential;
+    }
+    r.force = r.pending;
+  }
+
+  /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes what the
+  /// others leave.
+  KOKKOS_INLINE_FUNCTION void run(const Push& /*phase*/, const int i) const {
+    const MultiplierRow& r = multipliers.rows(entry(i).slave);
+    if (r.active == 0) return;
+    const Vector3 quanta = extra.in_quanta(r.pending);
+    const FixedForce whole = extra.fixed(quanta);
+    FixedForce left = whole;
+    extra.add(r.row[0], whole);
+    for (int k = 1; k < 5; ++k) {
+      const FixedForce share = k < 4 ? extra.fixed(-r.weight[k] * quanta) : left;
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
+      extra.subtract(r.row[k], share);
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION void run(const Correct& /*phase*/, const int i) const {
+    const ContactArrays& contact = search.contact;
+    const int s = entry(i).slave;
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active == 0) return;
+    if (r.compliance == 0) {
+      r.compliance = r.compliances[0];
+      for (int k = 1; k < 5; ++k)
+        r.compliance -= r.weight[k] * r.compliances[k] * crowd_quantum *
+                        static_cast<double>(multipliers.crowd(contact.segments(contact.tracked(s), k - 1)));
+    }
+    Vector3 moves = r.free;
+    for (int k = 0; k < 5; ++k) moves = moves + r.weight[k] * movement(r, k);
+    const double opening = dot(moves, r.normal);
+    const double pressing = std::fmax(0.0, r.pressing - (r.gap + opening) / r.compliance);
+    Vector3 force = pressing * r.normal;
+    r.slips = 1;
+    if constexpr (Friction) {
+      Vector3 tangential = r.force - r.pressing * r.normal - (1 / r.compliance) * (moves - opening * r.normal);
+      const double bound = contact.friction * pressing, size = norm(tangential);
+      r.slips = size > bound ? 1 : 0;
+      if (size > bound) tangential = (bound / size) * tangential;
+      force = force + tangential;
+    }
+    r.pending = force - r.force;
+    r.force = force;
+    r.pressing = pressing;
+  }
+
+  /// Leaves forces and status for the next step and for those who look, and books the work done since the last.
+  KOKKOS_INLINE_FUNCTION void run(const Finish& /*phase*/, const int i) const {
+    const ContactArrays& contact = search.contact;
+    const int s = entry(i).slave;
+    const MultiplierRow& r = multipliers.rows(s);
+    if (r.active != 0)
+      for (int k = 0; k < 4; ++k)
+        Kokkos::atomic_add(&multipliers.crowd(contact.segments(contact.tracked(s), k)), std::uint64_t{0} - crowd_share(r.weight[k + 1]));
+    const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
+    const bool closes = before < 1e299 && r.gap < 1e299;
+    if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
+    if constexpr (Friction) {
+      const Vector3 tangential = r.force - r.pressing * r.normal;
+      contact.friction_energy(s) -= 0.5 * dot(row(contact.tangential_force, s) + tangential, r.moved);
+      for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
+    }
+    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = r.pressing * r.normal[k];
+    contact.gap(s) = r.gap;
+    contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
+  }
+
+  /// m, of one of a multiplier's nodes under the contact forces handed to it so far.
+  KOKKOS_INLINE_FUNCTION Vector3 movement(const MultiplierRow& r, int k) const {
+    return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * extra.contact_force(r.row[k]));
+  }
+
+  KOKKOS_INLINE_FUNCTION static std::uint64_t crowd_share(double weight) {
+    return static_cast<std::uint64_t>(-weight / crowd_quantum);
+  }
+};
+
+}  // namespace railwave

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/spaces.hpp"
+#include "kernels/vector3.hpp"
+
+namespace railwave {
+
+/// What a slave node's multiplier needs in a step.
+struct alignas(16) MultiplierRow {
+  Vector3 normal;
+  Vector3 free;          ///< m, movement of the slave over the master's material in the step without this contact's forces
+  Vector3 force;         ///< N on the slave, so far
+  Vector3 pending;       ///< N, what has still to be handed to the nodes
+  Vector3 held;          ///< N, force of the step before
+  Vector3 moved;         ///< m, over the master's material since the step before
+  double pressing;       ///< N, normal part of `force`
+  double gap;            ///< m
+  double compliance;     ///< m/N, no less than what all multipliers together can move this node against the master; 0: not known yet
+  int node[5];           ///< of the model: the slave's and the segment's
+  int row[5];            ///< theirs in the extra forces
+  double weight[5];      ///< 1, and minus the shape functions
+  double compliances[5]; ///< m/N, of FreeMotion
+  int slips;
+  int active;
+};
+
+/// What a contact pair has besides where its forces are multipliers; empty otherwise.
+struct MultiplierArrays {
+  Array<MultiplierRow*> rows;          ///< by slave
+  Array<std::uint64_t*> crowd;         ///< by master: shape functions of the active slaves, in quanta; zero between steps
+  Array<double* [3]> way_since_stuck;  ///< m, by slave
+  Array<double*> impact_energy;        ///< J, by slave: what normal forces have taken out of the bodies so far
+  bool active() const { return rows.extent(0) > 0; }
+};
+
+}  // namespace railwave

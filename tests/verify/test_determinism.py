@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The same case run twice, and on one and two threads, gives the same results to the last bit; one with subcycling too."""
+"""The same case run twice, and on one and two threads, gives the same results to the last bit; one with subcycling, in single precision
+and with contact by multipliers too."""
 
 import os
 import pathlib
@@ -60,7 +61,8 @@ def repeats(case, *overrides):
 
 
 def main():
-    checks = [repeats("two_blocks.toml"), repeats("graded_rail.toml"), repeats("two_blocks.toml", "--set", "solver.precision=float")]
+    checks = [repeats("two_blocks.toml"), repeats("graded_rail.toml"), repeats("two_blocks.toml", "--set", "solver.precision=float"),
+              repeats("two_blocks.toml", "--set", "contacts.touch.algorithm=multiplier")]
     return 0 if all(checks) else 1
 
 

@@ -41,49 +41,27 @@ struct ContactMultiplier {
   ExtraForceSum extra;
   FreeMotion free_motion;
   MultiplierArrays multipliers;
-  int sweeps;
 
   static constexpr double crowd_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
   /// hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
 
+  /// Phases over the nodes that can touch: Begin, then Push and Correct for every sweep, then Finish.
   struct Begin {};
   struct Push {};
   struct Correct {};
   struct Finish {};
 
-  KOKKOS_INLINE_FUNCTION int count() const { return window.near_count(0); }
-  KOKKOS_INLINE_FUNCTION WindowEntry entry(int i) const { return window.entries(window.near(i)); }
-
-  /// On a host: one phase over the nodes that can touch, if they are so many.
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
-    if (i < count()) run(phase, i);
+    if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
-  /// On a device: all phases in one team, whose barriers cost less than launches.
-  template <class Member>
-  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
-    phase_of_team(team, Begin{});
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      phase_of_team(team, Push{});
-      phase_of_team(team, Correct{});
-    }
-    phase_of_team(team, Push{});
-    phase_of_team(team, Finish{});
-  }
-
-  template <class Member, class Phase>
-  KOKKOS_INLINE_FUNCTION void phase_of_team(const Member& team, const Phase& phase) const {
-    for (int i = team.team_rank(); i < count(); i += team.team_size()) run(phase, i);
-    team.team_barrier();
-  }
 
   /// Locate, project, foresee; the last step's force is where the iteration starts.
-  KOKKOS_INLINE_FUNCTION void run(const Begin& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void run(const Begin& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
-    const WindowEntry near = entry(i);
     const int s = near.slave;
     const Vector3 slave = row(search.position, near.node);
     const int status = contact.status(s), tracked = contact.tracked(s);
@@ -91,7 +69,6 @@ struct ContactMultiplier {
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
     const Projection now = ContactTrack::where(search, slave, tracked, place, touched);
     MultiplierRow& r = multipliers.rows(s);
-    r.held = touched ? row(contact.normal_force, s) + row(contact.tangential_force, s) : Vector3{{0, 0, 0}};
     r.moved = touched ? now.offset - search.see(slave, tracked).point(place) : Vector3{{0, 0, 0}};
     r.normal = now.normal;
     r.gap = now.gap;
@@ -141,8 +118,9 @@ struct ContactMultiplier {
 
   /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes what the
   /// others leave.
-  KOKKOS_INLINE_FUNCTION void run(const Push& /*phase*/, const int i) const {
-    const MultiplierRow& r = multipliers.rows(entry(i).slave);
+  KOKKOS_INLINE_FUNCTION void run(const Push& /*phase*/, const WindowEntry& near) const { push(multipliers.rows(near.slave)); }
+
+  KOKKOS_INLINE_FUNCTION void push(const MultiplierRow& r) const {
     if (r.active == 0) return;
     const Vector3 quanta = extra.in_quanta(r.pending);
     const FixedForce whole = extra.fixed(quanta);
@@ -155,9 +133,9 @@ struct ContactMultiplier {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void run(const Correct& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void run(const Correct& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
-    const int s = entry(i).slave;
+    const int s = near.slave;
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0) return;
     if (r.compliance == 0) {
@@ -184,11 +162,12 @@ struct ContactMultiplier {
     r.pressing = pressing;
   }
 
-  /// Leaves forces and status for the next step and for those who look, and books the work done since the last.
-  KOKKOS_INLINE_FUNCTION void run(const Finish& /*phase*/, const int i) const {
+  /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work done since the last.
+  KOKKOS_INLINE_FUNCTION void run(const Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
-    const int s = entry(i).slave;
+    const int s = near.slave;
     const MultiplierRow& r = multipliers.rows(s);
+    push(r);
     if (r.active != 0)
       for (int k = 0; k < 4; ++k)
         Kokkos::atomic_add(&multipliers.crowd(contact.segments(contact.tracked(s), k)), std::uint64_t{0} - crowd_share(r.weight[k + 1]));

@@ -13,7 +13,6 @@ struct alignas(16) MultiplierRow {
   Vector3 free;          ///< m, movement of the slave over the master's material in the step without this contact's forces
   Vector3 force;         ///< N on the slave, so far
   Vector3 pending;       ///< N, what has still to be handed to the nodes
-  Vector3 held;          ///< N, force of the step before
   Vector3 moved;         ///< m, over the master's material since the step before
   double pressing;       ///< N, normal part of `force`
   double gap;            ///< m

@@ -166,7 +166,7 @@ struct Contact : Place {
   std::string master;              ///< `part.surface`
   double friction = 0;             ///< Coulomb coefficient
   ContactAlgorithm algorithm = ContactAlgorithm::penalty;
-  int sweeps = 4;                  ///< of the multipliers' iteration, in a step
+  int sweeps = 2;                  ///< of the multipliers' iteration, in a step
   double penalty_scale = 1.0;      ///< f_SI of thesis eq. 2.26d
   std::optional<Vec3> close_gap;   ///< the slave's part is moved along this direction until first touch, before the run
 };

@@ -248,6 +248,9 @@ void build_extra(const Collector& collector) {
   std::vector<int> first(rows + 1, 0);
   for (int n : collector.contribution_node) ++first[row_of_node[n] + 1];
   for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
+  for (ContactPair& pair : model.contacts)
+    for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
+      for (int n : *nodes) pair.loaded = pair.loaded || first[row_of_node[n]] < first[row_of_node[n] + 1];
   std::vector<int> filled(first.begin(), first.end() - 1);
   std::vector<RowShare> sorted(collector.contribution_node.size());
   for (const RowShare& share : contribution_shares(collector))

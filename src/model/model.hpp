@@ -99,6 +99,7 @@ struct ContactPair {
   long next_near_look = -1;            ///< step at which the nodes that can touch are picked out of it again
   long layouts = 0;                    ///< how often it was laid out
   long looks = 0;                      ///< how often it was looked at, the host waiting
+  bool loaded = false;                 ///< loads or connectors act on its nodes
   bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;              ///< no other pair's forces reach the master's nodes
   Array<int*> missed;                  ///< one: see ContactLook

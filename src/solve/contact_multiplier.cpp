@@ -9,8 +9,6 @@
 namespace railwave {
 namespace {
 
-constexpr int team_size = 512;
-
 FreeMotion free_motion(const Model& model, const Instant& instant) {
   if (instant.relaxation != nullptr) {
     const RelaxationUpdate& update = *instant.relaxation;
@@ -21,29 +19,23 @@ FreeMotion free_motion(const Model& model, const Instant& instant) {
 }
 
 template <class Phase, class Multiplier>
-void run_phase(const char* name, const Multiplier& multiplier, int count) {
-  Kokkos::parallel_for(name, Kokkos::RangePolicy<ExecutionSpace, Phase>(0, count), multiplier);
+void run_phase(const char* name, const Multiplier& multiplier) {
+  // How many nodes can touch is known on the device only.
+  using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
+  Kokkos::parallel_for(name, Policy(0, multiplier.window.count), multiplier);
 }
 
 template <bool Friction>
 void find_multipliers(Model& model, ContactPair& pair, const Instant& instant) {
   using Multiplier = ContactMultiplier<Friction>;
-  const int sweeps = pair.contact->sweeps;
   const Multiplier multiplier{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum,
-                              free_motion(model, instant), pair.multipliers, sweeps};
-  if constexpr (on_device) {
-    using OneTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<team_size>, AsArgument>;
-    Kokkos::parallel_for("contact_multipliers", OneTeam(1, team_size), multiplier);
-  } else {
-    const int count = pair.window.near_count(0);
-    run_phase<typename Multiplier::Begin>("multipliers_begin", multiplier, count);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      run_phase<typename Multiplier::Push>("multipliers_push", multiplier, count);
-      run_phase<typename Multiplier::Correct>("multipliers_correct", multiplier, count);
-    }
-    run_phase<typename Multiplier::Push>("multipliers_push", multiplier, count);
-    run_phase<typename Multiplier::Finish>("multipliers_finish", multiplier, count);
+                              free_motion(model, instant), pair.multipliers};
+  run_phase<typename Multiplier::Begin>("multipliers_begin", multiplier);
+  for (int sweep = 0; sweep < pair.contact->sweeps; ++sweep) {
+    run_phase<typename Multiplier::Push>("multipliers_push", multiplier);
+    run_phase<typename Multiplier::Correct>("multipliers_correct", multiplier);
   }
+  run_phase<typename Multiplier::Finish>("multipliers_finish", multiplier);
 }
 
 }  // namespace

@@ -3,8 +3,9 @@
 namespace railwave {
 
 bool go_together(const Model& model, const Instant& instant) {
-  return on_device && instant.advancing && !instant.settling && model.contacts.size() == 1 && model.contacts.front().has_springs() &&
-         model.elements.front().level == 0;
+  if (!on_device || !instant.advancing || instant.settling || model.contacts.size() != 1) return false;
+  // Multipliers come later, and must foresee what loads do to their nodes.
+  return model.elements.front().level == 0 && (model.contacts.front().has_springs() || !model.contacts.front().loaded);
 }
 
 bool sets_go_along(const Model& model, const Instant& instant) {

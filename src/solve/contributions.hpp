@@ -9,8 +9,8 @@ namespace railwave {
 /// More rows than this are not for one team.
 inline constexpr int most_rows_of_a_team = 4096;
 
-/// What contact and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the parts, and
-/// where such elements take every step.
+/// What contact's springs and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the
+/// parts, and where such elements take every step.
 bool go_together(const Model& model, const Instant& instant);
 
 /// The same of the sets. Nodes at paces of their own do not work out their own loads.

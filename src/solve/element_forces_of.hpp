@@ -19,7 +19,8 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
   using Together = ForcesTogether<Patch, Friction>;
   const int set_teams = sets_go_along(model, instant) ? 1 : 0;
   // How many nodes can touch is known on the device only; should they be more, teams take several turns.
-  const int contact_teams = std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team);
+  const int contact_teams =
+      pair.has_springs() ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team) : 0;
   launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
                Together{set_loads(model, instant), contact_force<Friction>(model, pair), functor, set_teams, contact_teams});
 }

@@ -27,6 +27,16 @@ struct FreeMotion {
   }
 };
 
+/// Phases of finding multipliers, over the nodes that can touch: Begin; Foresee, by each of a multiplier's nodes; Push; then for
+/// every sweep Correct and Push, in the last one Finish instead.
+struct Multiplier {
+  struct Begin {};
+  struct Foresee {};
+  struct Push {};
+  struct Correct {};
+  struct Finish {};
+};
+
 /// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991). The
 /// forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force or none;
 /// and with which a node that sticks has not moved over the master, unless that takes more than friction can give.
@@ -47,20 +57,18 @@ struct ContactMultiplier {
   /// hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
 
-  /// Phases over the nodes that can touch: Begin, then Push and Correct for every sweep, then Finish.
-  struct Begin {};
-  struct Push {};
-  struct Correct {};
-  struct Finish {};
-
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
     if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
 
-  /// Locate, project, foresee; the last step's force is where the iteration starts.
-  KOKKOS_INLINE_FUNCTION void run(const Begin& /*phase*/, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Foresee& /*phase*/, const int i) const {
+    if (i < nodes_of_multiplier * window.near_count(0)) foresee(window.entries(window.near(i / nodes_of_multiplier)).slave, i % nodes_of_multiplier);
+  }
+
+  /// Locate, project; the last step's force is where the iteration starts.
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const Vector3 slave = row(search.position, near.node);
@@ -93,17 +101,12 @@ struct ContactMultiplier {
       Kokkos::atomic_add(&multipliers.crowd(contact.segments(now.segment, k)), crowd_share(r.weight[k + 1]));
     }
     r.free = Vector3{{0, 0, 0}};
-    for (int k = 0; k < 5; ++k) {
-      r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
-      r.compliances[k] = free_motion.compliance(r.node[k]);
-      r.free = r.free + r.weight[k] * (free_motion(r.node[k]) - movement(r, k));
-    }
     if constexpr (Friction) {
       // Towards where the node stuck, should it have crept from there.
       Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
       way = way - dot(way, now.normal) * now.normal;
       for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
-      r.free = r.free + way;
+      r.free = way;
     }
     r.pressing = norm(row(contact.normal_force, s));
     if (!touched) return;
@@ -116,9 +119,18 @@ struct ContactMultiplier {
     r.force = r.pending;
   }
 
+  /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its own.
+  KOKKOS_INLINE_FUNCTION void foresee(const int s, const int k) const {
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active == 0) return;
+    r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
+    r.compliances[k] = free_motion.compliance(r.node[k]);
+    r.foreseen[k] = free_motion(r.node[k]) - movement(r, k);
+  }
+
   /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes what the
   /// others leave.
-  KOKKOS_INLINE_FUNCTION void run(const Push& /*phase*/, const WindowEntry& near) const { push(multipliers.rows(near.slave)); }
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near) const { push(multipliers.rows(near.slave)); }
 
   KOKKOS_INLINE_FUNCTION void push(const MultiplierRow& r) const {
     if (r.active == 0) return;
@@ -126,26 +138,27 @@ struct ContactMultiplier {
     const FixedForce whole = extra.fixed(quanta);
     FixedForce left = whole;
     extra.add(r.row[0], whole);
-    for (int k = 1; k < 5; ++k) {
+    for (int k = 1; k < nodes_of_multiplier; ++k) {
       const FixedForce share = k < 4 ? extra.fixed(-r.weight[k] * quanta) : left;
       for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
       extra.subtract(r.row[k], share);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void run(const Correct& /*phase*/, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0) return;
     if (r.compliance == 0) {
+      for (int k = 0; k < nodes_of_multiplier; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
       r.compliance = r.compliances[0];
-      for (int k = 1; k < 5; ++k)
+      for (int k = 1; k < nodes_of_multiplier; ++k)
         r.compliance -= r.weight[k] * r.compliances[k] * crowd_quantum *
                         static_cast<double>(multipliers.crowd(contact.segments(contact.tracked(s), k - 1)));
     }
     Vector3 moves = r.free;
-    for (int k = 0; k < 5; ++k) moves = moves + r.weight[k] * movement(r, k);
+    for (int k = 0; k < nodes_of_multiplier; ++k) moves = moves + r.weight[k] * movement(r, k);
     const double opening = dot(moves, r.normal);
     const double pressing = std::fmax(0.0, r.pressing - (r.gap + opening) / r.compliance);
     Vector3 force = pressing * r.normal;
@@ -163,7 +176,7 @@ struct ContactMultiplier {
   }
 
   /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work done since the last.
-  KOKKOS_INLINE_FUNCTION void run(const Finish& /*phase*/, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const MultiplierRow& r = multipliers.rows(s);

@@ -7,20 +7,23 @@
 
 namespace railwave {
 
+inline constexpr int nodes_of_multiplier = 5;  ///< the slave's and the four of the segment
+
 /// What a slave node's multiplier needs in a step.
 struct alignas(16) MultiplierRow {
   Vector3 normal;
   Vector3 free;          ///< m, movement of the slave over the master's material in the step without this contact's forces
+  Vector3 foreseen[nodes_of_multiplier];  ///< m, movements of the single nodes
   Vector3 force;         ///< N on the slave, so far
   Vector3 pending;       ///< N, what has still to be handed to the nodes
   Vector3 moved;         ///< m, over the master's material since the step before
   double pressing;       ///< N, normal part of `force`
   double gap;            ///< m
   double compliance;     ///< m/N, no less than what all multipliers together can move this node against the master; 0: not known yet
-  int node[5];           ///< of the model: the slave's and the segment's
-  int row[5];            ///< theirs in the extra forces
-  double weight[5];      ///< 1, and minus the shape functions
-  double compliances[5]; ///< m/N, of FreeMotion
+  int node[nodes_of_multiplier];           ///< of the model: the slave's and the segment's
+  int row[nodes_of_multiplier];            ///< theirs in the extra forces
+  double weight[nodes_of_multiplier];      ///< 1, and minus the shape functions
+  double compliances[nodes_of_multiplier]; ///< m/N, of FreeMotion
   int slips;
   int active;
 };

@@ -47,7 +47,7 @@ Section contact_section() {
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the next step, "
           "nor slips where friction holds it")
           .one_of({"penalty", "multiplier"}),
-      key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next").within(between(2, 100)),
+      key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next; of several contacts the most counts").within(between(2, 100)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
       key("close_gap", &Contact::close_gap,
           "before the run, the slave's part is moved along this direction until it first touches")

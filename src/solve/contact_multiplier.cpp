@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <variant>
+
 #include "kernels/contact_multiplier.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/element_forces.hpp"
@@ -18,35 +21,56 @@ FreeMotion free_motion(const Model& model, const Instant& instant) {
   return {model.acceleration(), advance.velocity_step, advance.step, {}, {}};
 }
 
-template <class Phase, class Multiplier>
-void run_phase(const char* name, const Multiplier& multiplier) {
-  // How many nodes can touch is known on the device only.
-  using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-  Kokkos::parallel_for(name, Policy(0, multiplier.window.count), multiplier);
+using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>>;
+
+AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
+  const ContactSearch search{{pair.arrays, model.nodes.position}};
+  const FreeMotion motion = free_motion(model, instant);
+  if (pair.arrays.friction > 0) return ContactMultiplier<true>{search, pair.window, model.extra.sum, motion, pair.multipliers};
+  return ContactMultiplier<false>{search, pair.window, model.extra.sum, motion, pair.multipliers};
 }
 
-template <bool Friction>
-void find_multipliers(Model& model, ContactPair& pair, const Instant& instant) {
-  using Multiplier = ContactMultiplier<Friction>;
-  const Multiplier multiplier{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum,
-                              free_motion(model, instant), pair.multipliers};
-  run_phase<typename Multiplier::Begin>("multipliers_begin", multiplier);
-  for (int sweep = 0; sweep < pair.contact->sweeps; ++sweep) {
-    run_phase<typename Multiplier::Push>("multipliers_push", multiplier);
-    run_phase<typename Multiplier::Correct>("multipliers_correct", multiplier);
-  }
-  run_phase<typename Multiplier::Finish>("multipliers_finish", multiplier);
+template <class Phase>
+void run_phase(const char* name, const AnyMultiplier& any, int threads_of_slave = 1) {
+  std::visit(
+      [&](const auto& multiplier) {
+        // How many nodes can touch is known on the device only.
+        using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
+        Kokkos::parallel_for(name, Policy(0, threads_of_slave * multiplier.window.count), multiplier);
+      },
+      any);
+}
+
+void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
+  for (const auto& pair : pairs) run_phase<Multiplier::Begin>("multipliers_begin", pair);
+  for (const auto& pair : pairs) run_phase<Multiplier::Foresee>("multipliers_foresee", pair, nodes_of_multiplier);
+  for (const auto& pair : pairs) run_phase<Multiplier::Push>("multipliers_push", pair);
+  for (int sweep = 1; sweep <= sweeps; ++sweep)
+    for (const auto& pair : pairs) {
+      run_phase<Multiplier::Correct>("multipliers_correct", pair);
+      if (sweep < sweeps) run_phase<Multiplier::Push>("multipliers_push", pair);
+      else run_phase<Multiplier::Finish>("multipliers_finish", pair);
+    }
 }
 
 }  // namespace
 
-Stage multiplier_stage(Model& model, ContactPair& pair) {
-  const bool friction = pair.arrays.friction > 0;
-  return {fmt::format("contact {}, multipliers, {}", pair.contact->name, friction ? "friction" : "frictionless"),
-          [&model, &pair, friction](const Instant& instant) {
-            keep_window(model, pair, instant);
-            if (friction) find_multipliers<true>(model, pair, instant);
-            else find_multipliers<false>(model, pair, instant);
+Stage multiplier_stage(Model& model) {
+  std::string name = "multipliers of";
+  int sweeps = 0;
+  for (const ContactPair& pair : model.contacts) {
+    if (pair.has_springs()) continue;
+    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", pair.contact->name, pair.arrays.friction > 0 ? ", friction" : ", frictionless");
+    sweeps = std::max(sweeps, pair.contact->sweeps);
+  }
+  return {name, [&model, sweeps](const Instant& instant) {
+            std::vector<AnyMultiplier> pairs;
+            for (ContactPair& pair : model.contacts) {
+              if (pair.has_springs()) continue;
+              keep_window(model, pair, instant);
+              pairs.push_back(multiplier_of(model, pair, instant));
+            }
+            find_multipliers(pairs, sweeps);
           }};
 }
 

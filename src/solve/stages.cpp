@@ -1,5 +1,7 @@
 #include "solve/stages.hpp"
 
+#include <algorithm>
+
 #include "kernels/listed_nodes.hpp"
 #include "model/carriers.hpp"
 #include "model/patch_launch.hpp"
@@ -145,8 +147,8 @@ std::vector<Stage> force_stages(Model& model) {
   // Its patches may move their nodes at once, where all else must still find them: all but multipliers, which need the
   // elements' forces and concern no node that a patch moves.
   for (const ElementGroup& group : model.elements) stages.push_back(element_stage(model, group));
-  for (ContactPair& pair : model.contacts)
-    if (!pair.has_springs()) stages.push_back(multiplier_stage(model, pair));
+  if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
+    stages.push_back(multiplier_stage(model));
   return stages;
 }
 

@@ -9,7 +9,7 @@
 #include "check.hpp"
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_command.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {
@@ -19,9 +19,9 @@ namespace {
 enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, interrupted = 130 };
 
 struct Arguments {
-  std::string case_file, results_file, topic;
+  std::string case_file, topic;
   std::vector<std::string> overrides;
-  std::optional<std::string> csv;
+  ContactRequest contact;
   bool markdown = false, schema = false;
 };
 
@@ -62,6 +62,21 @@ int print_reference(const Arguments& arguments) {
   return done;
 }
 
+void add_contact_options(CLI::App* command, ContactRequest& request) {
+  command->add_option("results", request.results, "results file")->required();
+  command->add_option("--csv", request.csv, "also write the table as CSV, in SI units: a row per output time and patch");
+  command->add_option("--nodes", request.nodes, "also write a CSV of the nodes of each patch: stresses, micro-slip, stick and slip");
+  command->add_option("--cuts", request.cuts, "also write a CSV of cuts along and across through the centre of each patch");
+  command->add_option("--hdf5", request.hdf5, "also write all of this, and the stresses of the facets, as HDF5: a file of its own");
+  command->add_option("--from", request.from, "leave out output times before, s");
+  command->add_option("--to", request.to, "leave out output times after, s");
+  command->add_option("--rolling-direction", request.rolling_direction, "x,y,z, from which longitudinal is made; default 1,0,0")->delimiter(',');
+  command->add_option("--ring", request.ring, "inner,outer radius, in semi-axes of the patch, of the surface whose rigid motion gives the creepage; default 1.5,3")
+      ->delimiter(',');
+  command->add_option("--axle", request.axle, "history set that travels with the patch, e.g. wheel.bore, for the rolling velocity; default: the patch's own travel");
+  command->add_option("--rolling-velocity", request.rolling_velocity, "the rolling velocity instead, m/s");
+}
+
 int dispatch(int argc, char** argv) {
   CLI::App app{"Railwave: explicit finite elements for the dynamic interaction of wheel and rail"};
   app.set_version_flag("--version", std::string("railwave ") + RAILWAVE_VERSION);
@@ -81,9 +96,8 @@ int dispatch(int argc, char** argv) {
   add_case(check_command);
   check_command->callback([&] { code = check_case(arguments); });
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
-  contact->add_option("results", arguments.results_file, "results file")->required();
-  contact->add_option("--csv", arguments.csv, "also write the table as CSV");
-  contact->callback([&] { code = contact_command(arguments.results_file, arguments.csv, std::cout); });
+  add_contact_options(contact, arguments.contact);
+  contact->callback([&] { code = contact_command(arguments.contact, std::cout); });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
   help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");
   help->callback([&] { std::cout << case_help(arguments.topic) << '\n'; });

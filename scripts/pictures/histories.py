@@ -24,7 +24,7 @@ def draw_forces(results):
         coefficient[touching] = np.linalg.norm(tangential[touching], axis=1) / size[touching]
         (line,) = ratio.plot(1e3 * time, coefficient, label=prefix + "tangential over normal")
         if name in results.contacts():
-            friction = results.contact(name).friction
+            friction = results.friction(name)
             ratio.axhline(friction, color=line.get_color(), linewidth=0.8, linestyle="--", label=f"{prefix}friction {friction:g}")
     forces.axhline(0, color="black", linewidth=0.6)
     forces.set_ylabel("force, kN")

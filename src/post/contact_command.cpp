@@ -1,77 +1,146 @@
+#include "post/contact_command.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <ostream>
 
 #include <fmt/format.h>
 
 #include "case/error.hpp"
 #include "output/atomic_file.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_file.hpp"
+#include "post/contact_tables.hpp"
+#include "post/patch_velocity.hpp"
 #include "post/results_reader.hpp"
 
 namespace railwave {
 namespace {
 
-const char* const csv_heading =
-    "contact,time,nodes_in_contact,area_by_count,area,peak_nodal_pressure,peak_facet_pressure,peak_shear,normal_force,creep_force,"
-    "lateral_force,traction_coefficient,centre_x,centre_y,centre_z,normal_x,normal_y,normal_z,slipping_by_force,slipping_by_velocity,"
-    "slipping_by_solver\n";
-
-/// A name with commas or quotes is put in quotes, as spreadsheets expect it.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string csv_line(const std::string& contact, double time, const ContactSolution& s) {
-  return fmt::format("{},{:.12g},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{},{}\n",
-                     csv_text(contact), time, s.nodes, s.area_by_count, s.area, s.peak_nodal_pressure, s.peak_facet_pressure, s.peak_shear,
-                     s.normal_force, s.creep_force, s.lateral_force, s.traction_coefficient, s.centre[0], s.centre[1], s.centre[2],
-                     s.normal[0], s.normal[1], s.normal[2], s.slipping_by_force, s.slipping_by_velocity, s.slipping_by_solver);
+void check(const ContactRequest& request) {
+  const auto [inner, outer] = request.ring;
+  if (!(inner >= 0 && outer > inner && std::isfinite(outer)))
+    throw InputError(fmt::format("--ring {},{}: two numbers are wanted, 0 or more, the second the larger one, e.g. --ring 1.5,3", inner, outer));
+  const auto& d = request.rolling_direction;
+  if (!(std::isfinite(d[0] + d[1] + d[2]) && Vector(d.data()).norm() > 0))
+    throw InputError(fmt::format("--rolling-direction {},{},{}: a direction is wanted, e.g. -1,0,0", d[0], d[1], d[2]));
+  if (request.axle && request.rolling_velocity) throw InputError("--axle and --rolling-velocity exclude each other: name one of them");
+  if (request.rolling_velocity && !(*request.rolling_velocity > 0 && std::isfinite(*request.rolling_velocity)))
+    throw InputError(fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
+  if (!(request.from <= request.to)) throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
+  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) {
+    std::error_code none;
+    if (file && std::filesystem::equivalent(*file, request.results, none))
+      throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
+  }
 }
 
 void print_heading(std::ostream& out) {
-  out << fmt::format("{:>10} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>17}\n", "time", "nodes", "area", "area",
-                     "peak p", "peak p", "peak q", "normal", "creep", "lateral", "T/N", "centre x", "centre y", "slipping nodes");
-  out << fmt::format("{:>10} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>5} {:>5} {:>5}\n", "ms", "", "count mm2",
-                     "zero mm2", "node MPa", "facet MPa", "node MPa", "kN", "kN", "kN", "", "mm", "mm", "force", "vel.", "run");
+  out << fmt::format("{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>17} {:>6} {:>9} {:>9} {:>9}\n",
+                     "time", "patch", "nodes", "area", "peak p", "peak p", "peak q", "normal", "creep", "lateral", "T/N", "centre x",
+                     "centre y", "a", "b", "slipping nodes", "agree", "creepage", "creepage", "spin");
+  out << fmt::format("{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>5} {:>5} {:>5} {:>6} {:>9} {:>9} {:>9}\n",
+                     "ms", "", "", "zero mm2", "node MPa", "facet MPa", "node MPa", "kN", "kN", "kN", "", "mm", "mm", "mm", "mm", "force", "vel.",
+                     "run", "%", "long. %", "lat. %", "1/m");
 }
 
-void print_line(std::ostream& out, double time, const ContactSolution& s) {
-  out << fmt::format("{:>10.5f} {:>6} {:>9.2f} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f} {:>9.3f} {:>9.3f} {:>5} {:>5} {:>5}\n",
-                     1e3 * time, s.nodes, 1e6 * s.area_by_count, 1e6 * s.area, 1e-6 * s.peak_nodal_pressure, 1e-6 * s.peak_facet_pressure,
-                     1e-6 * s.peak_shear, 1e-3 * s.normal_force, 1e-3 * s.creep_force, 1e-3 * s.lateral_force, s.traction_coefficient,
-                     1e3 * s.centre[0], 1e3 * s.centre[1], s.slipping_by_force, s.slipping_by_velocity, s.slipping_by_solver);
+std::string number_or_dash(double value, int decimals) { return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals); }
+
+/// A row of the patches' table; several patches together are summed up in their own row 0 of it.
+void print_row(std::ostream& out, const Table& t, std::size_t row) {
+  const auto value = [&](const char* column, double unit = 1) { return unit * t.at(row, column); };
+  const bool all = value("patch") == 0;
+  out << fmt::format(
+      "{:>10.5f} {:>5} {:>6} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f} {:>9} {:>9} {:>7.3f} {:>7.3f} {:>5} {:>5} {:>5} "
+      "{:>6} {:>9} {:>9} {:>9}\n",
+      value("time", 1e3), all ? "all" : fmt::format("{}", value("patch")), value("nodes_in_contact"), value("area", 1e6),
+      value("peak_nodal_pressure", 1e-6), value("peak_facet_pressure", 1e-6), value("peak_shear", 1e-6), value("normal_force", 1e-3),
+      value("creep_force", 1e-3), value("lateral_force", 1e-3), value("traction_coefficient"), number_or_dash(value("centre_x", 1e3), 3),
+      number_or_dash(value("centre_y", 1e3), 3), value("semi_axis_along", 1e3), value("semi_axis_across", 1e3), value("slipping_by_force"),
+      value("slipping_by_velocity"), value("slipping_by_solver"), number_or_dash(value("agreement_force_velocity", 100), 1),
+      number_or_dash(value("longitudinal_creepage", 100), 4), number_or_dash(value("lateral_creepage", 100), 4),
+      number_or_dash(value("spin_creepage"), 3));
+}
+
+/// Row 0, of all patches together, says nothing new where there is one.
+void print(std::ostream& out, const Table& patches) {
+  print_heading(out);
+  for (std::size_t row = 0; row < patches.row_count(); ++row) {
+    const bool all = patches.at(row, "patch") == 0;
+    const bool last_of_instant = row + 1 == patches.row_count() || patches.at(row + 1, "patch") == 0;
+    const bool followed_by_one = !last_of_instant && (row + 2 == patches.row_count() || patches.at(row + 2, "patch") == 0);
+    if (!all || !(followed_by_one && patches.at(row, "stray_nodes") == 0)) print_row(out, patches, row);
+  }
+}
+
+ContactTables solve(const ResultsReader& results, const std::string& contact, const ContactRequest& request) {
+  ContactTables tables;
+  tables.with_nodes = request.nodes.has_value();
+  tables.with_facets = request.hdf5.has_value();
+  tables.with_cuts = request.cuts || request.hdf5;
+  PatchOptions options;
+  options.rolling = Vector(request.rolling_direction.data());
+  options.ring = {request.ring[0], request.ring[1]};
+
+  std::vector<PatchInstant> instants;
+  const std::vector<double> times = results.contact_times(contact);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < request.from || times[i] > request.to) continue;
+    const ContactState state = results.contact_state(contact, i);
+    const ContactSolution solution = contact_solution(state, options);
+    tables.add(times[i], state, solution);
+    const ContactPatch& whole = solution.whole;
+    instants.push_back({times[i], !whole.touching.empty(), whole.frame.centre, std::max(whole.ellipse.semi_axis_along, whole.ellipse.semi_axis_across)});
+  }
+  if (instants.empty() && !times.empty())
+    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact, request.from, request.to, times.front(), times.back()));
+  if (request.rolling_velocity) {
+    tables.set_rolling_velocity(*request.rolling_velocity);
+  } else if (request.axle) {
+    std::vector<double> chosen;
+    for (const PatchInstant& instant : instants) chosen.push_back(instant.time);
+    tables.set_patch_velocity(results.set_velocity(*request.axle, chosen));
+  } else {
+    tables.set_patch_velocity(patch_velocity(instants));
+  }
+  return tables;
+}
+
+void write_csv(const std::optional<std::string>& file, const std::string& text) {
+  if (!file) return;
+  try {
+    write_whole_file(*file, text);
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("the table was not written: {}", error.what()));
+  }
 }
 
 }  // namespace
 
-int contact_command(const std::string& file, const std::optional<std::string>& csv, std::ostream& out) {
-  const ResultsReader results(file);
+int contact_command(const ContactRequest& request, std::ostream& out) {
+  check(request);
+  const ResultsReader results(request.results);
   const std::vector<std::string> contacts = results.contacts();
   if (contacts.empty()) {
     throw InputError(fmt::format(
-        "results file {} holds no contact: the case has no [contacts.NAME], or the run ended before its first output of fields", file));
+        "results file {} holds no contact: the case has no [contacts.NAME], or the run ended before its first output of fields", request.results));
   }
-  std::string table = csv_heading;
   if (!results.completed()) out << "note: this run did not complete: " << results.reason() << '\n';
+  std::vector<std::pair<std::string, ContactTables>> solved;
   for (const std::string& contact : contacts) {
-    const std::vector<double> times = results.contact_times(contact);
+    solved.emplace_back(contact, solve(results, contact, request));
     out << fmt::format("contact {}, forces on {}\n", contact, results.slave_surface(contact));
-    print_heading(out);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      const ContactSolution solution = contact_solution(results.contact_state(contact, i));
-      print_line(out, times[i], solution);
-      table += csv_line(contact, times[i], solution);
-    }
+    print(out, solved.back().second.patches);
   }
-  if (csv) {
-    try {
-      write_whole_file(*csv, table);
-    } catch (const std::exception& error) {
-      throw InputError(fmt::format("the table was not written: {}", error.what()));
-    }
-  }
+  const auto csv = [&](Table ContactTables::*table) {
+    std::string text = (solved.front().second.*table).csv_heading();
+    for (const auto& [contact, tables] : solved) text += (tables.*table).csv_rows(contact);
+    return text;
+  };
+  if (request.csv) write_csv(request.csv, csv(&ContactTables::patches));
+  if (request.nodes) write_csv(request.nodes, csv(&ContactTables::nodes));
+  if (request.cuts) write_csv(request.cuts, csv(&ContactTables::cuts));
+  if (request.hdf5) write_contact_file(*request.hdf5, results, solved);
   return 0;
 }
 

@@ -3,27 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
+#include "post/vectors.hpp"
 
 namespace railwave {
 namespace {
 
-using Vector = Eigen::Vector3d;
-
 class Surface {
  public:
-  Surface(const ContactSide& side, const std::vector<double>& pressure) : side_(side), pressure_(pressure), first_(side.nodes.size() + 1, 0) {
-    for (const auto& facet : side.facets)
-      for (const int corner : facet) ++first_[corner + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-    facets_.resize(first_.back());
-    std::vector<int> next(first_.begin(), first_.end() - 1);
-    for (std::size_t f = 0; f < side.facets.size(); ++f)
-      for (const int corner : side.facets[f]) facets_[next[corner]++] = static_cast<int>(f);
-  }
+  Surface(const ContactSide& side, const FacetsAroundNodes& around, const std::vector<double>& pressure)
+      : side_(side), around_(around), pressure_(pressure) {}
 
   bool inside(int node) const { return pressure_[node] > 0; }
-  Vector position(int node) const { return Vector(side_.position.data() + 3 * node); }
+  Vector position(int node) const { return entry(side_.position, node); }
 
   /// Where the zero line crosses the edge from `in` to `out`.
   Vector crossing(int in, int out) const {
@@ -44,9 +35,9 @@ class Surface {
     const Vector ahead = (position(to) - position(from)).normalized();
     int best = -1;
     double best_cosine = std::sqrt(0.5);
-    for (int i = first_[to]; i < first_[to + 1]; ++i) {
-      if (has(facets_[i], from)) continue;
-      const auto& corners = side_.facets[facets_[i]];
+    for (const int facet : around_[to]) {
+      if (has(facet, from)) continue;
+      const auto& corners = side_.facets[facet];
       const auto here = std::find(corners.begin(), corners.end(), to) - corners.begin();
       for (const int candidate : {corners[(here + 1) % 4], corners[(here + 3) % 4]}) {
         const double cosine = ahead.dot((position(candidate) - position(to)).normalized());
@@ -60,8 +51,8 @@ class Surface {
   }
 
   bool beside(int candidate, int from, int to) const {
-    for (int i = first_[to]; i < first_[to + 1]; ++i)
-      if (has(facets_[i], from) && has(facets_[i], candidate)) return true;
+    for (const int facet : around_[to])
+      if (has(facet, from) && has(facet, candidate)) return true;
     return false;
   }
 
@@ -87,8 +78,8 @@ class Surface {
   }
 
   const ContactSide& side_;
+  const FacetsAroundNodes& around_;
   const std::vector<double>& pressure_;
-  std::vector<int> first_, facets_;  // facets around each node
 };
 
 double polygon_area(const std::vector<Vector>& corners) {
@@ -99,8 +90,8 @@ double polygon_area(const std::vector<Vector>& corners) {
 
 }  // namespace
 
-double patch_area(const ContactSide& side, const std::vector<double>& pressure) {
-  const Surface surface(side, pressure);
+double patch_area(const ContactSide& side, const FacetsAroundNodes& around, const std::vector<double>& pressure) {
+  const Surface surface(side, around, pressure);
   double area = 0;
   std::vector<Vector> polygon;
   for (const auto& facet : side.facets) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/fields.hpp"
+#include "post/surface_mesh.hpp"
 
 namespace railwave {
 
@@ -13,6 +13,6 @@ namespace railwave {
 /// straight line: the crossing is where the parabola through the squares at the last three nodes in contact along that
 /// mesh line comes to zero, but never outside the edge that it crosses. With two such nodes a straight line is drawn
 /// instead of a parabola; with one the crossing is in the middle. The crossings are joined by straight lines, facet by facet.
-double patch_area(const ContactSide& side, const std::vector<double>& pressure);
+double patch_area(const ContactSide& side, const FacetsAroundNodes& around, const std::vector<double>& pressure);
 
 }  // namespace railwave

@@ -113,6 +113,33 @@ std::vector<double> ResultsReader::contact_times(const std::string& contact) con
   }
 }
 
+std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set, const std::vector<double>& times) const {
+  try {
+    const hdf5::Group history = file_.root().group("history");
+    const std::vector<std::string> known = history.has("set") ? history.group("set").names() : std::vector<std::string>{};
+    if (known.empty())
+      throw InputError(fmt::format("results file {} has the history of no set; the case names them in output.history_sets", path_));
+    if (std::find(known.begin(), known.end(), set) == known.end())
+      throw InputError(fmt::format("results file {} has no history of set '{}'; {}", path_, set, suggestion(set, known)));
+    const std::vector<double> sampled = history.dataset("time").read<double>();
+    const std::vector<double> velocity = history.group("set").group(set).dataset("velocity").read<double>();
+    const std::size_t count = std::min(sampled.size(), velocity.size() / 3);
+    if (count == 0) throw std::runtime_error("its history is empty");
+    std::vector<Eigen::Vector3d> result;
+    for (const double time : times) {
+      const std::size_t after = std::upper_bound(sampled.begin(), sampled.begin() + count, time) - sampled.begin();
+      const std::size_t one = after == 0 ? 0 : after - 1, other = std::min(after, count - 1);
+      const double share = sampled[other] > sampled[one] ? std::clamp((time - sampled[one]) / (sampled[other] - sampled[one]), 0.0, 1.0) : 0.0;
+      result.push_back((1 - share) * Eigen::Vector3d(&velocity[3 * one]) + share * Eigen::Vector3d(&velocity[3 * other]));
+    }
+    return result;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: history of set '{}': {}", path_, set, error.what()));
+  }
+}
+
 ContactState ResultsReader::contact_state(const std::string& contact, std::size_t index) const {
   try {
     const hdf5::Group group = file_.root().group("contact").group(contact);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ class ResultsReader {
 
   /// Output times that are there in full, s.
   std::vector<double> contact_times(const std::string& contact) const;
+
+  /// Velocity of one of the run's history sets, m/s, at each of `times`, between two samples in proportion. Throws InputError
+  /// if there is no such set.
+  std::vector<Eigen::Vector3d> set_velocity(const std::string& set, const std::vector<double>& times) const;
 
   /// State number `index` of contact_times(). Throws InputError if the file lacks a part of it.
   ContactState contact_state(const std::string& contact, std::size_t index) const;

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "post/equivalent_ellipse.hpp"
+#include "post/micro_slip.hpp"
+#include "post/rigid_slip.hpp"
+#include "post/slip_regions.hpp"
+
+namespace railwave {
+
+/// One patch of contact at one instant, from the nodal forces of the slave surface (thesis 3.4). Forces and stresses are
+/// those on the slave.
+struct ContactPatch {
+  std::vector<int> touching;      ///< slave nodes in contact: normal force above `contact_threshold`
+  std::vector<double> pressure;   ///< Pa, of these
+  std::vector<int> facets;        ///< those with a touching corner
+  std::vector<int> surroundings;  ///< all corners of these
+  std::vector<RelativeMotion> motion;  ///< of `surroundings`
+  SlipRegions regions;                 ///< of `touching`
+
+  LocalFrame frame;                    ///< about the centre of the normal force
+  double area_by_count = 0;            ///< m2, sum of the areas of the nodes in contact
+  double area = 0;                     ///< m2, inside the zero line of the pressure (post/patch_area.hpp)
+  EquivalentEllipse ellipse;
+  double peak_nodal_pressure = 0;      ///< Pa, largest normal force of a node over the node's area
+  double peak_facet_pressure = 0;      ///< Pa, largest mean of a facet (eq. 3.3)
+  double peak_shear = 0;               ///< Pa, largest tangential force of a node over the node's area
+  double peak_facet_shear = 0;         ///< Pa
+  double peak_micro_slip = 0;          ///< m/s, of the touching nodes
+  double normal_force = 0;             ///< N, size of the sum
+  double creep_force = 0;              ///< N, longitudinal
+  double lateral_force = 0;            ///< N
+  double traction_coefficient = 0;     ///< tangential over normal force
+  double slip_difference = 0;          ///< m/s, largest distance of the micro-slip found here from the run's own
+  RigidSlip rigid_slip;
+};
+
+/// What the user may choose.
+struct PatchOptions {
+  Vector rolling = Vector::UnitX();  ///< rolling direction
+  CreepageRing ring;
+};
+
+/// Everything about one contact at one instant that the patches share. Keeps a reference to the state.
+struct ContactSurfaces {
+  explicit ContactSurfaces(const ContactState& contact_state);
+
+  const ContactState& state;
+  FacetsAroundNodes around_slave, around_master;
+  SurfaceSearch master;
+  TouchingNodes touching;
+};
+
+/// The patch of the touching nodes listed; all zero without nodes.
+ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<int>& nodes, const PatchOptions& options);
+
+}  // namespace railwave

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "post/centre_cut.hpp"
+#include "post/contact_solution.hpp"
+#include "post/table.hpp"
+
+namespace railwave {
+
+/// What `railwave contact` writes of one contact: docs/results-file.md tells the columns.
+class ContactTables {
+ public:
+  ContactTables();
+
+  /// Which of the larger ones are wanted.
+  bool with_nodes = false, with_facets = false, with_cuts = false;
+
+  /// Adds one instant: row 0 of all patches together, then a row for each.
+  void add(double time, const ContactState& state, const ContactSolution& solution);
+
+  /// Fills the creepages once it is known how fast the patch moves over ground: m/s, by instant, NaN where it is not.
+  void set_patch_velocity(const std::vector<Vector>& velocities);
+
+  /// The same with one rolling velocity for all instants, m/s.
+  void set_rolling_velocity(double velocity);
+
+  Table patches, nodes, facets, cuts;
+
+ private:
+  void set_creepages(std::size_t row, double rolling_velocity);
+  void add_patch(double time, int number, const ContactSolution& solution, const ContactPatch& patch);
+  void add_nodes(double time, int number, const ContactState& state, const ContactPatch& patch);
+  void add_facets(const ContactState& state, const ContactPatch& patch, std::size_t first_node);
+  void add_cut(double time, int number, const ContactState& state, const ContactPatch& patch, CutDirection direction);
+
+  std::vector<int> instants_;  ///< of each row of patches
+  int instant_count_ = 0;
+};
+
+}  // namespace railwave

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/hdf5.hpp"
+
+namespace railwave {
+
+/// A column of a table: what docs/results-file.md calls it, and its unit ("1" of a mere number).
+struct Column {
+  std::string name, unit;
+};
+
+/// Rows of numbers, for CSV and HDF5 alike. Not-a-number: not known; an empty cell in CSV.
+class Table {
+ public:
+  explicit Table(std::vector<Column> columns);
+
+  /// Throws std::logic_error if there are not as many as columns.
+  void add_row(const std::vector<double>& values);
+
+  std::size_t row_count() const { return columns_.empty() ? 0 : values_.front().size(); }
+  double& at(std::size_t row, const std::string& column) { return values_[place(column)][row]; }
+  double at(std::size_t row, const std::string& column) const { return values_[place(column)][row]; }
+
+  /// The names of the columns, after one called "contact"; and the rows, after that contact's name. Columns whose unit is
+  /// "row" link one table to another and are left out.
+  std::string csv_heading() const;
+  std::string csv_rows(const std::string& contact) const;
+
+  /// A dataset for each column, and the units as the group's attributes of the same names.
+  void write(const hdf5::Group& group) const;
+
+ private:
+  std::size_t place(const std::string& column) const;
+
+  std::vector<Column> columns_;
+  std::vector<std::vector<double>> values_;  ///< by column
+};
+
+}  // namespace railwave

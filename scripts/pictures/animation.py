@@ -2,12 +2,12 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.animation import FuncAnimation, PillowWriter
+from PIL import Image
 
-from .panels import SHEAR_COLOUR, SLIP_COLOUR, Fine, draw_arrows, draw_cut, draw_edge, draw_letters, draw_parting, draw_pressure, pressure_levels, set_window
+from .panels import SHEAR_COLOUR, SLIP_COLOUR, Fine, draw_arrows, draw_cut, draw_edge, draw_letters, draw_parting, draw_pressure, parting_levels, pressure_levels, set_window
 
 
-def animate(title, contact, path, frames=60, rate=8):
+def animate(title, contact, path, frames=60, resolution=80, rate=8):
     """Writes a GIF: above, where the patch is on its way and the forces so far; below, the patch from near by. Every output
     time at which something touches is a frame, or up to `frames` of them, evenly spread. Returns the number of frames."""
     touching = [i for i in range(len(contact.times)) if contact.patches(i)]
@@ -20,12 +20,12 @@ def animate(title, contact, path, frames=60, rate=8):
     levels = pressure_levels(max(p.pressure.max() for p in everything))
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in everything)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in everything)
-    fastest = max(np.abs(p.parting).max() for p in everything) or 1e-12
+    parting = parting_levels(max(np.abs(p.parting).max() for p in everything) or 1e-12)
     top = 1.18 * max(p.bound.max() for p in everything)
     way = [min(p.centre[0] + p.x.min() for p in everything), max(p.centre[0] + p.x.max() for p in everything)]
     sides = [min(p.centre[1] + p.y.min() for p in everything), max(p.centre[1] + p.y.max() for p in everything)]
 
-    figure = plt.figure(figsize=(8, 6), dpi=80)
+    figure = plt.figure(figsize=(8, 6), dpi=resolution)
     grid = figure.add_gridspec(3, 2, height_ratios=[0.8, 0.9, 2.6], hspace=0.5, wspace=0.3, left=0.1, right=0.97, top=0.92, bottom=0.09)
     track, forces, line = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
     stress, slip = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
@@ -56,7 +56,7 @@ def animate(title, contact, path, frames=60, rate=8):
         draw_pressure(stress, fine, levels)
         draw_arrows(stress, patch, patch.shear_x, patch.shear_y, SHEAR_COLOUR, largest=shear)
         stress.set_title("pressure, shear", fontsize=8)
-        draw_parting(slip, patch, fine, fastest)
+        draw_parting(slip, patch, fine, parting)
         draw_arrows(slip, patch, patch.slip_x, patch.slip_y, SLIP_COLOUR, largest=speed)
         draw_letters(slip, patch, patch.slips_by_velocity)
         slip.set_title("micro-slip, parting", fontsize=8)
@@ -66,10 +66,15 @@ def animate(title, contact, path, frames=60, rate=8):
             axes.yaxis.label.set_size(8)
         for axes in (track, forces, line, stress, slip):
             axes.tick_params(labelsize=7)
-        return []
 
-    FuncAnimation(figure, draw, frames=len(chosen), blit=False).save(path, writer=PillowWriter(fps=rate))
+    images = []
+    for frame in range(len(chosen)):
+        draw(frame)
+        figure.canvas.draw()
+        image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB")
+        images.append(image.quantize(64, method=Image.Quantize.MAXCOVERAGE))
     plt.close(figure)
+    images[0].save(path, save_all=True, append_images=images[1:], duration=round(1000 / rate), loop=0, optimize=True)
     return len(chosen)
 
 

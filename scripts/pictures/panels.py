@@ -55,10 +55,13 @@ def draw_edge(axes, fine):
     axes.tricontour(fine.mesh, fine.square_of_pressure, levels=[0], colors="black", linewidths=0.9)
 
 
-def draw_parting(axes, patch, fine, fastest):
+def parting_levels(fastest):
+    return MaxNLocator(14, symmetric=True).tick_values(-fastest, fastest)
+
+
+def draw_parting(axes, patch, fine, levels):
     """Colours by the velocity at which the surfaces part (positive) or approach."""
-    mesh, parting = fine.refine(patch.parting)
-    colours = axes.tripcolor(mesh, parting, shading="gouraud", cmap=PARTING_COLOURS, vmin=-fastest, vmax=fastest, rasterized=True)
+    colours = axes.tricontourf(*fine.refine(patch.parting), levels=levels, cmap=PARTING_COLOURS)
     draw_edge(axes, fine)
     return colours
 

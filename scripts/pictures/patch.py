@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from .panels import (SHEAR_COLOUR, SLIP_COLOUR, STICK_COLOUR, Fine, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
-                     draw_stick_boundary, pressure_levels, set_window)
+                     draw_stick_boundary, parting_levels, pressure_levels, set_window)
 
 
 def _forces(patch):
@@ -43,8 +43,8 @@ def _top(cut):
     return 1.18 * max(cut["traction_bound"].max(initial=0), 1e-12)
 
 
-def _fastest(patches):
-    return max(np.abs(p.parting).max() for p in patches) or 1e-12
+def _parting_levels(patches):
+    return parting_levels(max(np.abs(p.parting).max() for p in patches) or 1e-12)
 
 
 def draw_patch(title, contact, patch):
@@ -66,7 +66,7 @@ def draw_patch(title, contact, patch):
     handles = [Line2D([], [], color="black", linewidth=0.9, label="edge"), Line2D([], [], color=STICK_COLOUR, linestyle="--", label="stick | slip")]
     stress.legend(handles=handles, fontsize=7, loc="upper left")
 
-    colours = draw_parting(slip, patch, fine, _fastest([patch]))
+    colours = draw_parting(slip, patch, fine, _parting_levels([patch]))
     figure.colorbar(colours, ax=slip, label="surfaces part (+), approach (-), m/s", shrink=0.9)
     draw_stick_boundary(slip, patch, fine, patch.slips_by_velocity)
     draw_arrows(slip, patch, patch.slip_x, patch.slip_y, SLIP_COLOUR, key=("micro-slip", "m/s"))
@@ -94,7 +94,7 @@ def draw_row(title, contact, count=6, indices=None):
     levels = pressure_levels(max(p.pressure.max() for p in patches))
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in patches)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in patches)
-    fastest, cuts = _fastest(patches), [p.cut() for p in patches]
+    parting, cuts = _parting_levels(patches), [p.cut() for p in patches]
     top = max(_top(cut) for cut in cuts)
     width, n = 2.1, len(patches)
     height = width * half[1] / half[0]
@@ -109,7 +109,7 @@ def draw_row(title, contact, count=6, indices=None):
         draw_stick_boundary(stress, patch, fine, patch.slips)
         draw_arrows(stress, patch, patch.shear_x, patch.shear_y, SHEAR_COLOUR, largest=shear)
         set_window(stress, half, False, first)
-        parting_colours = draw_parting(slip, patch, fine, fastest)
+        parting_colours = draw_parting(slip, patch, fine, parting)
         draw_arrows(slip, patch, patch.slip_x, patch.slip_y, SLIP_COLOUR, largest=speed, key=("", "m/s") if column == n - 1 else None)
         draw_stick_boundary(slip, patch, fine, patch.slips_by_velocity)
         draw_letters(slip, patch, patch.slips_by_velocity)

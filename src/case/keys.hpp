@@ -38,6 +38,7 @@ Section connector_section();
 Section constraint_section();
 Section contact_section();
 Section motion_section();
+Section prescribed_section();
 Section gravity_section();
 
 }  // namespace railwave::case_file

@@ -133,4 +133,23 @@ Section motion_section() {
   return section;
 }
 
+Section prescribed_section() {
+  using scene::PrescribedMotion;
+  auto section = named_section("prescribed_motion", "prescribed motion", &Scene::prescribed_motions,
+                               "Node sets that move as a rigid body whose motion is known, such as a driven roller's bore; held "
+                               "while the scene settles. The work this takes is in the account's external work.");
+  section.keys = {
+      key("target", &PrescribedMotion::target, "what is moved, in all directions").names(node_set).needed(),
+      key("velocity", &PrescribedMotion::velocity, "of the centre").in("m/s"),
+      key("angular_velocity", &PrescribedMotion::angular_velocity, "about an axis of fixed direction through the moving centre")
+          .in("rad/s"),
+      key("centre", &PrescribedMotion::centre, "centre of the rotation when the run begins").in("m").otherwise("the set's centre of mass"),
+      key("curve", &PrescribedMotion::curve, "factor on both velocities that changes with time; give the other nodes of a body "
+                                             "that is to move from the start an [initial_motion]")
+          .names(curve)
+          .otherwise("constant 1"),
+  };
+  return section;
+}
+
 }  // namespace railwave::case_file

@@ -5,9 +5,11 @@
 namespace railwave::case_file {
 
 using scene::BoxMesh;
+using scene::CrownedBlockMesh;
 using scene::FileMesh;
 using scene::MeshSource;
 using scene::RailMesh;
+using scene::RollerMesh;
 using scene::WheelMesh;
 
 namespace {
@@ -82,6 +84,56 @@ std::vector<Key> rail_keys() {
   };
 }
 
+/// What both generators of graded blocks have.
+template <class Mesh>
+std::vector<Key> graded_keys(Mesh MeshSource::*mesh, const char* along) {
+  const auto length = [=](auto name, auto field, auto help) {
+    return key(name, mesh, field, help).in("m").within(above(0));
+  };
+  return {
+      length("zone_size", &Mesh::zone_size, "element size in the solution zone"),
+      key("zone_start", mesh, &Mesh::zone_start, std::string(along) + " where the solution zone begins").in("m"),
+      key("zone_end", mesh, &Mesh::zone_end, std::string(along) + " where the solution zone ends").in("m"),
+      key("zone_centre", mesh, &Mesh::zone_centre, "y of the solution zone's middle").in("m"),
+      length("zone_width", &Mesh::zone_width, "its width along y"),
+      key("zone_layers", mesh, &Mesh::zone_layers, "layers of layer_height below the curved surface").within(between(1, 1000)),
+      length("layer_height", &Mesh::layer_height, "height of those layers").otherwise("zone_size"),
+      key("growth", mesh, &Mesh::growth, "largest ratio of neighbouring element sizes").within(above_up_to(1, 3)),
+      length("coarse_size", &Mesh::coarse_size, "largest element size"),
+  };
+}
+
+std::vector<Key> crowned_block_keys() {
+  using Block = CrownedBlockMesh;
+  const auto block = &MeshSource::crowned_block;
+  std::vector<Key> keys{
+      key("origin", block, &Block::origin, "lowest corner; the crest is above x = 0, y = 0").in("m"),
+      key("size", block, &Block::size, "lengths along x and y, height at the crest").in("m").within(above(0)),
+      key("radius_along", block, &Block::radius_along, "radius of the top's curve along x; 0 is straight").in("m").within(at_least(0)),
+      key("radius_across", block, &Block::radius_across, "radius of the top's curve along y; 0 is straight").in("m").within(at_least(0)),
+  };
+  for (auto& one : graded_keys(block, "x")) keys.push_back(std::move(one));
+  return keys;
+}
+
+std::vector<Key> roller_keys() {
+  using Roller = RollerMesh;
+  const auto roller = &MeshSource::roller;
+  const auto any = [=](auto name, auto field, auto help) { return key(name, roller, field, help).in("m"); };
+  std::vector<Key> keys{
+      any("radius", &Roller::radius, "of the tread, at y = 0").within(above(0)),
+      any("bore_radius", &Roller::bore_radius, "of the bore").within(above(0)),
+      any("crown_radius", &Roller::crown_radius, "radius of the tread's curve along y; 0 is straight").within(at_least(0)),
+      any("side_start", &Roller::side_start, "y where the roller begins"),
+      any("side_end", &Roller::side_end, "y where it ends"),
+      key("ring", roller, &Roller::ring, "the whole way round; otherwise a sector"),
+      any("arc_start", &Roller::arc_start, "where a sector begins: arc at the tread from the lowest point, positive towards +x"),
+      any("arc_end", &Roller::arc_end, "where it ends"),
+  };
+  for (auto& one : graded_keys(roller, "arc")) keys.push_back(std::move(one));
+  return keys;
+}
+
 std::vector<Key> file_keys() {
   const auto file = &MeshSource::file;
   return {
@@ -97,11 +149,13 @@ std::vector<Key> file_keys() {
 Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
-  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file"}).needed()};
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller"}).needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys());
   section.add_keys("rail", rail_keys());
   section.add_keys("file", file_keys());
+  section.add_keys("crowned_block", crowned_block_keys());
+  section.add_keys("roller", roller_keys());
   section.rule = check_mesh;
   return section;
 }

@@ -36,7 +36,7 @@ struct Material : Place {
   double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
 };
 
-enum class MeshType { box, wheel, rail, file };
+enum class MeshType { box, wheel, rail, file, crowned_block, roller };
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -97,12 +97,52 @@ struct FileMesh {
   double scale = 1.0;              ///< multiplies coordinates: 0.001 for a mesh in mm
 };
 
+/// A block with a curved top, its crest above (0, 0); see mesh/crowned_block.hpp.
+struct CrownedBlockMesh {
+  Vec3 origin{-0.04, -0.04, -0.06};  ///< lowest corner, m
+  Vec3 size{0.08, 0.08, 0.06};       ///< m, height at the crest
+  double radius_along = 0;         ///< m, of the top's curve along x at the crest; 0: straight
+  double radius_across = 0;        ///< m, of the top's curve along y; 0: straight
+  double zone_size = 0.001;
+  double zone_start = -0.01;       ///< x range of the solution zone, m
+  double zone_end = 0.01;
+  double zone_centre = 0;          ///< y of its middle, m
+  double zone_width = 0.02;        ///< m
+  int zone_layers = 6;             ///< layers of layer_height below the top
+  std::optional<double> layer_height;  ///< m; absent: zone_size
+  double growth = 1.25;            ///< largest ratio of neighbouring cells
+  double coarse_size = 0.01;       ///< m, largest cell
+};
+
+/// A ring or a sector of it, axle along y through the origin; see mesh/roller.hpp.
+struct RollerMesh {
+  double radius = 0.46;            ///< m, of the tread, at y = 0
+  double bore_radius = 0.40;
+  double crown_radius = 0;         ///< m, of the tread's curve along y; 0: straight
+  double side_start = -0.04;       ///< y range, m
+  double side_end = 0.04;
+  bool ring = false;               ///< the whole way round
+  double arc_start = -0.06;        ///< a sector's range, m at the tread from the lowest point, towards +x
+  double arc_end = 0.06;
+  double zone_size = 0.001;
+  double zone_start = -0.01;       ///< arc range of the solution zone, m
+  double zone_end = 0.01;
+  double zone_centre = 0;          ///< y of its middle, m
+  double zone_width = 0.02;        ///< m
+  int zone_layers = 6;             ///< layers of layer_height below the tread
+  std::optional<double> layer_height;  ///< m; absent: zone_size
+  double growth = 1.25;            ///< largest ratio of neighbouring cells
+  double coarse_size = 0.01;       ///< m, largest cell
+};
+
 struct MeshSource : Place {
   MeshType type = MeshType::box;
   BoxMesh box;
   WheelMesh wheel;
   RailMesh rail;
   FileMesh file;
+  CrownedBlockMesh crowned_block;
+  RollerMesh roller;
 };
 
 enum class HourglassType { viscous, stiffness };
@@ -179,6 +219,15 @@ struct InitialMotion : Place {
   std::string around;              ///< node set whose centre of mass is the centre of rotation, e.g. an axle's bore
 };
 
+/// A node set that moves as a rigid body does whose motion is known: held while the scene settles.
+struct PrescribedMotion : Place {
+  std::string target;              ///< `part.node_set`
+  Vec3 velocity{0, 0, 0};          ///< m/s, of the centre
+  Vec3 angular_velocity{0, 0, 0};  ///< rad/s, about an axis of fixed direction through the moving centre
+  std::optional<Vec3> centre;      ///< m, where the run begins; absent: the set's centre of mass
+  std::string curve;               ///< factor on both; empty: constant 1
+};
+
 /// Static equilibrium by dynamic relaxation before the run; absent: the run starts from the undeformed mesh.
 struct Settle {
   bool active = false;
@@ -229,6 +278,7 @@ struct Scene {
   std::vector<Constraint> constraints;
   std::vector<Contact> contacts;
   std::vector<InitialMotion> initial_motions;
+  std::vector<PrescribedMotion> prescribed_motions;
   Vec3 gravity{0, 0, 0};           ///< m/s2
   Settle settle;
   Time time;

@@ -3,8 +3,10 @@
 #include <stdexcept>
 
 #include "mesh/box.hpp"
+#include "mesh/crowned_block.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/rail.hpp"
+#include "mesh/roller.hpp"
 #include "mesh/wheel.hpp"
 
 namespace railwave {
@@ -19,6 +21,10 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return rail_mesh(source);
     case scene::MeshType::file:
       return read_mesh_file(source);
+    case scene::MeshType::crowned_block:
+      return crowned_block_mesh(source);
+    case scene::MeshType::roller:
+      return roller_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
 }

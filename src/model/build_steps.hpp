@@ -11,6 +11,7 @@ void build_elements(Model& model);     ///< element_groups.cpp: patches, hourgla
 void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
 void build_carried_nodes(Model& model);  ///< carriers.cpp: nodes in single precision
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
+void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void build_stable_step(Model& model);  ///< stable_step.cpp
 void build_subcycling(Model& model);   ///< subcycling.cpp: paces of nodes; whole rounds of steps

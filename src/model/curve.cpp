@@ -5,6 +5,43 @@
 
 namespace railwave {
 
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name) {
+  for (const scene::Curve& curve : scene.curves)
+    if (curve.name == name) return &curve;
+  return nullptr;
+}
+
+namespace {
+
+using Points = std::vector<std::array<double, 2>>;
+
+double table_value(const Points& points, double time) {
+  const auto after = std::upper_bound(points.begin(), points.end(), time,
+                                      [](double t, const std::array<double, 2>& point) { return t < point[0]; });
+  if (after == points.begin()) return points.front()[1];
+  if (after == points.end()) return points.back()[1];
+  const auto& a = *(after - 1);
+  const auto& b = *after;
+  return a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]);
+}
+
+/// From 0 on: trapezoids between the points, the first and the last value beyond.
+double table_integral(const Points& points, double time) {
+  double sum = 0, last = 0, at_last = table_value(points, 0);
+  const auto up_to = [&](double t) {
+    const double now = table_value(points, t);
+    sum += 0.5 * (at_last + now) * (t - last);
+    last = t;
+    at_last = now;
+  };
+  for (const auto& point : points)
+    if (point[0] > 0 && point[0] < time) up_to(point[0]);
+  up_to(time);
+  return sum;
+}
+
+}  // namespace
+
 double curve_value(const scene::Curve* curve, double time) {
   if (curve == nullptr) return 1;
   switch (curve->type) {
@@ -14,18 +51,27 @@ double curve_value(const scene::Curve* curve, double time) {
       if (time >= curve->start + curve->duration) return 1;
       return 0.5 * (1 - std::cos(M_PI * (time - curve->start) / curve->duration));
     }
-    case scene::CurveType::table: {
-      const auto& points = curve->points;
-      const auto after = std::upper_bound(points.begin(), points.end(), time,
-                                          [](double t, const std::array<double, 2>& point) { return t < point[0]; });
-      if (after == points.begin()) return points.front()[1];
-      if (after == points.end()) return points.back()[1];
-      const auto& a = *(after - 1);
-      const auto& b = *after;
-      return a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]);
-    }
+    case scene::CurveType::table: return table_value(curve->points, time);
   }
   return 1;
+}
+
+double curve_integral(const scene::Curve* curve, double time) {
+  if (curve == nullptr) return time;
+  switch (curve->type) {
+    case scene::CurveType::constant: return time;
+    case scene::CurveType::cosine_ramp: {
+      const auto primitive = [&](double t) {
+        const double since = t - curve->start;
+        if (since <= 0) return 0.0;
+        if (since >= curve->duration) return since - 0.5 * curve->duration;
+        return 0.5 * (since - curve->duration / M_PI * std::sin(M_PI * since / curve->duration));
+      };
+      return primitive(time) - primitive(0);
+    }
+    case scene::CurveType::table: return table_integral(curve->points, time);
+  }
+  return time;
 }
 
 }  // namespace railwave

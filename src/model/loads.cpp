@@ -40,12 +40,6 @@ struct Collector {
   int contributions() const { return static_cast<int>(contribution_node.size()); }
 };
 
-const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name) {
-  for (const scene::Curve& curve : scene.curves)
-    if (curve.name == name) return &curve;
-  return nullptr;
-}
-
 Vec3 scaled(double s, const Vec3& v) { return {s * v[0], s * v[1], s * v[2]}; }
 
 /// Amplitudes of a load whose direction never turns.

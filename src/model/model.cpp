@@ -28,6 +28,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_elements(model);
   build_contacts(model);
   build_loads(model);
+  build_prescribed_motions(model);
   build_node_arrays(model);
   build_carried_nodes(model);
   model.sum_space = unset_array<double*>("space of sums", account_space(model));
@@ -67,6 +68,7 @@ void reset_to_start(Model& model) {
     zero(group.plastic.history);
   }
   zero(model.connectors.arrays.energy);
+  for (const PrescribedSet& set : model.prescribed) zero(set.work);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
     Kokkos::deep_copy(contact.tracked, -1);

@@ -110,6 +110,15 @@ struct ContactPair {
   double segment_size = 0;             ///< m, the largest segment's diagonal
 };
 
+/// A node set that moves as a rigid motion says.
+struct PrescribedSet {
+  const scene::PrescribedMotion* motion = nullptr;
+  const scene::Curve* curve = nullptr;  ///< null: constant 1
+  Vec3 centre{};                        ///< m, of the rotation, undeformed
+  Array<int*> nodes;
+  Array<double*> work;                  ///< J, by node of the set
+};
+
 /// The stable step, s, by each estimate, and what sets it.
 struct StableStep {
   double elements = 0;                 ///< min V / (A_max C_d), thesis eq. 2.14
@@ -162,6 +171,7 @@ struct Model {
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;
   TorqueArrays torques;
+  std::vector<PrescribedSet> prescribed;
   std::vector<ContactPair> contacts;
   std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute
 
@@ -202,7 +212,13 @@ void renew_frames(const Model& model, const ElementGroup& group);
 /// Puts nodes and history variables back to the undeformed start, at rest.
 void reset_to_start(Model& model);
 
-/// Value of a load's curve at a time; 1 without a curve.
+/// The scene's curve of that name; null for an empty name.
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name);
+
+/// Value of a curve at a time; 1 without a curve.
 double curve_value(const scene::Curve* curve, double time);
+
+/// Its integral from 0 to a time of 0 or later, s.
+double curve_integral(const scene::Curve* curve, double time);
 
 }  // namespace railwave

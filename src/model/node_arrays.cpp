@@ -32,6 +32,10 @@ void build_constraints(Model& model, std::vector<int>& row_of_node) {
       for (int a = 0; a < 3; ++a)
         if (constraint.fixed[a]) add_direction(constrained[n], constraint.axes[a]);
 
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
+    for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
+      for (int i = 0; i < 3; ++i) add_direction(constrained[n], {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0});
+
   std::map<Directions, int> rows;
   for (const auto& [node, directions] : constrained) {
     const auto inserted = rows.try_emplace(directions, static_cast<int>(rows.size()));

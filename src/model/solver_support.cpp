@@ -20,6 +20,10 @@ void refuse_unknown_methods(const scene::Scene& scene) {
     if (solver.subcycling && contact.algorithm == scene::ContactAlgorithm::multiplier)
       refuse(scene, fmt::format("subcycling = true with [contacts.{}] algorithm = \"multiplier\"", contact.name),
              "leave one of the two out: multipliers look one step ahead, and nodes at paces of their own have steps of their own");
+  if (!scene.prescribed_motions.empty() && solver.precision == scene::Precision::single_precision)
+    refuse(scene, "precision = \"float\" with a [prescribed_motion]", "set precision to \"mixed\" or \"double\"");
+  if (!scene.prescribed_motions.empty() && solver.subcycling)
+    refuse(scene, "subcycling = true with a [prescribed_motion]", "leave subcycling out");
   if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
     refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }

@@ -9,6 +9,7 @@
 #include "model/host_copy.hpp"
 #include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
+#include "model/prescribed_motion.hpp"
 
 namespace railwave {
 namespace {
@@ -174,6 +175,10 @@ EnergyAccount account_energies(const Model& model, double step) {
   }
   if (!model.loads.empty()) {
     block_sum(Work{model.extra.work}, model.extra.contribution_count, sum, model.sum_space);
+    energy.external_work += sum[0];
+  }
+  for (const PrescribedSet& set : model.prescribed) {
+    block_sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), sum, model.sum_space);
     energy.external_work += sum[0];
   }
   const auto connectors = to_host(model.connectors.arrays.energy);

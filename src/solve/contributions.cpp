@@ -9,7 +9,7 @@ bool go_together(const Model& model, const Instant& instant) {
 }
 
 bool sets_go_along(const Model& model, const Instant& instant) {
-  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1;
+  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1 && model.prescribed.empty();
 }
 
 RowLoads row_loads(const Model& model, double elapsed) {

@@ -5,6 +5,7 @@
 #include "kernels/listed_nodes.hpp"
 #include "model/carriers.hpp"
 #include "model/patch_launch.hpp"
+#include "model/prescribed_motion.hpp"
 #include "solve/contact_multiplier.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
@@ -154,6 +155,8 @@ std::vector<Stage> force_stages(Model& model) {
 
 void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
+  for (const PrescribedSet& set : model.prescribed)
+    Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))), prescribed_motion(model, set, step));
   if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
   else if (model.carried.active()) advance_carried(model, step);
   else if (model.patches_have_advanced)

@@ -46,3 +46,23 @@ TEST_CASE("a table is linear between its points, constant beyond, and may jump")
   CHECK_THAT(curve_value(&table, 3), WithinAbs(0, 1e-14));
   CHECK(curve_value(&table, 9) == -50);
 }
+
+TEST_CASE("the integral of a curve is what many small rectangles sum to") {
+  scene::Curve ramp;
+  ramp.type = scene::CurveType::cosine_ramp;
+  ramp.start = -0.5;
+  ramp.duration = 2;
+  scene::Curve table;
+  table.type = scene::CurveType::table;
+  table.points = {{-1, 4}, {1, 10}, {2, 20}, {2, 50}, {4, -50}};
+  scene::Curve late = table;
+  late.points = {{2, 3}, {3, 5}};
+  for (const scene::Curve* curve : {static_cast<const scene::Curve*>(nullptr), static_cast<const scene::Curve*>(&ramp),
+                                    static_cast<const scene::Curve*>(&table), static_cast<const scene::Curve*>(&late)})
+    for (double end : {0.0, 0.7, 1.5, 3.0, 6.0}) {
+      const int count = 60000;
+      double sum = 0;
+      for (int k = 0; k < count; ++k) sum += curve_value(curve, (k + 0.5) * end / count) * end / count;
+      CHECK_THAT(curve_integral(curve, end), WithinAbs(sum, 2e-3));
+    }
+}

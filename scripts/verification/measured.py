@@ -1,0 +1,132 @@
+"""What a run came out with, from its results file (docs/results-file.md): pressure and shear on the slave's mesh lines, areas
+finer than the mesh, forces. SI units."""
+
+import h5py
+import numpy as np
+
+
+def outlines(x, y, value):
+    """Points of the line round `value` > 0 on a structured surface, (points, 2). Where a mesh line leaves the inside, the zero
+    of the parabola through the squares at its last three nodes inside, between the last one and the next node (as `railwave
+    contact` does, src/post/patch_area.cpp)."""
+    points = []
+    place = np.stack([x, y], axis=-1)
+
+    def along(place, value):
+        inside = value > 0
+        for i in range(len(value)):
+            if not inside[i]:
+                continue
+            for step in (1, -1):
+                out, second, third = i + step, i - step, i - 2 * step
+                if not 0 <= out < len(value) or inside[out]:
+                    continue
+                edge = np.linalg.norm(place[out] - place[i])
+                distance = 0.5 * edge
+                if 0 <= second < len(value) and inside[second]:
+                    before = np.linalg.norm(place[second] - place[i])
+                    slope, bend = (value[i] ** 2 - value[second] ** 2) / before, 0.0
+                    if 0 <= third < len(value) and inside[third]:
+                        further = np.linalg.norm(place[third] - place[second])
+                        bend = (slope - (value[second] ** 2 - value[third] ** 2) / further) / (before + further)
+                    linear = slope + bend * before
+                    root = linear**2 - 4 * bend * value[i] ** 2
+                    bottom = -linear + np.sqrt(max(root, 0))
+                    distance = edge if root < 0 or bottom <= 0 else min(edge, 2 * value[i] ** 2 / bottom)
+                points.append(place[i] + distance / edge * (place[out] - place[i]))
+
+    for row in range(value.shape[0]):
+        along(place[row], value[row])
+    for column in range(value.shape[1]):
+        along(place[:, column], value[:, column])
+    return np.array(points).reshape(-1, 2)
+
+
+def enclosed(points, mirrors=""):
+    """Area of the polygon through the points, by angle about their middle; mirrored first at x = 0 and y = 0 as said."""
+    for axis in mirrors:
+        turned = points.copy()
+        turned[:, "xy".index(axis)] *= -1
+        points = np.concatenate([points, turned])
+    if len(points) < 3:
+        return 0.0
+    from_middle = points - 0.5 * (points.min(axis=0) + points.max(axis=0))
+    x, y = from_middle[np.argsort(np.arctan2(from_middle[:, 1], from_middle[:, 0]))].T
+    return 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+
+
+class State:
+    """The slave surface at one output time, its nodes in rows along x: arrays (rows, columns[, 3])."""
+
+    def __init__(self, contact, index):
+        slave = contact["slave"]
+        order = np.argsort(slave["nodes"][:])
+        side = slave["coordinates"][:][order][:, 1]
+        columns = int(np.argmax(np.abs(side - side[0]) > 1e-9)) or len(side)
+        shape = (len(side) // columns, columns)
+
+        def take(name):
+            values = slave[name][index][order]
+            return values.reshape(shape + values.shape[1:])
+
+        self.time = contact["time"][index]
+        self.friction = float(contact.attrs["friction"])
+        self.x, self.y = take("position")[..., 0], take("position")[..., 1]
+        self.pressure, self.area, self.shear = take("pressure"), take("area"), take("shear")
+        self.slipping, self.slip_velocity = take("slipping"), take("slip_velocity")
+        self.normal_force, self.tangential_force = take("normal_force"), take("tangential_force")
+
+    @property
+    def bound_left(self):
+        """mu p - q where that is more than a twentieth of its scale, 0 elsewhere. Its zero line, followed outwards from there, is
+        the edge of the stick zone; a node that slipped and has been let off by a trace, as by a passing wave, is not in it."""
+        left = self.friction * self.pressure - np.linalg.norm(self.shear, axis=-1)
+        return np.where(left > 0.05 * self.friction * self.pressure.max(), left, 0)
+
+    def centre(self):
+        weight = np.linalg.norm(self.normal_force, axis=-1)
+        return np.sum(weight * self.x) / np.sum(weight), np.sum(weight * self.y) / np.sum(weight)
+
+    def stick_share(self, mirrors="", sub_cell=True):
+        """Of the patch's area; counted by the nodes' areas where the mesh is too coarse for more."""
+        if sub_cell and (self.bound_left > 0).sum() >= 12:
+            patch = enclosed(outlines(self.x, self.y, self.pressure), mirrors)
+            return enclosed(outlines(self.x, self.y, self.bound_left), mirrors) / patch
+        return self.area[self.slipping == 1].sum() / self.area[self.slipping > 0].sum()
+
+
+class Run:
+    def __init__(self, path):
+        self.file = h5py.File(path, "r")
+        self.contact = self.file["contact"][next(iter(self.file["contact"]))]
+        self.name = next(iter(self.file["contact"]))
+        attributes = self.file.attrs
+        self.step_size, self.elements = float(attributes["step_size"]), int(attributes["element_count"])
+        self.seconds, self.steps = float(attributes.get("wall_seconds", np.nan)), int(attributes.get("steps", 0))
+
+    def state(self, index=-1):
+        return State(self.contact, index if index >= 0 else len(self.contact["time"]) + index)
+
+    def times(self):
+        return self.contact["time"][:]
+
+    def history(self):
+        """Time, normal and tangential force on the slave, (n, 3)."""
+        group = self.file["history"]
+        force = group["contact"][self.name]
+        return group["time"][:], force["normal_force"][:], force["tangential_force"][:]
+
+    def energy(self):
+        """Largest imbalance and largest energy of the run, J."""
+        energy = {name: data[:] for name, data in self.file["history/energy"].items()}
+        balance = np.abs(energy.pop("balance_error")).max()
+        return balance, max(np.abs(values).max() for values in energy.values())
+
+    def on_axis(self, part, reach):
+        """Nodes of a part on the vertical through (0, 0): undeformed z and displacement u_z at the first output, by z."""
+        fields = self.file["fields"][part]
+        place = fields["coordinates"][:]
+        on = (np.abs(place[:, 0]) < reach) & (np.abs(place[:, 1]) < reach)
+        z, w = place[on, 2], fields["displacement"][0][on, 2]
+        order = np.argsort(z)
+        return z[order], w[order]

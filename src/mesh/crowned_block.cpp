@@ -1,0 +1,66 @@
+#include "mesh/crowned_block.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/crown.hpp"
+#include "mesh/grid.hpp"
+#include "mesh/mesh_checks.hpp"
+
+namespace railwave {
+namespace {
+
+double farthest(double origin, double size) { return std::max(std::fabs(origin), std::fabs(origin + size)); }
+
+void check(const scene::MeshSource& source) {
+  const scene::CrownedBlockMesh& b = source.crowned_block;
+  MeshChecks checks(source);
+  const double smallest = std::min({b.size[0], b.size[1], b.size[2]});
+  checks.expect(smallest > 0, "size", smallest, "above 0 in each direction");
+  checks.expect(b.zone_size > 0, "zone_size", b.zone_size, "above 0");
+  checks.expect(b.zone_end > b.zone_start, "zone_end", b.zone_end, fmt::format("more than zone_start = {:g} m", b.zone_start));
+  const double x_end = b.origin[0] + b.size[0], y_end = b.origin[1] + b.size[1];
+  checks.expect(b.zone_start < x_end && b.zone_end > b.origin[0], "zone_start", b.zone_start,
+                fmt::format("a zone that meets the block, from x = {:g} to {:g} m", b.origin[0], x_end));
+  checks.expect(b.zone_centre + b.zone_width / 2 > b.origin[1] && b.zone_centre - b.zone_width / 2 < y_end, "zone_centre",
+                b.zone_centre, fmt::format("a zone that meets the block, from y = {:g} to {:g} m", b.origin[1], y_end));
+  const double x = farthest(b.origin[0], b.size[0]), y = farthest(b.origin[1], b.size[1]);
+  checks.expect(b.radius_along == 0 || b.radius_along > 1.01 * x, "radius_along", b.radius_along,
+                fmt::format("0 (straight) or more than the block's reach along x, {:g} m", x));
+  checks.expect(b.radius_across == 0 || b.radius_across > 1.01 * y, "radius_across", b.radius_across,
+                fmt::format("0 (straight) or more than the block's reach along y, {:g} m", y));
+  checks.report();
+  const double side = fall(b.radius_across, y);
+  checks.expect(b.radius_along == 0 || b.radius_along - side > x, "radius_along", b.radius_along,
+                fmt::format("more than {:g} m, so that the crown reaches the block's corners", side + x));
+  checks.report();
+  const double drop = crown_fall(b.radius_along, b.radius_across, x, y);
+  checks.expect(drop < 0.5 * b.size[2], "size", b.size[2],
+                fmt::format("a height of more than {:g} m, twice what the crown falls to the corners", 2 * drop));
+  checks.report();
+}
+
+}  // namespace
+
+Mesh crowned_block_mesh(const scene::MeshSource& source) {
+  check(source);
+  const scene::CrownedBlockMesh& b = source.crowned_block;
+  const double layer = b.layer_height.value_or(b.zone_size), height = b.size[2];
+  const auto x = nodes_of({b.origin[0], b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth, b.coarse_size});
+  const auto y = nodes_of({b.origin[1], b.origin[1] + b.size[1], b.zone_centre - b.zone_width / 2,
+                           b.zone_centre + b.zone_width / 2, b.zone_size, b.growth, b.coarse_size});
+  const auto depth = nodes_of({0, height, 0, b.zone_layers * layer, layer, b.growth, b.coarse_size});
+  const int layers = static_cast<int>(depth.size()) - 1;
+  const Grid grid{{static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, layers},
+                  false,
+                  {"x_min", "y_min", "bottom"},
+                  {"x_max", "y_max", "top"}};
+  return grid_mesh(grid, [&](int i, int j, int k) {
+    const double drop = crown_fall(b.radius_along, b.radius_across, x[i], y[j]);
+    return Vec3{x[i], y[j], b.origin[2] + (height - drop) * (1 - depth[layers - k] / height)};
+  });
+}
+
+}  // namespace railwave

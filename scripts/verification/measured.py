@@ -60,10 +60,11 @@ class State:
 
     def __init__(self, contact, index):
         slave = contact["slave"]
-        order = np.argsort(slave["nodes"][:])
-        side = slave["coordinates"][:][order][:, 1]
-        columns = int(np.argmax(np.abs(side - side[0]) > 1e-9)) or len(side)
-        shape = (len(side) // columns, columns)
+        place = slave["coordinates"][:]
+        side = np.round(place[:, 1], 9)
+        order = np.lexsort((place[:, 0], side))
+        rows = len(np.unique(side))
+        shape = (rows, len(side) // rows)
 
         def take(name):
             values = slave[name][index][order]

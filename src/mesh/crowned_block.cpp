@@ -48,19 +48,22 @@ Mesh crowned_block_mesh(const scene::MeshSource& source) {
   check(source);
   const scene::CrownedBlockMesh& b = source.crowned_block;
   const double layer = b.layer_height.value_or(b.zone_size), height = b.size[2];
-  const auto x = nodes_of({b.origin[0], b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth, b.coarse_size});
-  const auto y = nodes_of({b.origin[1], b.origin[1] + b.size[1], b.zone_centre - b.zone_width / 2,
-                           b.zone_centre + b.zone_width / 2, b.zone_size, b.growth, b.coarse_size});
+  const GradedLine along{b.origin[0], b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth, b.coarse_size};
+  const GradedLine across{b.origin[1], b.origin[1] + b.size[1], b.zone_centre - b.zone_width / 2,
+                          b.zone_centre + b.zone_width / 2, b.zone_size, b.growth, b.coarse_size};
+  const auto x = nodes_of(along), y = nodes_of(across);
   const auto depth = nodes_of({0, height, 0, b.zone_layers * layer, layer, b.growth, b.coarse_size});
   const int layers = static_cast<int>(depth.size()) - 1;
   const Grid grid{{static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, layers},
                   false,
                   {"x_min", "y_min", "bottom"},
                   {"x_max", "y_max", "top"}};
-  return grid_mesh(grid, [&](int i, int j, int k) {
+  Mesh mesh = grid_mesh(grid, [&](int i, int j, int k) {
     const double drop = crown_fall(b.radius_along, b.radius_across, x[i], y[j]);
     return Vec3{x[i], y[j], b.origin[2] + (height - drop) * (1 - depth[layers - k] / height)};
   });
+  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["top"], along, across);
+  return mesh;
 }
 
 }  // namespace railwave

@@ -78,4 +78,21 @@ std::vector<double> nodes_of(const GradedLine& line) {
   return nodes;
 }
 
+std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& first, const GradedLine& second) {
+  const auto in_zone = [](const GradedLine& line) {
+    const auto nodes = nodes_of(line);
+    std::vector<char> inside;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const double middle = 0.5 * (nodes[i] + nodes[i + 1]);
+      inside.push_back(middle > line.zone_start && middle < line.zone_end ? 1 : 0);
+    }
+    return inside;
+  };
+  const auto along = in_zone(first), across = in_zone(second);
+  std::vector<Face> faces;
+  for (const Face& face : side)
+    if (along[face.element % along.size()] != 0 && across[face.element / along.size() % across.size()] != 0) faces.push_back(face);
+  return faces;
+}
+
 }  // namespace railwave

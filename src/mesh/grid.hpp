@@ -30,4 +30,7 @@ struct GradedLine {
 };
 std::vector<double> nodes_of(const GradedLine& line);
 
+/// Those faces of a side of the third direction whose cells have their middles in the zones of the lines along the first two.
+std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& first, const GradedLine& second);
+
 }  // namespace railwave

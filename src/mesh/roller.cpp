@@ -59,19 +59,22 @@ Mesh roller_mesh(const scene::MeshSource& source) {
   check(source);
   const scene::RollerMesh& r = source.roller;
   const double layer = r.layer_height.value_or(r.zone_size), wall = r.radius - r.bore_radius;
-  const auto arc = nodes_of(line_around(r));
-  const auto y = nodes_of({r.side_start, r.side_end, r.zone_centre - r.zone_width / 2, r.zone_centre + r.zone_width / 2,
-                           r.zone_size, r.growth, r.coarse_size});
+  const GradedLine around = line_around(r);
+  const GradedLine across{r.side_start, r.side_end, r.zone_centre - r.zone_width / 2, r.zone_centre + r.zone_width / 2,
+                          r.zone_size, r.growth, r.coarse_size};
+  const auto arc = nodes_of(around), y = nodes_of(across);
   const auto depth = nodes_of({0, wall, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size});
   const Grid grid{{static_cast<int>(arc.size()) - 1, static_cast<int>(y.size()) - 1, static_cast<int>(depth.size()) - 1},
                   r.ring,
                   {"arc_min", "y_min", "tread"},
                   {"arc_max", "y_max", "bore"}};
-  return grid_mesh(grid, [&](int i, int j, int k) {
+  Mesh mesh = grid_mesh(grid, [&](int i, int j, int k) {
     const double radius = r.bore_radius + (wall - fall(r.crown_radius, y[j])) * (1 - depth[k] / wall);
     const double angle = arc[i] / r.radius;
     return Vec3{radius * std::sin(angle), y[j], -radius * std::cos(angle)};
   });
+  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["tread"], around, across);
+  return mesh;
 }
 
 }  // namespace railwave

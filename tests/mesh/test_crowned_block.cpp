@@ -55,7 +55,8 @@ void check_sound(const Mesh& mesh) {
 
 TEST_CASE("A crowned block's top is a sphere, a cylinder, a turned arc or a plane, exact at every node") {
   const double h = 0;  // the height of the crest
-  for (const auto& [along, across] : {std::pair{0.0, 0.0}, {0.46, 0.0}, {0.0, 0.3}, {0.46, 0.46}, {0.46, 0.3}}) {
+  const std::pair<double, double> shapes[] = {{0, 0}, {0.46, 0}, {0, 0.3}, {0.46, 0.46}, {0.46, 0.3}};
+  for (const auto& [along, across] : shapes) {
     CAPTURE(along, across);
     const Mesh mesh = crowned_block_mesh(block(along, across));
     check_sound(mesh);
@@ -74,7 +75,8 @@ TEST_CASE("A crowned block's top is a sphere, a cylinder, a turned arc or a plan
 }
 
 TEST_CASE("A crowned block has the volume under its crown") {
-  for (const auto& [along, across] : {std::pair{0.0, 0.0}, {0.0, 0.3}, {0.2, 0.3}}) {
+  const std::pair<double, double> shapes[] = {{0, 0}, {0, 0.3}, {0.2, 0.3}};
+  for (const auto& [along, across] : shapes) {
     scene::MeshSource source = block(along, across);
     source.crowned_block.coarse_size = 0.002;
     const auto& b = source.crowned_block;

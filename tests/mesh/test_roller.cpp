@@ -77,7 +77,8 @@ TEST_CASE("A roller's zone lies about the lowest point, positive arcs towards +x
     CHECK((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]) < 0);
     const auto arc = [&](int n) { return 0.46 * std::atan2(mesh.nodes[n][0], -mesh.nodes[n][2]); };
     const double first = std::min({arc(c[0]), arc(c[1]), arc(c[2])}), last = std::max({arc(c[0]), arc(c[1]), arc(c[2])});
-    const double side = std::max(std::fabs(a[1]), std::fabs(d[1]));
+    double side = 0;
+    for (int n : c) side = std::max(side, std::fabs(mesh.nodes[n][1]));
     if (first < -0.005 - 1e-9 || last > 0.03 + 1e-9 || side > 0.0099) continue;
     ++found;
     CHECK_THAT(last - first, WithinAbs(0.001, 1e-12));

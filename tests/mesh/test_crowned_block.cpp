@@ -81,7 +81,8 @@ TEST_CASE("A crowned block has the volume under its crown") {
     source.crowned_block.coarse_size = 0.002;
     const auto& b = source.crowned_block;
     const double exact = b.size[0] * b.size[1] * (b.size[2] - mean_fall(b));
-    CHECK_THAT(mesh_quality(crowned_block_mesh(source), 1).volume, WithinRel(exact, 2e-5));
+    // Chords of 2 mm lie h^2 / 12 (1 / R_x + 1 / R_y) under the arcs, 4.6e-5 of the height.
+    CHECK_THAT(mesh_quality(crowned_block_mesh(source), 1).volume, WithinRel(exact, 5e-5));
   }
 }
 

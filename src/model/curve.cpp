@@ -25,19 +25,17 @@ double table_value(const Points& points, double time) {
   return a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]);
 }
 
-/// From 0 on: trapezoids between the points, the first and the last value beyond.
+/// From 0 on: a trapezoid for each straight piece, the first and the last value beyond. A jump is a piece of no length.
 double table_integral(const Points& points, double time) {
-  double sum = 0, last = 0, at_last = table_value(points, 0);
-  const auto up_to = [&](double t) {
-    const double now = table_value(points, t);
-    sum += 0.5 * (at_last + now) * (t - last);
-    last = t;
-    at_last = now;
-  };
-  for (const auto& point : points)
-    if (point[0] > 0 && point[0] < time) up_to(point[0]);
-  up_to(time);
-  return sum;
+  double sum = points.front()[1] * std::max(0.0, std::min(time, points.front()[0]));
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const auto &a = points[i - 1], &b = points[i];
+    const double low = std::max(0.0, a[0]), high = std::min(time, b[0]);
+    if (high <= low) continue;
+    const double middle = a[1] + (b[1] - a[1]) * (0.5 * (low + high) - a[0]) / (b[0] - a[0]);
+    sum += middle * (high - low);
+  }
+  return sum + points.back()[1] * std::max(0.0, time - std::max(0.0, points.back()[0]));
 }
 
 }  // namespace

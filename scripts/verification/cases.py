@@ -21,11 +21,13 @@ class Outcome:
     curves: list = field(default_factory=list)  # pictures: (title, abscissa name, ordinate name, [(label, x, y, style)])
 
 
-def zone(meshes, size, layers, start, end, width):
-    """Overrides for meshes with cells of `size` at least from `start` to `end` and over `width`, nodes at 0 and cells whole."""
+def zone(body, size, layers, start, end, width):
+    """Overrides for a body and the block with cells of `size` at least from `start` to `end` and over `width`. The body has a
+    node at 0; the block's nodes lie aside, for a contact of nodes that meet exactly is a special case."""
     values = dict(zone_size=size, zone_layers=layers, zone_start=-size * np.ceil(-start / size), zone_end=size * np.ceil(end / size),
                   zone_width=2 * size * np.ceil(width / 2 / size))
-    return [f"meshes.{mesh}.{key}={value:.12g}" for mesh in meshes for key, value in values.items()]
+    aside = dict(values, zone_start=values["zone_start"] - 0.37 * size, zone_centre=0.23 * size)
+    return [f"meshes.{mesh}.{key}={value:.12g}" for mesh, those in ((body, values), ("block", aside)) for key, value in those.items()]
 
 
 def rms(error, exact, area):
@@ -36,7 +38,7 @@ def hertz(name, part, across):
     minor = 2 * Hertz(126680, RADIUS, across).b
 
     def case(run, label, elements, overrides, points):
-        results = run(label, name, [*zone((part, "block"), minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
+        results = run(label, name, [*zone(part, minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
         if results is None:
             return None
         state = results.state(0)
@@ -68,8 +70,8 @@ def corrected_approaches(results, part, exact):
     Hertz's half-spaces move there. Of distant points this is the approach: near the contact the bodies' far ends add no more
     than a rigid motion, which the difference does not see, and little strain."""
     centre = results.file["fields"][part]["coordinates"][:][:, 2].min()  # the lowest point of the upper body
-    below, moved_below = results.on_axis("block", 1e-9)
-    above, moved_above = results.on_axis(part, 1e-9)
+    below, moved_below = results.on_axis("block")
+    above, moved_above = results.on_axis(part)
     approaches = []
     for depth in np.linspace(2, 4, 9) * np.sqrt(exact.a * exact.b):
         w_below = np.interp(-depth, below, moved_below)
@@ -80,7 +82,7 @@ def corrected_approaches(results, part, exact):
 
 def cattaneo(run, label, elements, overrides, points):
     minor = 2 * Hertz(126680, RADIUS, RADIUS).a
-    results = run(label, "cattaneo", [*zone(("sphere", "block"), minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
+    results = run(label, "cattaneo", [*zone("sphere", minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
     if results is None:
         return None
     quiet = [k for k, t in enumerate(results.times()) if t > 1.0e-3]
@@ -145,7 +147,7 @@ def carter(run, label, elements, overrides, points):
         size = 0.012 / elements
         motion = rolling_motion(CARTER_SPEED, 0, CARTER_SPEED * (1 + creepage) / RADIUS, CARTER_HEIGHT)
         width = [f"meshes.roller.side_end={size:g}", f"meshes.block.size=[0.26,{size:g},0.1]"]
-        results = run(f"{label}-{wish}", "carter", [*zone(("roller", "block"), size, round(0.5 * elements), -9.5e-3, 69.5e-3, size), *width, *motion, *overrides])
+        results = run(f"{label}-{wish}", "carter", [*zone("roller", size, round(0.5 * elements), -9.5e-3, 69.5e-3, size), *width, *motion, *overrides])
         if results is None:
             continue
         force, swing, last = steady(results, 0.25)
@@ -235,7 +237,7 @@ def rolling(run, label, elements, overrides, points):
         height = ROLLING_HEIGHT + 0.9 * (Hertz(126680, RADIUS, 0.30).approach - exact.approach)
         motion = rolling_motion(ROLLING_SPEED, -creepage[1] * ROLLING_SPEED, ROLLING_SPEED * (1 + creepage[0]) / RADIUS, height)
         outputs = [f"output.field_interval={1e-4 if elements <= 10 else 3e-4}"]
-        results = run(f"{label}-{letter}", "rolling", [*zone(("roller", "block"), size, round(0.5 * elements), -10.4e-3, 60.4e-3, 16e-3), *motion, *outputs, *overrides])
+        results = run(f"{label}-{letter}", "rolling", [*zone("roller", size, round(0.5 * elements), -10.4e-3, 60.4e-3, 16e-3), *motion, *outputs, *overrides])
         if results is None:
             continue
         force, swing, last = steady(results, 0.25)

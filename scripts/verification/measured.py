@@ -123,11 +123,22 @@ class Run:
         balance = np.abs(energy.pop("balance_error")).max()
         return balance, max(np.abs(values).max() for values in energy.values())
 
-    def on_axis(self, part, reach):
-        """Nodes of a part on the vertical through (0, 0): undeformed z and displacement u_z at the first output, by z."""
+    def on_axis(self, part):
+        """Undeformed z and displacement u_z at the first output along the vertical through (0, 0) of a part whose columns of nodes
+        are upright there, between the four nearest columns; by z."""
         fields = self.file["fields"][part]
-        place = fields["coordinates"][:]
-        on = (np.abs(place[:, 0]) < reach) & (np.abs(place[:, 1]) < reach)
-        z, w = place[on, 2], fields["displacement"][0][on, 2]
-        order = np.argsort(z)
-        return z[order], w[order]
+        place, moved = np.round(fields["coordinates"][:], 9), fields["displacement"][0][:, 2]
+        top = place[np.isclose(place[:, 2], place[np.argmin(np.hypot(place[:, 0], place[:, 1])), 2], atol=1e-4)]
+
+        def around(values):
+            below, above = values[values <= 0].max(), values[values >= 0].min()
+            return [(below, 1.0)] if below == above else [(below, above / (above - below)), (above, -below / (above - below))]
+
+        total = None
+        for x, wx in around(top[:, 0]):
+            for y, wy in around(top[:, 1]):
+                column = np.flatnonzero((np.abs(place[:, 0] - x) < 1e-8) & (np.abs(place[:, 1] - y) < 1e-8))
+                column = column[np.argsort(place[column, 2])]
+                add = wx * wy * np.stack([place[column, 2], moved[column]])
+                total = add if total is None else total + add
+        return total

@@ -55,6 +55,24 @@ def enclosed(points, mirrors=""):
     return 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
 
 
+def shares(x, y, exact, samples=12):
+    """Means of exact(x, y) over each node's share, weighted by its shape function: what the nodal forces of an exact stress would
+    be over the nodes' areas. A node's stress is such a mean, too."""
+    total, weight = np.zeros(x.shape), np.zeros(x.shape)
+    places = (np.arange(samples) + 0.5) / samples
+    for s in places:
+        for t in places:
+            corner = [((1 - s) * (1 - t), slice(None, -1), slice(None, -1)), (s * (1 - t), slice(None, -1), slice(1, None)),
+                      ((1 - s) * t, slice(1, None), slice(None, -1)), (s * t, slice(1, None), slice(1, None))]
+            px, py = (sum(w * values[j, i] for w, j, i in corner) for values in (x, y))
+            cell = np.abs((x[:-1, 1:] - x[:-1, :-1]) * (y[1:, :-1] - y[:-1, :-1]))
+            value = exact(px, py) * cell
+            for w, j, i in corner:
+                total[j, i] += w * value
+                weight[j, i] += w * cell
+    return total / weight
+
+
 class State:
     """The slave surface at one output time, its nodes in rows along x: arrays (rows, columns[, 3])."""
 

@@ -16,6 +16,7 @@ struct ContactArrays {
   int slave_count = 0, master_count = 0, segment_count = 0;
   double friction = 0;
   bool folded_inwards = false;         ///< the master has sharp inner folds: every step searches anew
+  bool folded_outwards = false;        ///< the master has sharp edges, near which several segments hold what has entered
   Array<int*> slave_nodes;
   Array<int*> master_nodes;
   Array<int* [4]> segments;            ///< master node numbers, turned outwards

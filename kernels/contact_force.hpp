@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact_law.hpp"
 #include "kernels/contact_track.hpp"
 #include "kernels/extra_force.hpp"
 
@@ -9,12 +10,14 @@ namespace railwave {
 /// Normal: penalty f = -l k n (eq. 2.26). Tangential: Coulomb with the stick trial f* = f_T - k de (eqs. 2.28), de the
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
 /// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27).
-template <bool Friction>
+/// @tparam Law what presses and what bounds friction: see kernels/contact_law.hpp
+template <bool Friction, class Law = PlainContactLaw>
 struct ContactForce {
   ContactSearch search;
   ContactWindow window;
   ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
+  Law law{};
 
   /// The i-th of the nodes that can touch, if they are so many.
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -36,17 +39,20 @@ struct ContactForce {
     }
     contact.gap(s) = now.gap;
     if (!(now.gap < 0)) {
-      if (touched) part(s, previous);
+      if (touched) {
+        part(s, previous);
+        law.part(contact, s, entry.node, now);
+      }
       return;
     }
 
     const double stiffness = contact.segment_stiffness(now.segment);
-    const double pressing = -now.gap * stiffness;
+    const double pressing = law.pressing(contact, s, entry.node, now, stiffness);
     Vector3 force = pressing * now.normal;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
     if constexpr (Friction) {
-      const Vector3 tangential = rub(s, slave, previous, place, now, stiffness, contact.friction * pressing, status);
+      const Vector3 tangential = rub(s, slave, previous, place, now, stiffness, pressing, status);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
       force = force + tangential;
     }
@@ -68,7 +74,7 @@ struct ContactForce {
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 rub(int s, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now,
-                                     double stiffness, double bound, int& status) const {
+                                     double stiffness, double pressing, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
@@ -79,7 +85,7 @@ struct ContactForce {
     Vector3 trial = held - stiffness * moved;
     // The force carried over lies in last step's tangent plane; what has turned out of the present one is dropped.
     trial = trial - dot(trial, now.normal) * now.normal;
-    const double size = norm(trial);
+    const double size = norm(trial), bound = law.friction(contact, s, moved) * pressing;
     status = size > bound ? status_slips : status_sticks;
     if (size > bound) trial = (bound / size) * trial;
     contact.friction_energy(s) -=

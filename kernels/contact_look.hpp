@@ -29,7 +29,7 @@ struct ContactLook {
       contact.tracked(s) = found.segment;
       contact.place(s, 0) = found.place.xi;
       contact.place(s, 1) = found.place.eta;
-      const bool beside = beyond > ContactSearch::outside_tolerance;
+      const bool beside = search.beside(found, beyond);
       contact.gap(s) = beside ? 1e300 : found.gap;
       const bool penetrating = !beside && found.gap < 0;
       // A NaN is near.

@@ -76,6 +76,12 @@ struct ContactProjection {
     return {xi, eta};
   }
 
+  /// The neighbour over the side that a place lies farthest beyond.
+  KOKKOS_INLINE_FUNCTION static int beyond_side(const Segment& segment, const SegmentPlace& p) {
+    const bool along_xi = std::fabs(p.xi) >= std::fabs(p.eta);
+    return along_xi ? segment.neighbour[p.xi > 0 ? 1 : 3] : segment.neighbour[p.eta > 0 ? 2 : 0];
+  }
+
   KOKKOS_INLINE_FUNCTION static Projection at(const SeenSegment& seen, const SegmentPlace& place) {
     Projection result;
     const Vector3 normal = cross(seen.slope_xi(place.eta), seen.slope_eta(place.xi));

@@ -34,7 +34,7 @@ struct ContactTrack {
       }
       if (outside <= ContactProjection::on_segment) return over_segment;
       apart = apart && here.gap > 0;
-      const int next = beyond_side(search.contact.surface(segment), place);
+      const int next = ContactProjection::beyond_side(search.contact.surface(segment), place);
       const bool over_side = std::fmin(std::fabs(place.xi), std::fabs(place.eta)) <= 1.0;
       if (next >= 0 && next == from && over_side && came_over_side) return over_fold;
       arrived = next < 0 || next == from;
@@ -68,14 +68,8 @@ struct ContactTrack {
         beyond = found_beyond;
       }
     }
-    if (beyond > ContactSearch::outside_tolerance) now.gap = 1e300;
+    if (search.beside(now, beyond)) now.gap = 1e300;
     return now;
-  }
-
-  /// The neighbour over the side that a place lies farthest beyond.
-  KOKKOS_INLINE_FUNCTION static int beyond_side(const Segment& segment, const SegmentPlace& p) {
-    const bool along_xi = std::fabs(p.xi) >= std::fabs(p.eta);
-    return along_xi ? segment.neighbour[p.xi > 0 ? 1 : 3] : segment.neighbour[p.eta > 0 ? 2 : 0];
   }
 };
 

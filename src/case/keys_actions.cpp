@@ -42,13 +42,29 @@ Section contact_section() {
   section.keys = {
       key("slave", &Contact::slave, "surface whose nodes must not enter the other").names(surface).needed(),
       key("master", &Contact::master, "surface whose faces the nodes meet").names(surface).needed(),
-      key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out").within(between(0, 2)),
+      key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out; with friction_decay the one at rest")
+          .within(between(0, 2)),
+      key("dynamic_friction", &Contact::dynamic_friction,
+          "coefficient at high sliding speed; at a speed v it is dynamic_friction + (friction - dynamic_friction) exp(-friction_decay v)")
+          .within(between(0, 2))
+          .otherwise("friction does not depend on speed"),
+      key("friction_decay", &Contact::friction_decay, "how fast friction falls from `friction` to `dynamic_friction`")
+          .in("s/m")
+          .within(at_least(0)),
       key("algorithm", &Contact::algorithm,
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the next step, "
           "nor slips where friction holds it")
           .one_of({"penalty", "multiplier"}),
       key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next; of several contacts the most counts").within(between(2, 100)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
+      key("penalty_growth", &Contact::penalty_growth,
+          "pairs [penetration in m, factor on the penalty's stiffness there], with increasing penetration; straight lines between, "
+          "constant before and after; the force is the integral")
+          .otherwise("the penalty is linear"),
+      key("damping", &Contact::damping, "share of the critical damping of a contact spring and the masses that it joins")
+          .within(between(0, 1)),
+      key("symmetric", &Contact::symmetric,
+          "the master's nodes against the slave's faces as well, each with half the stiffness; neither surface then cuts into the other"),
       key("close_gap", &Contact::close_gap,
           "before the run, the slave's part is moved along this direction until it first touches")
           .direction()

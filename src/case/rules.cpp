@@ -120,8 +120,54 @@ void check_connector(void* entry, EntryCheck& check) {
   }
 }
 
+namespace {
+
+void check_falling_friction(const scene::Contact& contact, EntryCheck& check) {
+  if (!check.sound({"friction", "dynamic_friction", "friction_decay"})) return;
+  if (contact.dynamic_friction && contact.friction_decay == 0) {
+    check.complain("dynamic_friction", "has no effect without friction_decay above 0; give that too, such as 6 s/m, or leave "
+                                       "dynamic_friction out");
+  } else if (contact.friction_decay > 0 && !contact.dynamic_friction) {
+    check.complain("friction_decay", "has no effect without dynamic_friction; give that too, or leave friction_decay out");
+  } else if (contact.dynamic_friction && !(*contact.dynamic_friction < contact.friction)) {
+    check.complain("dynamic_friction", fmt::format("is {}, must be smaller than friction ({}), from which it falls",
+                                                   *contact.dynamic_friction, said(check, {"friction", contact.friction})));
+  }
+}
+
+void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
+  if (!check.sound({"penalty_growth"})) return;
+  double before = -1;
+  for (std::size_t i = 0; i < contact.penalty_growth.size(); ++i) {
+    const auto [depth, factor] = contact.penalty_growth[i];
+    if (!(depth >= 0 && depth > before)) {
+      check.complain("penalty_growth", fmt::format("penetration must be at least 0 m and increase from pair to pair, but pair {} has {} m{}",
+                                                   i + 1, depth, i > 0 ? fmt::format(" after {} m", before) : ""));
+      return;
+    }
+    if (!(factor > 0)) {
+      check.complain("penalty_growth", fmt::format("factors must be above 0, but pair {} has {}", i + 1, factor));
+      return;
+    }
+    before = depth;
+  }
+}
+
+/// Multipliers know a constant friction, and one surface whose nodes must not enter the other.
+void check_algorithm(const scene::Contact& contact, EntryCheck& check) {
+  if (!check.sound({"algorithm"}) || contact.algorithm == scene::ContactAlgorithm::penalty) return;
+  for (const char* key : {"dynamic_friction", "friction_decay", "penalty_growth", "damping", "symmetric"})
+    if (check.given(key))
+      check.complain(key, "belongs to the penalty algorithm; leave it out, or set algorithm = \"penalty\"");
+}
+
+}  // namespace
+
 void check_contact(void* entry, EntryCheck& check) {
   const auto& contact = *static_cast<scene::Contact*>(entry);
+  check_algorithm(contact, check);
+  check_falling_friction(contact, check);
+  check_penalty_growth(contact, check);
   if (!check.sound({"slave", "master"})) return;
   if (contact.slave == contact.master) {
     check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces",

@@ -204,11 +204,18 @@ enum class ContactAlgorithm { penalty, multiplier };
 struct Contact : Place {
   std::string slave;               ///< `part.surface`
   std::string master;              ///< `part.surface`
-  double friction = 0;             ///< Coulomb coefficient
+  double friction = 0;             ///< Coulomb coefficient, at rest where it falls with the sliding speed
+  std::optional<double> dynamic_friction;  ///< at high speed, mu_d of thesis eq. 2.29
+  double friction_decay = 0;       ///< c of thesis eq. 2.29, s/m; 0: friction is constant
   ContactAlgorithm algorithm = ContactAlgorithm::penalty;
   int sweeps = 2;                  ///< of the multipliers' iteration, in a step
   double penalty_scale = 1.0;      ///< f_SI of thesis eq. 2.26d
+  std::vector<std::array<double, 2>> penalty_growth;  ///< (penetration in m, factor on the spring's tangent stiffness); empty: linear
+  double damping = 0;              ///< share of critical damping of the contact spring and the masses that it joins
+  bool symmetric = false;          ///< the master's nodes against the slave's faces as well, each with half the stiffness
   std::optional<Vec3> close_gap;   ///< the slave's part is moved along this direction until first touch, before the run
+
+  bool falling_friction() const { return friction_decay > 0; }
 };
 
 struct InitialMotion : Place {

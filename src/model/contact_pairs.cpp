@@ -7,6 +7,7 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -47,7 +48,7 @@ bool common(const std::vector<int>& a, const std::vector<int>& b) {
   return !shared.empty();
 }
 
-/// Cosine of the angle between two segments from which an inner fold counts as sharp: 60 degrees.
+/// Cosine of the angle between two segments from which a fold counts as sharp: 60 degrees.
 constexpr double sharp_fold = 0.5;
 
 Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -64,14 +65,14 @@ struct Facet {
   }
 };
 
-bool folded_inwards(const Facet& a, const Facet& b) {
-  const double along = product(a.normal, b.normal);
-  return product(a.normal, difference(b.centre, a.centre)) > 0 &&
-         along < sharp_fold * std::sqrt(product(a.normal, a.normal) * product(b.normal, b.normal));
+bool sharp(const Facet& a, const Facet& b) {
+  return product(a.normal, b.normal) < sharp_fold * std::sqrt(product(a.normal, a.normal) * product(b.normal, b.normal));
 }
 
-/// The master's segments with their neighbours, and whether sharp inner folds lie between them.
-std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector<Face>& master, bool& folded) {
+bool inwards(const Facet& a, const Facet& b) { return product(a.normal, difference(b.centre, a.centre)) > 0; }
+
+/// The master's segments with their neighbours; whether sharp folds lie between them is noted in `arrays`.
+std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector<Face>& master, ContactArrays& arrays) {
   std::vector<Segment> segments;
   std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
   for (const Face& face : master) {
@@ -85,37 +86,72 @@ std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector
     }
     segments.push_back(segment);
   }
-  folded = false;
   for (const auto& [ends, pair] : sides) {
     // Where more than two segments meet there is no such thing as the neighbour.
     if (pair.size() != 2) continue;
     const auto& [a, b] = std::pair{pair[0], pair[1]};
     segments[a[0]].neighbour[a[1]] = b[0];
     segments[b[0]].neighbour[b[1]] = a[0];
-    folded = folded || folded_inwards({assembly.nodes, segments[a[0]].node}, {assembly.nodes, segments[b[0]].node});
+    const Facet first(assembly.nodes, segments[a[0]].node), second(assembly.nodes, segments[b[0]].node);
+    if (sharp(first, second)) (inwards(first, second) ? arrays.folded_inwards : arrays.folded_outwards) = true;
   }
   return segments;
 }
 
-void build_pair(Model& model, const scene::Contact& contact) {
+/// Sum of the normals of a surface's facets around each of its nodes.
+std::map<int, Vec3> normals_at_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
+  std::map<int, Vec3> normals;
+  for (const Face& face : surface) {
+    const auto corner = assembly.face_nodes(face);
+    const int corners[4] = {corner[0], corner[1], corner[2], corner[3]};
+    const Vec3 normal = Facet(assembly.nodes, corners).normal;
+    for (int n : corner)
+      for (int i = 0; i < 3; ++i) normals[n][i] += normal[i];
+  }
+  return normals;
+}
+
+/// Cosine of the angle between the two surfaces' normals up to which a common node is the end of a seam: 120 degrees.
+constexpr double facing = -0.5;
+
+/// Which slaves are nodes of the master too. Only the ends of a seam may be: there the surfaces face each other.
+std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contact, const std::vector<Face>& slave,
+                                const std::vector<Face>& master, const std::vector<int>& slave_nodes) {
+  const auto of_slave = normals_at_nodes(model.assembly, slave), of_master = normals_at_nodes(model.assembly, master);
+  std::vector<char> on_both(slave_nodes.size(), 0);
+  std::size_t shared = 0, no_seam = 0;
+  for (std::size_t s = 0; s < slave_nodes.size(); ++s) {
+    const auto there = of_master.find(slave_nodes[s]);
+    if (there == of_master.end()) continue;
+    const Vec3 &a = of_slave.at(slave_nodes[s]), &b = there->second;
+    on_both[s] = 1;
+    ++shared;
+    if (product(a, b) > facing * std::sqrt(product(a, a) * product(b, b))) ++no_seam;
+  }
+  if (no_seam > 0 || shared == slave_nodes.size())
+    throw InputError(fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
+                                 "choose surfaces without common nodes (but for the ends of a seam, whose two sides face each "
+                                 "other and have nodes of their own)",
+                                 model.scene.path, contact.line, contact.name, contact.slave, contact.master, shared));
+  return on_both;
+}
+
+void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   const Assembly& assembly = model.assembly;
   ContactPair pair;
   pair.contact = &contact;
-  const auto& slave = find_surface(model.scene, assembly, contact, "slave", contact.slave);
-  const auto& master = find_surface(model.scene, assembly, contact, "master", contact.master);
+  pair.reversed = reversed;
+  const auto* slave_faces = &find_surface(model.scene, assembly, contact, "slave", contact.slave);
+  const auto* master_faces = &find_surface(model.scene, assembly, contact, "master", contact.master);
+  if (reversed) std::swap(slave_faces, master_faces);
+  const auto &slave = *slave_faces, &master = *master_faces;
   pair.slave_nodes = surface_nodes(assembly, slave);
   pair.master_nodes = surface_nodes(assembly, master);
-  std::vector<int> shared;
-  std::set_intersection(pair.slave_nodes.begin(), pair.slave_nodes.end(), pair.master_nodes.begin(), pair.master_nodes.end(),
-                        std::back_inserter(shared));
-  if (!shared.empty())
-    throw InputError(fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
-                                 "choose surfaces without common nodes",
-                                 model.scene.path, contact.line, contact.name, contact.slave, contact.master, shared.size()));
+  pair.on_both = nodes_on_both(model, contact, slave, master, pair.slave_nodes);
   pair.slave_facets = local_facets(assembly, slave, pair.slave_nodes);
   pair.master_segments = local_facets(assembly, master, pair.master_nodes);
   for (const Face& face : master) {
-    pair.segment_stiffness.push_back(penalty_stiffness(model, face, contact.penalty_scale));
+    pair.segment_stiffness.push_back(penalty_stiffness(model, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
     const auto corner = assembly.face_nodes(face);
     for (int k : {0, 1}) {
       const Vec3 &a = assembly.nodes[corner[k]], &b = assembly.nodes[corner[k + 2]];
@@ -143,7 +179,7 @@ void build_pair(Model& model, const scene::Contact& contact) {
   arrays.first_segment = to_device("first segment", first);
   arrays.segment_of_node = to_device("segment of node", around);
   arrays.segment_stiffness = to_device("segment stiffness", pair.segment_stiffness);
-  arrays.surface = to_device("surface", linked_segments(assembly, master, arrays.folded_inwards));
+  arrays.surface = to_device("surface", linked_segments(assembly, master, arrays));
   arrays.tracked = Array<int*>("tracked", arrays.slave_count);
   arrays.place = Array<double* [2]>("place", arrays.slave_count);
   arrays.gap = Array<double*>("gap", arrays.slave_count);
@@ -155,6 +191,8 @@ void build_pair(Model& model, const scene::Contact& contact) {
     pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
                         Array<std::uint64_t*>("crowd", masters), Array<double* [3]>("way since stuck", arrays.slave_count),
                         Array<double*>("impact energy", arrays.slave_count)};
+  pair.law = make_contact_law(contact, arrays.slave_count);
+  pair.growth = largest_growth(contact);
   pair.missed = Array<int*>("missed", 1);
   model.contacts.push_back(pair);
 }
@@ -162,11 +200,19 @@ void build_pair(Model& model, const scene::Contact& contact) {
 }  // namespace
 
 void build_contacts(Model& model) {
-  for (const scene::Contact& contact : model.scene.contacts) build_pair(model, contact);
-  for (ContactPair& pair : model.contacts)
+  for (const scene::Contact& contact : model.scene.contacts) build_pair(model, contact, false);
+  for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
+    if (!model.scene.contacts[c].symmetric) continue;
+    model.contacts[c].partner = static_cast<int>(model.contacts.size());
+    build_pair(model, model.scene.contacts[c], true);
+    model.contacts.back().partner = static_cast<int>(c);
+  }
+  for (ContactPair& pair : model.contacts) {
+    pair.own_master = !common(pair.master_nodes, pair.slave_nodes);
     for (const ContactPair& other : model.contacts)
       if (&other != &pair && (common(pair.master_nodes, other.slave_nodes) || common(pair.master_nodes, other.master_nodes)))
         pair.own_master = false;
+  }
 }
 
 }  // namespace railwave

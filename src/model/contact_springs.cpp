@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 #include "model/nearest_point.hpp"
 
@@ -83,7 +85,48 @@ void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position
   }
 }
 
+/// Of critical damping of the slave's mass and the segment's, which is felt most in its middle.
+double damping_of(const Model& model, double share_of_critical, const ContactSpring& spring) {
+  double heaviest = 0;
+  for (int n : spring.master_nodes) heaviest = std::fmax(heaviest, model.mass[n]);
+  const double inverse_mass = 1 / model.mass[spring.slave_node] + 0.25 / heaviest;
+  return 2 * share_of_critical * std::sqrt(spring.stiffness / inverse_mass);
+}
+
+void add_pair(const Model& model, const ContactPair& pair, ContactOnNodes& sum) {
+  std::vector<double> stiffness(model.mass.size(), 0), damping(model.mass.size(), 0);
+  const auto put = [&](int n, double k, double springs) {
+    stiffness[n] = std::fmax(stiffness[n], springs * k);
+    damping[n] = std::fmax(damping[n], springs * 2 * pair.law.damping * std::sqrt(k * model.mass[n]));
+  };
+  double stiffest = 0;
+  for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, pair.growth * k);
+  for (int n : pair.slave_nodes) put(n, stiffest, 1);
+
+  const auto area = [&](const std::array<int, 4>& facet, const std::vector<int>& nodes) {
+    const auto x = [&](int k) { return model.assembly.nodes[nodes[facet[k]]]; };
+    return facet_area(x(0), x(1), x(2), x(3));
+  };
+  double slave_area = std::numeric_limits<double>::infinity();
+  for (const auto& facet : pair.slave_facets) slave_area = std::fmin(slave_area, area(facet, pair.slave_nodes));
+  for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
+    const double springs = std::fmax(1.0, area(pair.master_segments[s], pair.master_nodes) / slave_area);
+    for (int m : pair.master_segments[s]) put(pair.master_nodes[m], pair.growth * pair.segment_stiffness[s], springs);
+  }
+  for (std::size_t n = 0; n < model.mass.size(); ++n) {
+    sum.stiffness[n] += stiffness[n];
+    sum.damping[n] += damping[n];
+  }
+}
+
 }  // namespace
+
+ContactOnNodes contact_on_nodes(const Model& model) {
+  ContactOnNodes sum{std::vector<double>(model.mass.size(), 0), std::vector<double>(model.mass.size(), 0)};
+  for (const ContactPair& pair : model.contacts)
+    if (pair.has_springs()) add_pair(model, pair, sum);
+  return sum;
+}
 
 std::vector<ContactSpring> possible_contact_springs(const Model& model, const ContactPair& pair, double horizon) {
   const auto position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
@@ -97,6 +140,7 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
   std::vector<ContactSpring> springs;
   const auto status = to_host(pair.arrays.status);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
+    if (pair.on_both[s] != 0) continue;
     const Vec3& v = slave_velocities[s];
     const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(inner(v, v)) + fastest_master);
     const int m = nearest.find(slaves[s], reach);
@@ -107,8 +151,9 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
     const double closing = closing_factor * horizon * std::sqrt(inner(relative, relative));
     const bool may_touch = aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
     if (status(static_cast<int>(s)) == status_apart && !may_touch) continue;
-    ContactSpring spring{static_cast<int>(s), pair.slave_nodes[s], around.stiffness[m], around.normal[m], {}, {}};
+    ContactSpring spring{static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);
+    spring.damping = damping_of(model, pair.law.damping, spring);
     springs.push_back(spring);
   }
   return springs;

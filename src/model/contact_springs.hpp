@@ -8,7 +8,8 @@ namespace railwave {
 struct ContactSpring {
   int slave = 0;          ///< position among the pair's slave nodes
   int slave_node = 0;     ///< model node number
-  double stiffness = 0;   ///< N/m, of the stiffest segment about the place
+  double stiffness = 0;   ///< N/m, of the stiffest segment about the place, at the penetration where it is largest
+  double damping = 0;     ///< N s/m along the normal, the most that the law takes of it
   Vec3 normal{};          ///< of the master's surface there
   std::array<int, 4> master_nodes{};  ///< corners of the segment, model node numbers
   std::array<double, 4> share{};      ///< shape functions at the place, thesis eq. 2.24b
@@ -17,5 +18,14 @@ struct ContactSpring {
 /// The springs of every slave node that touches now or may within `horizon` seconds at the bodies' present velocities.
 /// A pair far apart has none.
 std::vector<ContactSpring> possible_contact_springs(const Model& model, const ContactPair& pair, double horizon);
+
+/// What contact may put on each node at worst, by model node number; zero where no surface is.
+struct ContactOnNodes {
+  std::vector<double> stiffness, damping;  ///< N/m, N s/m
+};
+
+/// The stiffest and most strongly damped springs that the pairs' laws allow, wherever the bodies may touch; where slaves
+/// are finer than the master, several on each of its nodes; and those of all pairs that a node belongs to together.
+ContactOnNodes contact_on_nodes(const Model& model);
 
 }  // namespace railwave

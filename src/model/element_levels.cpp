@@ -47,7 +47,7 @@ class OwnSteps {
   /// A spring k between two nodes of mass m: omega^2 = 2 k / m.
   void add_contact(const ContactPair& pair) {
     double stiffest = 0;
-    for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, k);
+    for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, pair.growth * k);
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes) at_node_[n] += 2 * stiffest / model_.mass[n];
   }

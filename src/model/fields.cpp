@@ -155,6 +155,52 @@ Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& p
   return to_host(gap);
 }
 
+/// What a pair's slaves do now, on the host.
+struct SlavesNow {
+  Array<double* [3]>::HostMirror normal, tangential;
+  Array<double* [2]>::HostMirror place;
+  Array<int*>::HostMirror status, segment;
+
+  explicit SlavesNow(const ContactArrays& contact)
+      : normal(to_host(contact.normal_force)), tangential(to_host(contact.tangential_force)), place(to_host(contact.place)),
+        status(to_host(contact.status)), segment(to_host(contact.tracked)) {}
+
+  double share(int s, int corner) const { return segment_shape(corner, place(s, 0), place(s, 1)); }
+};
+
+void add_forces(const ContactPair& pair, const SlavesNow& now, ContactSide& slave, ContactSide& master) {
+  for (int s = 0; s < pair.arrays.slave_count; ++s) {
+    if (now.status(s) == status_apart) continue;
+    for (int i = 0; i < 3; ++i) {
+      slave.normal_force[3 * s + i] += now.normal(s, i);
+      slave.tangential_force[3 * s + i] += now.tangential(s, i);
+    }
+    for (int k = 0; k < 4; ++k) {
+      const int m = pair.master_segments[now.segment(s)][k];
+      for (int i = 0; i < 3; ++i) {
+        master.normal_force[3 * m + i] -= now.share(s, k) * now.normal(s, i);
+        master.tangential_force[3 * m + i] -= now.share(s, k) * now.tangential(s, i);
+      }
+    }
+  }
+}
+
+/// Velocity of a slave over its segment, in the plane across the force that presses it.
+Vec3 slip_velocity(const ContactPair& pair, const SlavesNow& now, const ContactState& state, int s) {
+  Vec3 slip{};
+  double along = 0, squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    slip[i] = state.slave.velocity[3 * s + i];
+    for (int k = 0; k < 4; ++k)
+      slip[i] -= now.share(s, k) * state.master.velocity[3 * pair.master_segments[now.segment(s)][k] + i];
+    along += slip[i] * now.normal(s, i);
+    squared += now.normal(s, i) * now.normal(s, i);
+  }
+  if (squared > 0)
+    for (int i = 0; i < 3; ++i) slip[i] -= along / squared * now.normal(s, i);
+  return slip;
+}
+
 }  // namespace
 
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
@@ -178,46 +224,28 @@ ContactState contact_state(const Model& model, int contact) {
   ContactState state;
   state.name = pair.contact->name;
   state.friction = pair.arrays.friction;
+  if (pair.law.friction_now.extent(0) > 0) state.friction_now = to_vector(pair.law.friction_now);
   state.slave = bare_side(model, pair.slave_nodes, pair.slave_facets);
   state.master = bare_side(model, pair.master_nodes, pair.master_segments);
 
-  const auto normal = to_host(pair.arrays.normal_force);
-  const auto tangential = to_host(pair.arrays.tangential_force);
+  const SlavesNow now(pair.arrays);
+  add_forces(pair, now, state.slave, state.master);
+  if (pair.partner >= 0) {
+    // Both halves of a symmetric contact number the nodes of each surface alike.
+    const ContactPair& other = model.contacts[pair.partner];
+    add_forces(other, SlavesNow(other.arrays), state.master, state.slave);
+  }
   const auto gap = present_gaps(model, pair);
-  const auto status = to_host(pair.arrays.status);
-  const auto segment = to_host(pair.arrays.tracked);
-  const auto place = to_host(pair.arrays.place);
   const int count = pair.arrays.slave_count;
   state.gap.assign(count, std::numeric_limits<double>::quiet_NaN());
   state.slip_velocity.assign(3 * static_cast<std::size_t>(count), 0);
   state.slipping.assign(count, 0);
   for (int s = 0; s < count; ++s) {
     if (gap(s) < 1e299) state.gap[s] = gap(s);
-    state.slipping[s] = status(s);
-    if (status(s) == status_apart) continue;
-    Vec3 slip{}, n{};
-    double size = 0;
-    for (int i = 0; i < 3; ++i) {
-      state.slave.normal_force[3 * s + i] = normal(s, i);
-      state.slave.tangential_force[3 * s + i] = tangential(s, i);
-      slip[i] = state.slave.velocity[3 * s + i];
-      size += normal(s, i) * normal(s, i);
-    }
-    for (int k = 0; k < 4; ++k) {
-      const int m = pair.master_segments[segment(s)][k];
-      const double share = segment_shape(k, place(s, 0), place(s, 1));
-      for (int i = 0; i < 3; ++i) {
-        state.master.normal_force[3 * m + i] -= share * normal(s, i);
-        state.master.tangential_force[3 * m + i] -= share * tangential(s, i);
-        slip[i] -= share * state.master.velocity[3 * m + i];
-      }
-    }
-    double along = 0;
-    for (int i = 0; i < 3; ++i) {
-      n[i] = size > 0 ? normal(s, i) / std::sqrt(size) : 0;
-      along += slip[i] * n[i];
-    }
-    for (int i = 0; i < 3; ++i) state.slip_velocity[3 * s + i] = slip[i] - along * n[i];
+    state.slipping[s] = now.status(s);
+    if (now.status(s) == status_apart) continue;
+    const Vec3 slip = slip_velocity(pair, now, state, s);
+    for (int i = 0; i < 3; ++i) state.slip_velocity[3 * s + i] = slip[i];
   }
   return state;
 }

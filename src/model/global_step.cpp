@@ -171,6 +171,7 @@ GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double
   for (const scene::Part& part : model.scene.parts)
     damped = damped || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
   for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
+  for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
   if (!damped) {
     const double eigenvalue = largest_eigenvalue(model, 0, tolerance, result);
     if (eigenvalue > 0) result.step = 2 / std::sqrt(eigenvalue);

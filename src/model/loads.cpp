@@ -221,7 +221,7 @@ double contact_quantum(const Model& model) {
   double largest = 1e-30;
   for (const ContactPair& pair : model.contacts)
     for (double stiffness : pair.segment_stiffness)
-      largest = std::max(largest, 0.1 * pair.segment_size * stiffness / std::min(1.0, pair.contact->penalty_scale));
+      largest = std::max(largest, 0.1 * pair.segment_size * pair.growth * stiffness / std::min(1.0, pair.contact->penalty_scale));
   return std::exp2(std::ceil(std::log2(largest / ExtraForceSum::largest)));
 }
 

@@ -5,6 +5,7 @@
 
 #include "kernels/block_sum.hpp"
 #include "model/build_steps.hpp"
+#include "model/contact_law.hpp"
 
 namespace railwave {
 
@@ -81,6 +82,7 @@ void reset_to_start(Model& model) {
     zero(contact.friction_energy);
     zero(pair.multipliers.crowd);
     zero(pair.multipliers.impact_energy);
+    reset_contact_law(pair.law, contact.friction);
     pair.next_look = -1;
     pair.slaves_at_layout = {};
   }
@@ -120,6 +122,7 @@ std::size_t device_bytes(const Model& model) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
                    c.surface, c.tracked, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
+                   pair.law.growth.points, pair.law.friction_now, pair.law.damping_force, pair.law.damping_energy,
                    pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);
   }
   return total;

@@ -7,7 +7,7 @@
 #include "case/scene.hpp"
 #include "kernels/bilinear.hpp"
 #include "kernels/carried_nodes.hpp"
-#include "kernels/contact_arrays.hpp"
+#include "kernels/contact_law.hpp"
 #include "kernels/element_force.hpp"
 #include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
@@ -92,6 +92,7 @@ struct ConnectorStage {
 struct ContactPair {
   const scene::Contact* contact = nullptr;
   ContactArrays arrays;
+  ContactLawArrays law;
   ContactWindow window;
   MultiplierArrays multipliers;        ///< of the second algorithm, see kernels/contact_multiplier.hpp
   Array<double* [3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
@@ -101,12 +102,16 @@ struct ContactPair {
   long looks = 0;                      ///< how often it was looked at, the host waiting
   bool loaded = false;                 ///< loads or connectors act on its nodes
   bool has_springs() const { return !multipliers.active(); }
-  bool own_master = true;              ///< no other pair's forces reach the master's nodes
+  bool own_master = true;              ///< no other forces than the pair's on slaves reach the master's nodes
+  bool reversed = false;               ///< the second half of a symmetric contact: surfaces exchanged, told with the first
+  int partner = -1;                    ///< the other half of a symmetric contact, -1: none
+  std::vector<char> on_both;           ///< by slave: a node of the master too, at a seam's end, where it can't meet itself
   Array<int*> missed;                  ///< one: see ContactLook
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes
-  std::vector<double> segment_stiffness;
+  std::vector<double> segment_stiffness;            ///< N/m, at no penetration
+  double growth = 1;                   ///< largest factor on that, at any penetration
   double segment_size = 0;             ///< m, the largest segment's diagonal
 };
 
@@ -172,7 +177,7 @@ struct Model {
   ConnectorStage connectors;
   TorqueArrays torques;
   std::vector<PrescribedSet> prescribed;
-  std::vector<ContactPair> contacts;
+  std::vector<ContactPair> contacts;   ///< of the scene's contacts in order, then the reversed ones
   std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute
 
   /// The present instant: forces and positions at `time`; velocities `velocity_lag` seconds before it.

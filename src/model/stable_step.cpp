@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/contact_springs.hpp"
 #include "model/element_frequency.hpp"
 #include "model/global_step.hpp"
 #include "model/stable_step.hpp"
@@ -82,29 +83,19 @@ double contact_step_on_eigenvalues(double stiffness, double mass, double step, d
   return low;
 }
 
-/// @param step_at stable step of springs of a stiffness on a node
+/// Springs k with dashpots c on the velocity half a step back: of a step dt the dashpots are worth 2 c / dt of stiffness.
+/// @param step_at stable step with springs of a stiffness, the shorter the stiffer
 template <class StepAt>
-double contact_step(const Model& model, const ContactPair& pair, const StepAt& step_at) {
-  double stiffest = 0;
-  for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, k);
-  double least = std::numeric_limits<double>::infinity();
-  for (int n : pair.slave_nodes) least = std::fmin(least, step_at(stiffest, n));
-
-  // On a finer slave surface several springs press on each master node.
-  const auto area = [&](const std::array<int, 4>& facet, const std::vector<int>& nodes) {
-    const auto x = [&](int k) { return model.assembly.nodes[nodes[facet[k]]]; };
-    return facet_area(x(0), x(1), x(2), x(3));
-  };
-  double slave_area = std::numeric_limits<double>::infinity();
-  for (const auto& facet : pair.slave_facets) slave_area = std::fmin(slave_area, area(facet, pair.slave_nodes));
-  for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
-    const double springs = std::fmax(1.0, area(pair.master_segments[s], pair.master_nodes) / slave_area);
-    for (int m : pair.master_segments[s]) {
-      const int n = pair.master_nodes[m];
-      least = std::fmin(least, step_at(springs * pair.segment_stiffness[s], n));
-    }
+double damped_step(double stiffness, double damping, const StepAt& step_at) {
+  double step = step_at(stiffness);
+  if (!(damping > 0)) return step;
+  // From above, and each step shorter: a shorter step makes the dashpots stiffer.
+  for (int i = 0; i < 200; ++i) {
+    const double next = step_at(stiffness + 2 * damping / step);
+    if (next > (1 - 1e-9) * step) break;
+    step = next;
   }
-  return least;
+  return step;
 }
 
 /// Mass of a connector's end, infinite for the ground. The end's nodes move together only in the mean, but the lightest
@@ -138,11 +129,13 @@ double connector_frequency(const Model& model) {
   return largest;
 }
 
+/// @param step_at stable step of springs of a stiffness on a node
 template <class StepAt>
-double contacts_step(const Model& model, const StepAt& step_at) {
+double contacts_step(const ContactOnNodes& contact, const StepAt& step_at) {
   double least = std::numeric_limits<double>::infinity();
-  for (const ContactPair& pair : model.contacts)
-    if (pair.has_springs()) least = std::fmin(least, contact_step(model, pair, step_at));
+  for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
+    if (contact.stiffness[n] > 0)
+      least = std::fmin(least, damped_step(contact.stiffness[n], contact.damping[n], [&](double k) { return step_at(k, n); }));
   return least;
 }
 
@@ -167,10 +160,11 @@ void estimate_by_elements(Model& model) {
   // Multipliers are constraints: they add no frequency above the elements' own.
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return pair.has_springs(); })) {
     const auto at_node = steps_at_nodes(model, heights);
-    stable.contact = contacts_step(model, [&](double k, int n) { return contact_step_at(k, model.mass[n], at_node[n]); });
+    const ContactOnNodes contact = contact_on_nodes(model);
+    stable.contact = contacts_step(contact, [&](double k, int n) { return contact_step_at(k, model.mass[n], at_node[n]); });
     const auto step = steps_at_nodes(model, eigenvalues.step), control = steps_at_nodes(model, eigenvalues.control);
     stable.eigenvalue_contact = contacts_step(
-        model, [&](double k, int n) { return contact_step_on_eigenvalues(k, model.mass[n], step[n], control[n]); });
+        contact, [&](double k, int n) { return contact_step_on_eigenvalues(k, model.mass[n], step[n], control[n]); });
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }

@@ -45,6 +45,10 @@ void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, boo
         weight_.insert(weight_.end(), {1.0, -1.0});
         close(friction ? axes[a] : spring.normal, spring.share[corner] * spring.stiffness, 0);
       }
+      if (spring.damping == 0) continue;
+      node_.insert(node_.end(), {spring.slave_node, spring.master_nodes[corner]});
+      weight_.insert(weight_.end(), {1.0, -1.0});
+      close(spring.normal, 0, spring.share[corner] * spring.damping);
     }
 }
 

@@ -12,7 +12,7 @@ class SpringCollector {
 
   /// Springs and dashpots of all connectors.
   void add_connectors();
-  /// A pair's contact springs: along the normal, and with friction the stick springs across it. The spring to a place on a
+  /// A pair's contact springs: along the normal, there with their dashpots, and with friction the stick springs across it. The spring to a place on a
   /// segment becomes four to its corners by the place's shape functions N: (u - sum N u_k)^2 <= sum N (u - u_k)^2. That is
   /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);

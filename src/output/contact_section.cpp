@@ -66,6 +66,7 @@ void ContactSection::Side::add(const ContactSide& state, const FieldSource& sour
 
 ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact) : contact_(contact) {
   const ContactState first = source.contact(contact);
+  falling_friction_ = !first.friction_now.empty();
   const hdf5::Group group = contacts_group.create_group(first.name);
   group.set_attribute("friction", first.friction);
   const hdf5::Group slave_group = group.create_group("slave");
@@ -74,6 +75,7 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSou
   const hsize_t count = first.slave.nodes.size();
   gap_ = slave_group.create_growing<double>("gap", {count}, each_time);
   slip_velocity_ = slave_group.create_growing<double>("slip_velocity", {count, 3}, each_time);
+  if (falling_friction_) friction_ = slave_group.create_growing<double>("friction", {count}, each_time);
   slipping_ = slave_group.create_growing<signed char>("slipping", {count}, each_time);
   times_ = group.create_growing<double>("time", {}, times_in_block);
   steps_ = group.create_growing<long>("step", {}, times_in_block);
@@ -87,6 +89,7 @@ void ContactSection::add_values(const FieldSource& source, long step) {
   master_.add(state.master, source);
   append(gap_, state.gap, count);
   append(slip_velocity_, state.slip_velocity, 3 * count);
+  if (falling_friction_) append(friction_, state.friction_now, count);
   const std::vector<signed char> slipping(state.slipping.begin(), state.slipping.end());
   slipping_.append(slipping.data(), 1);
   steps_.append(&step, 1);

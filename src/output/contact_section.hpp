@@ -33,8 +33,9 @@ class ContactSection {
   const Side& side(bool slave) const { return slave ? slave_ : master_; }
 
   int contact_;
+  bool falling_friction_;
   Side slave_, master_;
-  hdf5::Dataset times_, steps_, gap_, slip_velocity_, slipping_;
+  hdf5::Dataset times_, steps_, gap_, slip_velocity_, slipping_, friction_;
 };
 
 /// Of each node of one side: the contact force along the inward normal over the node's area, Pa, pressure positive.

@@ -53,7 +53,7 @@ CutPoint point_on(const ContactState& state, const ContactPatch& patch, const Fa
     const int touching = place_in(patch.touching, node);
     if (touching < 0) continue;
     point.pressure += share * patch.pressure[touching];
-    point.bound += share * state.friction * entry(slave.normal_force, node).norm() / slave.area[node];
+    point.bound += share * state.friction_at(node) * entry(slave.normal_force, node).norm() / slave.area[node];
     point.shear += share / slave.area[node] * patch.frame.components(entry(slave.tangential_force, node)).head<2>();
     touching_share += share;
     point.slip_by_force += patch.regions.by_force[touching] ? share : 0.0;

@@ -128,7 +128,7 @@ void ContactTables::add_nodes(double time, int number, const ContactState& state
     const Vector slip = patch.frame.components(motion.slip), run = patch.frame.components(entry(state.slip_velocity, node));
     const double area = slave.area[node];
     const Vector shear = touches ? Vector(patch.frame.components(entry(slave.tangential_force, node)) / area) : Vector(Vector::Zero());
-    const double bound = touches ? state.friction * entry(slave.normal_force, node).norm() / area : 0;
+    const double bound = touches ? state.friction_at(node) * entry(slave.normal_force, node).norm() / area : 0;
     nodes.add_row({static_cast<double>(patches.row_count() - 1), time, static_cast<double>(number), static_cast<double>(slave.nodes[node]),
                    position[0], position[1], position[2], place[0], place[1], place[2], area, touches ? 1.0 : 0.0, state.gap[node],
                    touches ? patch.pressure[t] : 0, bound, shear[0], shear[1],

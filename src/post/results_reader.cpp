@@ -106,6 +106,7 @@ std::vector<double> ResultsReader::contact_times(const std::string& contact) con
     for (const char* side : {"slave", "master"})
       for (const std::string& name : side_arrays) complete = std::min<std::size_t>(complete, group.group(side).dataset(name).shape().at(0));
     for (const std::string& name : slave_arrays) complete = std::min<std::size_t>(complete, group.group("slave").dataset(name).shape().at(0));
+    if (group.group("slave").has("friction")) complete = std::min<std::size_t>(complete, group.group("slave").dataset("friction").shape().at(0));
     times.resize(complete);
     return times;
   } catch (const std::exception& error) {
@@ -153,8 +154,10 @@ ContactState ResultsReader::contact_state(const std::string& contact, std::size_
     state.slip_velocity = slave.dataset("slip_velocity").read_row<double>(index);
     const auto slipping = slave.dataset("slipping").read_row<signed char>(index);
     state.slipping.assign(slipping.begin(), slipping.end());
+    if (slave.has("friction")) state.friction_now = slave.dataset("friction").read_row<double>(index);
     const std::size_t count = state.slave.nodes.size();
-    if (state.gap.size() != count || state.slip_velocity.size() != 3 * count || state.slipping.size() != count)
+    if (state.gap.size() != count || state.slip_velocity.size() != 3 * count || state.slipping.size() != count ||
+        (!state.friction_now.empty() && state.friction_now.size() != count))
       throw std::runtime_error("an array has another length than the nodes");
     return state;
   } catch (const std::exception& error) {

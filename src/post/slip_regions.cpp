@@ -11,7 +11,7 @@ SlipRegions slip_regions(const ContactState& state, const std::vector<int>& node
   SlipRegions regions;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int node = nodes[i];
-    const double bound = state.friction * entry(slave.normal_force, node).norm();
+    const double bound = state.friction_at(node) * entry(slave.normal_force, node).norm();
     regions.by_force.push_back(bound - entry(slave.tangential_force, node).norm() < slip_force_tolerance * largest);
     regions.by_velocity.push_back(micro_slip[i] > slip_velocity_tolerance);
     regions.by_solver.push_back(state.slipping[node] == 2);

@@ -55,15 +55,19 @@ struct PlasticEnergy {
   }
 };
 
-/// Stored in the penalty springs, and dissipated by friction.
+/// Stored in the penalty springs; dissipated by friction, and by the springs' damping.
 struct ContactEnergy {
-  static constexpr int values = 2;
+  static constexpr int values = 3;
   ContactArrays contact;
+  ContactLawArrays law;
   KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
     sum[1] += contact.friction_energy(s);
+    if (law.damping > 0) sum[2] += law.damping_energy(s);
     if (contact.status(s) == status_apart) return;
+    const double stiffness = contact.segment_stiffness(contact.tracked(s));
     const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
-    sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / contact.segment_stiffness(contact.tracked(s));
+    if (law.active) sum[0] += stiffness * law.growth.at(-contact.gap(s)).energy + 0.5 * dot(t, t) / stiffness;
+    else sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / stiffness;
   }
 };
 
@@ -162,16 +166,18 @@ void element_energies(const Model& model, EnergyAccount& energy) {
 
 EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
-  double sum[2];
+  double sum[3];
   block_sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
   with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy); });
   for (const ContactPair& pair : model.contacts) {
-    if (pair.has_springs()) block_sum(ContactEnergy{pair.arrays}, pair.arrays.slave_count, sum, model.sum_space);
+    sum[2] = 0;
+    if (pair.has_springs()) block_sum(ContactEnergy{pair.arrays, pair.law}, pair.arrays.slave_count, sum, model.sum_space);
     else block_sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, pair.arrays.slave_count, sum, model.sum_space);
     energy.contact += sum[0];
     energy.friction += sum[1];
+    energy.damping += sum[2];
   }
   if (!model.loads.empty()) {
     block_sum(Work{model.extra.work}, model.extra.contribution_count, sum, model.sum_space);
@@ -200,7 +206,9 @@ double largest_energy(const EnergyAccount& energy) {
                    std::fabs(energy.damping), std::fabs(energy.plastic), std::fabs(energy.external_work)});
 }
 
-ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
+namespace {
+
+ContactTotals pair_totals(const Model& model, const ContactPair& pair) {
   double slave[11], master[3];
   block_sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, slave, model.sum_space);
   block_sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, master,
@@ -213,6 +221,22 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
   }
   totals.nodes_in_contact = static_cast<int>(slave[9]);
   totals.nodes_slipping = static_cast<int>(slave[10]);
+  return totals;
+}
+
+}  // namespace
+
+ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
+  ContactTotals totals = pair_totals(model, pair);
+  if (pair.partner < 0) return totals;
+  // The other half of a symmetric contact has the surfaces exchanged.
+  const ContactTotals other = pair_totals(model, model.contacts[pair.partner]);
+  for (int i = 0; i < 3; ++i) {
+    const double slave = totals.normal_force[i] + totals.tangential_force[i];
+    totals.normal_force[i] -= other.normal_force[i];
+    totals.tangential_force[i] -= other.tangential_force[i];
+    totals.master_force[i] += slave - (totals.normal_force[i] + totals.tangential_force[i]);
+  }
   return totals;
 }
 
@@ -235,7 +259,8 @@ HistorySample take_sample(const Model& model, double step) {
   sample.time = model.time;
   sample.step = model.step;
   sample.energy = account_energies(model, step);
-  for (const ContactPair& pair : model.contacts) sample.contacts.push_back(contact_totals(model, pair));
+  for (const ContactPair& pair : model.contacts)
+    if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
   return sample;
 }

@@ -192,6 +192,7 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
   const auto tracked = to_host(contact.tracked);
   std::vector<int> nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
   for (int s = 0; s < contact.slave_count; ++s) {
+    if (pair.on_both[s] != 0) continue;
     // A node that is tracked already needs no place to begin at.
     const int found = grid.near({slaves(s, 0), slaves(s, 1), slaves(s, 2)}, tracked(s) >= 0);
     if (found < 0) continue;

@@ -4,6 +4,7 @@ namespace railwave {
 
 bool go_together(const Model& model, const Instant& instant) {
   if (!on_device || !instant.advancing || instant.settling || model.contacts.size() != 1) return false;
+  if (model.contacts.front().law.active) return false;
   // Multipliers come later, and must foresee what loads do to their nodes.
   return model.elements.front().level == 0 && (model.contacts.front().has_springs() || !model.contacts.front().loaded);
 }
@@ -14,6 +15,11 @@ bool sets_go_along(const Model& model, const Instant& instant) {
 
 RowLoads row_loads(const Model& model, double elapsed) {
   return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
+}
+
+ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant) {
+  return {pair.law, model.nodes.velocity, model.nodes.mass, instant.settling ? 0.0 : pair.law.damping,
+          instant.settling ? 0.0 : instant.elapsed};
 }
 
 SetLoads set_loads(const Model& model, const Instant& instant) {

@@ -10,7 +10,7 @@ namespace railwave {
 inline constexpr int most_rows_of_a_team = 4096;
 
 /// What contact's springs and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the
-/// parts, and where such elements take every step.
+/// parts, and where such elements take every step. Not springs of any law but the plain one.
 bool go_together(const Model& model, const Instant& instant);
 
 /// The same of the sets. Nodes at paces of their own do not work out their own loads.
@@ -22,9 +22,12 @@ RowLoads row_loads(const Model& model, double elapsed);
 /// Sets of nodes that move as one, connectors and torques.
 SetLoads set_loads(const Model& model, const Instant& instant);
 
-template <bool Friction>
-ContactForce<Friction> contact_force(const Model& model, const ContactPair& pair) {
-  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra};
+/// A pair's law, where that is not the plain one.
+ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant);
+
+template <bool Friction, class Law = PlainContactLaw>
+ContactForce<Friction, Law> contact_force(const Model& model, const ContactPair& pair, const Law& law = {}) {
+  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra, law};
 }
 
 }  // namespace railwave

@@ -19,7 +19,7 @@ struct EnergyAccount {
   double contact = 0;        ///< stored in the penalty springs, normal and tangential
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
-  double damping = 0;        ///< dissipated in dashpots
+  double damping = 0;        ///< dissipated in dashpots and by contact damping
   double plastic = 0;        ///< dissipated by plastic flow
   double external_work = 0;  ///< by loads and gravity
   double balance_error = 0;

@@ -6,6 +6,7 @@
 #include "kernels/block_sum.hpp"
 #include "kernels/relaxation.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
 #include "solve/stages.hpp"
 
@@ -38,7 +39,7 @@ std::vector<double> relaxation_masses(const Model& model) {
   for (const ContactPair& pair : model.contacts) {
     if (!pair.has_springs()) continue;
     double stiffest = 0;
-    for (double k : pair.segment_stiffness) stiffest = std::max(stiffest, k);
+    for (double k : pair.segment_stiffness) stiffest = std::max(stiffest, pair.growth * k);
     for (int n : pair.slave_nodes) mass[n] += spring_share * stiffest;
     // Several slave nodes can press on one master node where the slave is the finer one.
     const double crowd = std::max(1.0, static_cast<double>(pair.slave_nodes.size()) / pair.master_nodes.size());
@@ -107,6 +108,7 @@ void forget_history(Model& model) {
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
     Kokkos::deep_copy(pair.multipliers.impact_energy, 0.0);
+    reset_contact_law(pair.law, pair.arrays.friction);
     pair.next_look = -1;
   }
   for (ElementGroup& group : model.elements) Kokkos::deep_copy(group.patches.hourglass_energy, 0.0);

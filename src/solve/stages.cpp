@@ -4,6 +4,7 @@
 
 #include "kernels/listed_nodes.hpp"
 #include "model/carriers.hpp"
+#include "model/contact_law.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
 #include "solve/contact_multiplier.hpp"
@@ -104,11 +105,15 @@ Stage contact_clearing_stage(Model& model) {
 
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
-  return {"contact " + pair.contact->name + (Friction ? ", friction" : ", frictionless"),
+  return {"contact " + pair.contact->name + (pair.reversed ? " reversed" : "") + describe_contact_law(*pair.contact),
           [&model, &pair](const Instant& instant) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;
-            Kokkos::parallel_for("contact_force", ContactRange(0, pair.window.count), contact_force<Friction>(model, pair));
+            const ContactRange range(0, pair.window.count);
+            if (pair.law.active)
+              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, contact_law(model, pair, instant)));
+            else
+              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair));
           }};
 }
 

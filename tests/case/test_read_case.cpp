@@ -125,6 +125,11 @@ slave = "wheel.tread"
 master = "rail.head"
 friction = 0.4
 penalty_scale = 0.5
+dynamic_friction = 0.25
+friction_decay = 6
+penalty_growth = [[0, 1], [1e-6, 4]]
+damping = 0.1
+symmetric = true
 close_gap = [0, 0, -2]
 
 [curves.ramp]
@@ -308,6 +313,12 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.contacts[0].master == "rail.head");
   CHECK(scene.contacts[0].friction == 0.4);
   CHECK(scene.contacts[0].penalty_scale == 0.5);
+  CHECK(scene.contacts[0].dynamic_friction == 0.25);
+  CHECK(scene.contacts[0].friction_decay == 6);
+  REQUIRE(scene.contacts[0].penalty_growth.size() == 2);
+  CHECK(scene.contacts[0].penalty_growth[1] == std::array<double, 2>{1e-6, 4});
+  CHECK(scene.contacts[0].damping == 0.1);
+  CHECK(scene.contacts[0].symmetric);
   CHECK(scene.contacts[0].close_gap == Vec3{0, 0, -1});  // a direction is stored with length 1
 
   REQUIRE(scene.curves.size() == 3);

@@ -1,5 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <algorithm>
+#include <map>
 #include <random>
 
 #include "kernels/contact_search.hpp"
@@ -329,4 +331,100 @@ TEST_CASE("over a ridge and in a valley a shallow penetration is found, with the
       }
     }
   }
+}
+
+TEST_CASE("beside the surface's end only what is shallow belongs to it") {
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  grid(4, 0.0, [](double, double) { return 0.0; }, nodes, quads);
+  const ContactSearch search = search_on(nodes, quads);
+  // A quarter wide, so 0.35 from corner to corner; a hundredth outside.
+  const auto answers = ask(search, {{{-0.0025, 0.4, -0.001}}, {{-0.0025, 0.4, -0.1}}, {{0.6, 1.0025, -0.001}}, {{0.6, 1.0025, -0.2}}});
+  CHECK(answers[0].segment >= 0);
+  CHECK(answers[1].segment == -1);
+  CHECK(answers[2].segment >= 0);
+  CHECK(answers[3].segment == -1);
+}
+
+TEST_CASE("near a cube's edges and corner what has entered is as deep as it is under the nearest face") {
+  // Three faces of a cube of side 3 that meet in the corner (3, 3, 3).
+  std::vector<Point> nodes;
+  std::map<std::array<int, 3>, int> number;
+  const auto node = [&](int x, int y, int z) {
+    const auto [at, isnew] = number.try_emplace({x, y, z}, static_cast<int>(nodes.size()));
+    if (isnew) nodes.push_back({1.0 * x, 1.0 * y, 1.0 * z});
+    return at->second;
+  };
+  std::vector<Quad> quads;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      quads.push_back({node(i, j, 3), node(i + 1, j, 3), node(i + 1, j + 1, 3), node(i, j + 1, 3)});
+      quads.push_back({node(3, i, j), node(3, i + 1, j), node(3, i + 1, j + 1), node(3, i, j + 1)});
+      quads.push_back({node(j, 3, i), node(j, 3, i + 1), node(j + 1, 3, i + 1), node(j + 1, 3, i)});
+    }
+  ContactSearch search = search_on(nodes, quads);
+  search.contact.folded_outwards = true;
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> depth(1e-4, 5e-3), away(0, 2.9);
+  std::vector<Question> questions;
+  std::vector<double> expected;
+  for (int k = 0; k < 2000; ++k) {
+    const double d = depth(generator);
+    Point below{3 * d + away(generator) * (k % 2 == 0 ? 1 : 0.05), 3 * d + away(generator) * (k % 3 == 0 ? 1 : 0.05), 0};
+    below[2] = d;
+    std::rotate(below.begin(), below.begin() + k % 3, below.end());
+    questions.push_back({{3 - below[0], 3 - below[1], 3 - below[2]}, static_cast<int>(generator() % nodes.size()), -1});
+    expected.push_back(-d);
+  }
+  const auto answers = ask(search, questions);
+  int wrong = 0;
+  for (std::size_t k = 0; k < answers.size(); ++k) wrong += answers[k].segment < 0 || !(std::fabs(answers[k].gap - expected[k]) < 1e-12);
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("on a wavy surface graded one to fifteen both ways, with slender and warped segments, each is found from anywhere") {
+  constexpr int count = 14;
+  std::vector<double> line{0};
+  for (int i = 0; i < count; ++i) line.push_back(line.back() + 0.05 * std::pow(15.0, i / (count - 1.0)));
+  const auto height = [](double x, double y) { return 0.05 * std::sin(0.9 * x) * std::cos(0.7 * y) - 0.01 * x * y; };
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  for (int j = 0; j <= count; ++j)
+    for (int i = 0; i <= count; ++i) {
+      // Fine and coarse meet crosswise, and the lines are not straight.
+      const double x = line[i] + 0.02 * std::sin(1.7 * j), y = line[j] + 0.02 * std::sin(2.3 * i);
+      nodes.push_back({x, y, height(x, y)});
+    }
+  for (int j = 0; j < count; ++j)
+    for (int i = 0; i < count; ++i) {
+      const int corner = j * (count + 1) + i;
+      quads.push_back({corner, corner + 1, corner + count + 2, corner + count + 1});
+    }
+  const ContactSearch search = search_on(nodes, quads);
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> within(-0.97, 0.97);
+  std::vector<Question> questions;
+  std::vector<int> over;
+  std::vector<double> expected;
+  for (int k = 0; k < 6000; ++k) {
+    const int q = static_cast<int>(generator() % quads.size());
+    const double xi = within(generator), eta = within(generator), d = (k % 2 == 0 ? -1 : 1) * 2e-4;
+    const Point p = surface_point(nodes, quads[q], xi, eta), px = surface_point(nodes, quads[q], xi + 1e-4, eta),
+                pe = surface_point(nodes, quads[q], xi, eta + 1e-4);
+    const double a[3] = {px[0] - p[0], px[1] - p[1], px[2] - p[2]}, b[3] = {pe[0] - p[0], pe[1] - p[1], pe[2] - p[2]};
+    Point n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double size = std::hypot(n[0], n[1], n[2]);
+    questions.push_back({{p[0] + d * n[0] / size, p[1] + d * n[1] / size, p[2] + d * n[2] / size}, static_cast<int>(generator() % nodes.size()), -1});
+    over.push_back(q);
+    expected.push_back(d);
+  }
+  const auto answers = ask(search, questions);
+  int lost = 0, wrong = 0;
+  for (std::size_t k = 0; k < answers.size(); ++k) {
+    lost += answers[k].segment != over[k];
+    wrong += !(std::fabs(answers[k].gap - expected[k]) < 1e-9);
+  }
+  INFO("of " << answers.size() << ": on another segment " << lost << ", another gap " << wrong);
+  CHECK(lost == 0);
+  CHECK(wrong == 0);
 }

@@ -1,0 +1,143 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+
+#include "tests/verify/two_blocks.hpp"
+
+/// A block on a spring, dragged by a belt, under friction that falls with the sliding speed (thesis eq. 2.29, with the
+/// coefficients of its section 5.3.2.3).
+using namespace railwave;
+using namespace railwave::verify;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+struct Dragged {
+  double mass = 7800 * 0.08 * 0.08 * 0.02, spring = 1e7, pressing = 2e4, belt = 0.3;  // kg, N/m, N, m/s
+  double at_rest = 0.5, at_speed = 0.32, decay = 6;
+
+  double friction(double speed) const { return at_speed + (at_rest - at_speed) * std::exp(-decay * speed); }
+
+  struct Cycle {
+    double period, farthest;  ///< s from one slip to the next, m
+  };
+
+  /// Of the one mass, by Runge and Kutta's formula in steps of 10 ns. Each slip begins alike, so that every cycle is the
+  /// limit cycle.
+  Cycle exact() const {
+    const double from = at_rest * pressing / spring;  // m, where the spring overcomes friction
+    double x = from, v = belt, time = 0;
+    const double dt = 1e-8;
+    const auto pull = [&](double at, double velocity) { return (friction(belt - velocity) * pressing - spring * at) / mass; };
+    double farthest = x;
+    do {
+      const double a1 = pull(x, v), v2 = v + 0.5 * dt * a1, a2 = pull(x + 0.5 * dt * v, v2);
+      const double v3 = v + 0.5 * dt * a2, a3 = pull(x + 0.5 * dt * v2, v3), v4 = v + dt * a3, a4 = pull(x + dt * v3, v4);
+      x += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
+      v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+      time += dt;
+      farthest = std::max(farthest, x);
+    } while (v < belt);
+    return {time + (from - x) / belt, farthest};
+  }
+
+  scene::Scene scene(double end) const {
+    TwoBlocks blocks;
+    blocks.upper_size = {0.08, 0.08, 0.02};
+    blocks.upper_divisions = {2, 2, 1};
+    blocks.lower_size = {0.2, 0.12, 0.02};
+    blocks.lower_divisions = {7, 4, 1};
+    blocks.friction = at_rest;
+    scene::Scene made = blocks.scene(end);
+    made.contacts[0].dynamic_friction = at_speed;
+    made.contacts[0].friction_decay = decay;
+    made.time.step_scale = 0.6;
+    hold(made, "lower", {true, true, true});  // a held direction keeps the velocity that it began with
+    scene::InitialMotion moving;
+    moving.name = "belt";
+    moving.parts = {"lower"};
+    moving.velocity = {belt, 0, 0};
+    made.initial_motions.push_back(moving);
+    add_force(made, "upper", {0, 0, -pressing}, "");
+    scene::Connector held;
+    held.name = "spring";
+    held.from = "ground";
+    held.to = "upper.z_min";  // at the belt: above it the pull would lean on the front edge, which then creeps first
+    held.stiffness = {spring, 0, 0};
+    made.connectors.push_back(held);
+    made.settle.active = true;
+    made.settle.tolerance = 1e-6;
+    made.output.history_sets = {"upper"};
+    made.output.history_interval = 5e-6;
+    return made;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a block on a spring dragged by a belt sticks and slips with the period of the exact equation") {
+  const Dragged dragged;
+  const auto exact = dragged.exact();
+  Model model;
+  build_model(dragged.scene(7 * exact.period), model);
+  Recorder recorder;
+  REQUIRE(run(model, {&recorder}).completed);
+
+  // Slips: where the spring's force falls through the dynamic friction's.
+  const double level = dragged.at_speed * dragged.pressing / dragged.spring;
+  std::vector<double> slips;
+  double farthest = 0;
+  for (std::size_t k = 1; k < recorder.samples.size(); ++k) {
+    const auto &a = recorder.samples[k - 1], &b = recorder.samples[k];
+    const double before = a.sets[0].displacement[0], now = b.sets[0].displacement[0];
+    farthest = std::max(farthest, now);
+    if (before > level && now <= level) slips.push_back(a.time + (b.time - a.time) * (before - level) / (before - now));
+  }
+  REQUIRE(slips.size() >= 4);
+  const double period = (slips.back() - slips[1]) / static_cast<double>(slips.size() - 2);
+  WARN("stick-slip period " << period << " s, exact " << exact.period << " s (" << 100 * (period / exact.period - 1) << " %), slips "
+                            << slips.size() << ", farthest " << farthest << " m, exact "
+                            << exact.farthest << " m, steps " << model.step);
+  CHECK_THAT(period, WithinRel(exact.period, 0.02));
+  CHECK_THAT(farthest, WithinRel(exact.farthest, 0.02));
+}
+
+TEST_CASE("the coefficient told beside the forces is that of the instant, and bounds them to rounding") {
+  const Dragged dragged;
+  Model model;
+  build_model(dragged.scene(2 * dragged.exact().period), model);
+  REQUIRE(settle_whole(model).settled);
+  set_initial_motion(model);
+  double lowest = 1, highest = 0, largest = 0, least_slipping = 1, worst = 0;
+  std::vector<double> place;
+  march(model, model.step_count, [&] {
+    // How far each slave has moved over the belt since the instant before, from positions alone: the belt is plane.
+    const auto x = to_host(model.nodes.position);
+    const ContactPair& pair = model.contacts[0];
+    std::vector<double> now;
+    for (int n : pair.slave_nodes)
+      for (int i : {0, 1}) now.push_back(x(n, i) - (i == 0 ? dragged.belt * model.step * model.step_size : 0));
+    const ContactState state = contact_state(model, 0);
+    REQUIRE(state.friction_now.size() == pair.slave_nodes.size());
+    for (std::size_t s = 0; s < pair.slave_nodes.size() && !place.empty(); ++s) {
+      if (state.slipping[s] == 0) continue;
+      const double speed = std::hypot(now[2 * s] - place[2 * s], now[2 * s + 1] - place[2 * s + 1]) / model.step_size;
+      const double friction = state.friction_at(s);
+      worst = std::max(worst, std::fabs(friction - dragged.friction(speed)));
+      const double normal = norm(Vec3{state.slave.normal_force[3 * s], state.slave.normal_force[3 * s + 1], state.slave.normal_force[3 * s + 2]});
+      const double tangential = norm(Vec3{state.slave.tangential_force[3 * s], state.slave.tangential_force[3 * s + 1], state.slave.tangential_force[3 * s + 2]});
+      const double used = tangential / (friction * normal);
+      largest = std::max(largest, used);
+      if (state.slipping[s] == 2) least_slipping = std::min(least_slipping, used);
+      lowest = std::min(lowest, friction);
+      highest = std::max(highest, friction);
+    }
+    place = now;
+  });
+  INFO("coefficients " << lowest << " to " << highest << ", at most " << worst << " from the law; tangential force at most "
+                       << largest << " of the bound, slipping at least " << least_slipping);
+  CHECK(lowest < dragged.at_speed + 0.01);
+  CHECK(highest > dragged.at_rest - 1e-6);
+  CHECK(worst < 1e-6);
+  CHECK(largest < 1 + 1e-12);
+  CHECK(least_slipping > 1 - 1e-12);
+}

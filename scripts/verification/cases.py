@@ -255,6 +255,7 @@ def rolling(run, label, elements, overrides, points):
         hertz_now = Hertz(normal, RADIUS, 0.30)
         shear = state.shear[..., :2]
         turn = np.degrees(np.arctan2(tangential[1], tangential[0]) - np.arctan2(wished[1], wished[0]))
+        by_line, by_count = np.mean([results.state(k).stick_share() for k in last], axis=0)
         outcome = outcome or Outcome(results.step_size)
         outcome.figures += [
             (f"({letter}) normal force, N", normal, row["normal_N"], ""),
@@ -262,7 +263,8 @@ def rolling(run, label, elements, overrides, points):
             (f"({letter}) creepage for these forces", np.hypot(*creepage), np.hypot(*found), ""),
             (f"({letter}) direction of the creep force, deg", turn, 0.0, "deg"),
             (f"({letter}) swing of the creep force", swing[:2].max() / np.hypot(*tangential), 0, ""),
-            (f"({letter}) stick share of the patch", np.mean([results.state(k).stick_share() for k in last]), row["adhesion_share"], ""),
+            (f"({letter}) stick share of the patch, zero line", by_line, row["adhesion_share"], ""),
+            (f"({letter}) stick share of the patch, by count", by_count, row["adhesion_share"], ""),
             (f"({letter}) peak pressure, Pa", state.pressure.max(), hertz_now.peak, ""),
             (f"({letter}) patch area, m2", enclosed(outlines(x, y, state.pressure)), hertz_now.area, ""),
         ]

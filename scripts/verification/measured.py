@@ -106,12 +106,12 @@ class State:
         weight = np.linalg.norm(self.normal_force, axis=-1)
         return np.sum(weight * self.x) / np.sum(weight), np.sum(weight * self.y) / np.sum(weight)
 
-    def stick_share(self, mirrors="", sub_cell=True):
-        """Of the patch's area; counted by the nodes' areas where the mesh is too coarse for more."""
-        if sub_cell and (self.bound_left > 0).sum() >= 12:
-            patch = enclosed(outlines(self.x, self.y, self.pressure), mirrors)
-            return enclosed(outlines(self.x, self.y, self.bound_left), mirrors) / patch
-        return self.area[self.slipping == 1].sum() / self.area[self.slipping > 0].sum()
+    def stick_share(self):
+        """Of the patch's area: inside the zero line of mu p - q of the nodes that stick, and by the nodes' areas."""
+        sticks = self.slipping == 1
+        left = self.friction * self.pressure - np.linalg.norm(self.shear, axis=-1)
+        inside = enclosed(outlines(self.x, self.y, np.where(sticks, np.maximum(left, 0), 0)))
+        return inside / enclosed(outlines(self.x, self.y, self.pressure)), self.area[sticks].sum() / self.area[self.slipping > 0].sum()
 
 
 class Run:

@@ -174,9 +174,9 @@ def carter(run, label, elements, overrides, points):
         outcome.curves.append((f"shear, creepage {1e4 * creepage:.1f}e-4 (peak pressure {100 * peak_error:+.1f} %)", "x, mm", "MPa", [
             ("Carter", 1e3 * fine, 1e-6 * exact.shear(fine), "-"), ("computed", 1e3 * x[inside], 1e-6 * both[inside], "o")]))
     if outcome:
-        guess_share = np.linspace(0, 1, 200)
+        shares_carried = np.linspace(0, 1, 200)
         outcome.curves.insert(0, ("creep force over normal force", "creepage, 1e-4", "", [
-            ("Carter", 1e4 * Carter.creepage(guess, 0.45, guess_share), 0.45 * guess_share, "-"),
+            ("Carter", 1e4 * Carter.creepage(exact.line, 0.45, shares_carried), 0.45 * shares_carried, "-"),
             ("computed", [1e4 * c for c, _, _ in curve], [q for _, q, _ in curve], "o")]))
     return outcome
 

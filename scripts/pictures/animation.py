@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from PIL import Image
 
-from .panels import SHEAR_COLOUR, SLIP_COLOUR, Fine, draw_arrows, draw_cut, draw_edge, draw_letters, draw_parting, draw_pressure, parting_levels, pressure_levels, set_window
+from .panels import SHEAR_COLOUR, SLIP_COLOUR, Fine, draw_arrows, draw_cut, draw_edge, draw_letters, draw_parting, draw_pressure, parting_levels, pressure_levels, set_window, top_of
 
 
 def animate(title, contact, path, frames=60, resolution=80, rate=8):
@@ -21,7 +21,7 @@ def animate(title, contact, path, frames=60, resolution=80, rate=8):
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in everything)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in everything)
     parting = parting_levels(max(np.abs(p.parting).max() for p in everything) or 1e-12)
-    top = 1.18 * max(p.bound.max() for p in everything)
+    top = max(top_of(patches[0].cut()) for patches in shown)
     way = [min(p.centre[0] + p.x.min() for p in everything), max(p.centre[0] + p.x.max() for p in everything)]
     sides = [min(p.centre[1] + p.y.min() for p in everything), max(p.centre[1] + p.y.max() for p in everything)]
 

@@ -134,12 +134,21 @@ def set_window(axes, half, x_label=True, y_label=True):
         axes.set_ylabel("lateral, mm")
 
 
+def top_of(cut):
+    """Of the axes that show it."""
+    shown = cut["traction_bound"] if cut["traction_bound"].any() else cut["pressure"]
+    return 1.18 * max(shown.max(initial=0), 1e-12)
+
+
 def draw_cut(axes, cut, half, top, legend=True):
     """Traction bound and shear along a cut, with the letters of its adhesion and slip regions."""
     shear = np.hypot(cut["shear_along"], cut["shear_across"])
-    axes.plot(cut["distance"], cut["traction_bound"], color=BOUND_COLOUR, label="friction times pressure")
-    axes.plot(cut["distance"], shear, color=SHEAR_COLOUR, label="shear, size")
-    axes.plot(cut["distance"], cut["shear_along"], color=SHEAR_COLOUR, linewidth=0.8, linestyle=":", label="longitudinal shear")
+    if cut["traction_bound"].any():
+        axes.plot(cut["distance"], cut["traction_bound"], color=BOUND_COLOUR, label="friction times pressure")
+        axes.plot(cut["distance"], shear, color=SHEAR_COLOUR, label="shear, size")
+        axes.plot(cut["distance"], cut["shear_along"], color=SHEAR_COLOUR, linewidth=0.8, linestyle=":", label="longitudinal shear")
+    else:
+        axes.plot(cut["distance"], cut["pressure"], color=BOUND_COLOUR, label="pressure (no friction)")
     inside, slips = cut["pressure"] > 0, cut["slips_by_force"] > 0.5
     for letter, region in (("A", inside & ~slips), ("S", inside & slips)):
         for part in np.split(np.flatnonzero(region), np.flatnonzero(np.diff(np.flatnonzero(region)) > 1) + 1):

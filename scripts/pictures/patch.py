@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from .panels import (SHEAR_COLOUR, SLIP_COLOUR, STICK_COLOUR, Fine, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
-                     draw_stick_boundary, parting_levels, pressure_levels, set_window)
+                     draw_stick_boundary, parting_levels, pressure_levels, set_window, top_of)
 
 
 def _forces(patch):
@@ -20,7 +20,7 @@ def _creepages(patch):
     row = patch.row
     text = f"centre at x {patch.centre[0]:.1f} mm, y {patch.centre[1]:.2f} mm; criteria of slip agree on {100 * row['agreement_force_velocity']:.0f} % of {int(row['nodes_in_contact'])} nodes"
     if np.isfinite(row["longitudinal_creepage"]):
-        text += f"; creepage {100 * row['longitudinal_creepage']:+.3f} % along, {100 * row['lateral_creepage']:+.3f} % across, spin {row['spin_creepage']:+.2f}/m"
+        text += f"\ncreepage {100 * row['longitudinal_creepage']:+.3f} % along, {100 * row['lateral_creepage']:+.3f} % across, spin {row['spin_creepage']:+.2f}/m"
     return text
 
 
@@ -39,10 +39,6 @@ def _places(ratio):
     return figure, [figure.add_subplot(place) for place in places]
 
 
-def _top(cut):
-    return 1.18 * max(cut["traction_bound"].max(initial=0), 1e-12)
-
-
 def _parting_levels(patches):
     return parting_levels(max(np.abs(p.parting).max() for p in patches) or 1e-12)
 
@@ -54,7 +50,7 @@ def draw_patch(title, contact, patch):
     which = f"contact {contact.name}" + (f", patch {patch.number}" if patch.number > 1 else "")
     figure.suptitle(f"{title}\n{which}, stresses on {contact.surface}, t = {1e3 * patch.time:.4f} ms\n{_forces(patch)}\n{_creepages(patch)}", fontsize=9)
 
-    draw_cut(line, cut, half[0], _top(cut))
+    draw_cut(line, cut, half[0], top_of(cut))
     line.set_ylabel("MPa")
     line.set_title("along the centre line; A adhesion, S slip (eq. 3.6)", fontsize=9)
 
@@ -95,7 +91,7 @@ def draw_row(title, contact, count=6, indices=None):
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in patches)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in patches)
     parting, cuts = _parting_levels(patches), [p.cut() for p in patches]
-    top = max(_top(cut) for cut in cuts)
+    top = max(top_of(cut) for cut in cuts)
     width, n = 2.1, len(patches)
     height = width * half[1] / half[0]
     figure, grid = plt.subplots(3, n, figsize=(n * width + 2.0, 1.5 + 2 * height + 1.9), squeeze=False, constrained_layout=True, gridspec_kw={"height_ratios": [1.5, height, height]})

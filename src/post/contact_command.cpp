@@ -1,6 +1,5 @@
 #include "post/contact_command.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <ostream>
@@ -90,7 +89,7 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
     const ContactSolution solution = contact_solution(state, options);
     tables.add(times[i], state, solution);
     const ContactPatch& whole = solution.whole;
-    instants.push_back({times[i], !whole.touching.empty(), whole.frame.centre, std::max(whole.ellipse.semi_axis_along, whole.ellipse.semi_axis_across)});
+    instants.push_back({times[i], !whole.touching.empty(), whole.frame.centre, whole.ellipse.semi_axis_along});
   }
   if (instants.empty() && !times.empty())
     throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact, request.from, request.to, times.front(), times.back()));

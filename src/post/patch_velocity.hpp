@@ -11,7 +11,7 @@ struct PatchInstant {
   double time = 0;                  ///< s
   bool touches = false;
   Vector centre = Vector::Zero();   ///< m, of the normal force
-  double semi_axis = 0;             ///< m, the larger one
+  double semi_axis = 0;             ///< m, longitudinal
 };
 
 /// Velocity of the contact over ground, m/s, at each instant: the slope of a straight line, by least squares, through its

@@ -12,7 +12,8 @@ SlipRegions slip_regions(const ContactState& state, const std::vector<int>& node
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const int node = nodes[i];
     const double bound = state.friction_at(node) * entry(slave.normal_force, node).norm();
-    regions.by_force.push_back(bound - entry(slave.tangential_force, node).norm() < slip_force_tolerance * largest);
+    // Not below: without friction both sides are zero, and the node slips.
+    regions.by_force.push_back(bound - entry(slave.tangential_force, node).norm() <= slip_force_tolerance * largest);
     regions.by_velocity.push_back(micro_slip[i] > slip_velocity_tolerance);
     regions.by_solver.push_back(state.slipping[node] == 2);
   }

@@ -77,4 +77,8 @@ TEST_CASE("both criteria of eq. 3.6, and by how much they agree") {
   CHECK(agreement(regions.by_force, regions.by_velocity) == 4.0 / 6);
   CHECK(agreement(regions.by_force, regions.by_solver) == 5.0 / 6);
   CHECK(agreement({}, {}) == 1);
+
+  state.friction = 0;
+  for (double& force : state.slave.tangential_force) force = 0;
+  CHECK(count_of(slip_regions(state, {0, 1}, {0.0, 0.0}).by_force) == 2);  // without friction all slips
 }

@@ -1,6 +1,6 @@
 #include "post/rigid_motion.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace railwave {
@@ -37,9 +37,9 @@ RigidMotion fit_rigid_motion(const ContactSide& side, const std::vector<int>& no
     matrix += weight * design.transpose() * design;
     right += weight * design.transpose() * entry(side.velocity, node);
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix6> parts(matrix);
-  if (parts.eigenvalues()[0] < 1e-8 * parts.eigenvalues()[5]) return motion;  // on one line
-  const Vector6 found = parts.eigenvectors() * (parts.eigenvectors().transpose() * right).cwiseQuotient(parts.eigenvalues());
+  const Eigen::LDLT<Matrix6> factors(matrix);
+  if (factors.vectorD().minCoeff() < 1e-8 * factors.vectorD().maxCoeff()) return motion;  // on one line
+  const Vector6 found = factors.solve(right);
   motion.nodes = static_cast<int>(nodes.size());
   motion.velocity = found.head<3>();
   motion.rotation = found.tail<3>() / length;

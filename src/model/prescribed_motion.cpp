@@ -6,21 +6,11 @@
 
 #include "case/error.hpp"
 #include "model/build_steps.hpp"
+#include "model/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
 namespace {
-
-Vec3 centre_of_mass(const Model& model, const std::vector<int>& nodes) {
-  Vec3 centre{};
-  double mass = 0;
-  for (int n : nodes) {
-    mass += model.mass[n];
-    for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * model.assembly.nodes[n][i];
-  }
-  for (double& c : centre) c /= mass;
-  return centre;
-}
 
 /// Rodrigues' formula for a turn about a fixed axis; @param angle the rotation vector, rad
 void turn_by(const Vec3& angle, double (&turn)[3][3]) {
@@ -40,6 +30,7 @@ void turn_by(const Vec3& angle, double (&turn)[3][3]) {
 }  // namespace
 
 void build_prescribed_motions(Model& model) {
+  const auto undeformed = [&](int n, int i) { return model.assembly.nodes[n][i]; };
   std::vector<char> taken(model.assembly.nodes.size(), 0);
   for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
     const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
@@ -53,7 +44,7 @@ void build_prescribed_motions(Model& model) {
     PrescribedSet set;
     set.motion = &motion;
     set.curve = curve_of(model.scene, motion.curve);
-    set.centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes);
+    set.centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, undeformed);
     set.nodes = to_device("nodes of prescribed motion", nodes);
     set.work = Array<double*>("work of prescribed motion", nodes.size());
     model.prescribed.push_back(set);

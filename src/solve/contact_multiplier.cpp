@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "kernels/contact_multiplier.hpp"
+#include "model/contact_law.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/element_forces.hpp"
 
@@ -60,7 +61,7 @@ Stage multiplier_stage(Model& model) {
   int sweeps = 0;
   for (const ContactPair& pair : model.contacts) {
     if (pair.has_springs()) continue;
-    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", pair.contact->name, pair.arrays.friction > 0 ? ", friction" : ", frictionless");
+    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", pair.contact->name, describe_contact_law(*pair.contact));
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
   return {name, [&model, sweeps](const Instant& instant) {

@@ -1,3 +1,4 @@
+#include "model/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
 #include "solve/settle.hpp"
 
@@ -9,15 +10,7 @@ Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, con
   const auto& nodes = motion.around.empty()
                           ? model.assembly.node_sets.at(part)
                           : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
-  const auto host = to_host(position);
-  Vec3 centre{};
-  double mass = 0;
-  for (int n : nodes) {
-    mass += model.mass[n];
-    for (int i = 0; i < 3; ++i) centre[i] += model.mass[n] * host(n, i);
-  }
-  for (double& c : centre) c /= mass;
-  return centre;
+  return centre_of_mass(model, nodes, to_host(position));
 }
 
 void set_initial_motion(Model& model) {

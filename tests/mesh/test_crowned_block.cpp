@@ -3,10 +3,10 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
-#include "case/error.hpp"
 #include "mesh/crown.hpp"
 #include "mesh/crowned_block.hpp"
 #include "mesh/quality.hpp"
+#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -125,12 +125,7 @@ TEST_CASE("Parameters of a crowned block that do not fit are named with what is 
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = block(0, 0.3);
     change(source.crowned_block);
-    try {
-      crowned_block_mesh(source);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint_of(crowned_block_mesh, source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& b) { b.radius_across = 0.03; }),

@@ -3,11 +3,11 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
-#include "case/error.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
 #include "mesh/section_properties.hpp"
+#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -164,12 +164,7 @@ TEST_CASE("Rail parameters that do not fit are named with what is allowed") {
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = rail_source();
     change(source.rail);
-    try {
-      rail_mesh(source);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint_of(rail_mesh, source);
   };
   CHECK_THAT(complaint([](auto& r) { r.section = "49E5"; }), ContainsSubstring("[meshes.rail] (line 17): section = 49E5; allowed"));
   CHECK_THAT(complaint([](auto& r) { r.end = -1; }), ContainsSubstring("more than start = -0.3 m"));

@@ -3,9 +3,9 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
-#include "case/error.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/roller.hpp"
+#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -90,12 +90,7 @@ TEST_CASE("Parameters of a roller that do not fit are named with what is allowed
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = roller();
     change(source.roller);
-    try {
-      roller_mesh(source);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint_of(roller_mesh, source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& r) { r.bore_radius = 0.5; }),

@@ -3,10 +3,10 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
-#include "case/error.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wheel.hpp"
+#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -183,12 +183,7 @@ TEST_CASE("Wheel parameters that do not fit are named with what is allowed") {
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = wheel_source();
     change(source.wheel);
-    try {
-      wheel_mesh(source);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return complaint_of(wheel_mesh, source);
   };
   CHECK_THAT(complaint([](auto& w) { w.profile = "S1003"; }), ContainsSubstring("[meshes.wheel] (line 9): profile = S1003; allowed"));
   CHECK_THAT(complaint([](auto& w) { w.bore_radius = 0.2; }), ContainsSubstring("hub_radius"));

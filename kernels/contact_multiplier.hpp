@@ -62,7 +62,6 @@ struct ContactMultiplier {
     if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
-
   KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Foresee& /*phase*/, const int i) const {
     if (i < nodes_of_multiplier * window.near_count(0)) foresee(window.entries(window.near(i / nodes_of_multiplier)).slave, i % nodes_of_multiplier);
   }

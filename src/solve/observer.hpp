@@ -16,7 +16,7 @@ struct EnergyAccount {
   double kinetic = 0;
   double internal = 0;       ///< elastic
   double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
-  double contact = 0;        ///< stored in the penalty springs, normal and tangential
+  double contact = 0;        ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
   double damping = 0;        ///< dissipated in dashpots and by contact damping

@@ -94,6 +94,20 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   CHECK_THAT(text, ContainsSubstring("left out, because the scene does not need it\n    gravity\n    connectors\n"));
 }
 
+TEST_CASE("the summary warns of hourglass energy, of a share that matters only") {
+  const auto summary_with = [](double hourglass) {
+    std::ostringstream out;
+    ProgressTable table(out, plan(), [] { return 0.0; });
+    HistorySample s = sample(0);
+    s.energy.hourglass = hourglass;
+    table.history(s);
+    table.end({});
+    return out.str();
+  };
+  CHECK_THAT(summary_with(10), ContainsSubstring("warning: hourglass control took 8 % of the largest elastic energy"));
+  CHECK_THAT(summary_with(1), !ContainsSubstring("warning"));
+}
+
 TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {
   ProgressPlan planned = plan();
   planned.updates_saved = 2.5;

@@ -14,6 +14,11 @@ from verification.exact import Carter, Hertz, HertzLine, Mindlin  # noqa: E402
 from verification.measured import enclosed, outlines  # noqa: E402
 
 
+def integral(values, places):
+    """By the trapezoidal rule; NumPy has renamed its own."""
+    return np.sum((values[1:] + values[:-1]) * np.diff(places)) / 2
+
+
 class Exact(unittest.TestCase):
     def test_hertz_by_another_program(self):
         for across, a, b, peak, approach in ((0.46, 7.23535339e-3, 7.23535339e-3, 1155.393569e6, 113.8050840e-6),
@@ -32,13 +37,13 @@ class Exact(unittest.TestCase):
         hertz = Hertz(1e5, 0.46, 0.46)
         r = np.linspace(0, hertz.a, 200001)
         shear = Mindlin(hertz, 0.6 * 0.45 * 1e5, 0.45).shear(r)
-        self.assertAlmostEqual(np.trapz(2 * np.pi * r * shear, r) / (0.6 * 0.45 * 1e5), 1, 6)
+        self.assertAlmostEqual(integral(2 * np.pi * r * shear, r) / (0.6 * 0.45 * 1e5), 1, 6)
         line = HertzLine(7e6, 0.46)
         x = np.linspace(-line.half_width, line.half_width, 200001)
         for share in (0.2, 0.6, 0.95):
             carter = Carter(line, 0.45, Carter.creepage(line, 0.45, share))
             self.assertAlmostEqual(carter.share, share, 12)
-            self.assertAlmostEqual(np.trapz(carter.shear(x), x) / carter.force, 1, 5)
+            self.assertAlmostEqual(integral(carter.shear(x), x) / carter.force, 1, 5)
 
     def test_area_of_a_known_patch(self):
         hertz = Hertz(1e5, 0.46, 0.30)

@@ -104,8 +104,8 @@ TEST_CASE("the summary warns of hourglass energy, of a share that matters only")
     table.end({});
     return out.str();
   };
-  CHECK_THAT(summary_with(10), ContainsSubstring("warning: hourglass control took 8 % of the largest elastic energy"));
-  CHECK_THAT(summary_with(1), !ContainsSubstring("warning"));
+  CHECK_THAT(summary_with(20), ContainsSubstring("warning: hourglass control took 16 % of the largest elastic energy"));
+  CHECK_THAT(summary_with(12), !ContainsSubstring("warning"));
 }
 
 TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {

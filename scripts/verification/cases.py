@@ -1,37 +1,12 @@
 """The verification cases: how each is run, and what of it is compared with what is exact. A case is called with a function that
 runs it, a label, the number of elements over the contact's minor axis, overrides, and the points asked for."""
 
-import csv
-import pathlib
-from dataclasses import dataclass, field
-
 import numpy as np
 
 from verification.exact import Carter, Hertz, HertzLine, Mindlin
 from verification.measured import enclosed, outlines, shares
-
-DATA = pathlib.Path(__file__).resolve().parents[2] / "data" / "contact"
-RADIUS = 0.46
-
-
-@dataclass
-class Outcome:
-    step: float  # s
-    figures: list = field(default_factory=list)  # (what, computed, exact, unit); exact 0: `computed` is a share
-    curves: list = field(default_factory=list)  # pictures: (title, abscissa name, ordinate name, [(label, x, y, style)])
-
-
-def zone(body, size, layers, start, end, width):
-    """Overrides for a body and the block with cells of `size` at least from `start` to `end` and over `width`. The body has a
-    node at 0; the block's nodes lie aside, for a contact of nodes that meet exactly is a special case."""
-    values = dict(zone_size=size, zone_layers=layers, zone_start=-size * np.ceil(-start / size), zone_end=size * np.ceil(end / size),
-                  zone_width=2 * size * np.ceil(width / 2 / size))
-    aside = dict(values, zone_start=values["zone_start"] - 0.37 * size, zone_centre=0.23 * size)
-    return [f"meshes.{mesh}.{key}={value:.12g}" for mesh, those in ((body, values), ("block", aside)) for key, value in those.items()]
-
-
-def rms(error, exact, area):
-    return float(np.sqrt(np.sum(area * error**2) / np.sum(area * exact**2)))
+from verification.rolling import rolling
+from verification.setting import RADIUS, Outcome, rms, rolling_motion, steady, zone
 
 
 def hertz(name, part, across):
@@ -122,23 +97,6 @@ def cattaneo(run, label, elements, overrides, points):
 cattaneo.contact = "shift"
 
 
-def rolling_motion(speed, sideways, turning, height):
-    centre = f"[0,0,{height:.9g}]"
-    motion = [("velocity", f"[{speed:.9g},{sideways:.9g},0]"), ("angular_velocity", f"[0,{turning:.12g},0]"), ("centre", centre)]
-    return [f"parts.roller.position={centre}"] + [f"{section}.{key}={value}" for section in ("initial_motion.roll", "prescribed_motion.axle")
-                                                 for key, value in motion]
-
-
-def steady(results, share):
-    """Tangential force along and across and normal force on the roller, their means over the last `share` of the run, and how
-    far they swing there; output times in it."""
-    time, normal, tangential = results.history()
-    late = time >= (1 - share) * time[-1]
-    force = np.column_stack([tangential[late][:, :2], normal[late][:, 2]])
-    last = [k for k, t in enumerate(results.times()) if t >= (1 - share) * results.times()[-1]]
-    return force.mean(axis=0), force.max(axis=0) - force.min(axis=0), last
-
-
 CARTER_RADIUS, CARTER_SPEED, CARTER_HEIGHT, CARTER_SHARES = 4.0, 24.0, 3.999986, ("0.2", "0.4", "0.6", "0.8", "0.95")
 
 
@@ -182,115 +140,6 @@ def carter(run, label, elements, overrides, points):
 
 
 carter.contact = "rolling"
-
-ROLLING_SPEED, ROLLING_HEIGHT = 40.0, 0.459884
-
-
-class CreepLaw:
-    """Vermeulen and Johnson's law, 1 - T / mu N = (1 - u)^3, its two stiffnesses fitted to one solution of CONTACT: turns a small
-    difference of forces into one of creepages. Creepages go with the cube root of the normal force."""
-
-    def __init__(self, row, friction):
-        self.friction, self.normal = friction, row["normal_N"]
-        force = np.array([row["longitudinal_N"], row["lateral_N"]])
-        self.stiffness = self._reach(force, self.normal) / np.array([row["longitudinal_creepage"], row["lateral_creepage"]])
-
-    def _reach(self, force, normal):
-        size = np.hypot(*force)
-        return (1 - (max(0, 1 - size / (self.friction * normal))) ** (1 / 3)) * force / size
-
-    def creepage(self, force, normal):
-        return self._reach(force, normal) / self.stiffness * (normal / self.normal) ** (1 / 3)
-
-
-def table_5_2():
-    with open(DATA / "table_5_2.csv", encoding="utf-8") as file:
-        return {row["set"]: {k: float(v) for k, v in row.items() if k != "set"} for row in csv.DictReader(file)}
-
-
-def reference_field(letter):
-    """x, y in m, shear in Pa on CONTACT's grid, for interpolation; None where there is none."""
-    path = DATA / f"field_{letter}.csv"
-    if not path.exists():
-        return None
-    values = np.loadtxt(path, delimiter=",", skiprows=1)
-    x, y = np.unique(values[:, 0]), np.unique(values[:, 1])
-    shear = np.full((len(y), len(x), 2), np.nan)
-    shear[np.searchsorted(y, values[:, 1]), np.searchsorted(x, values[:, 0])] = values[:, 3:5]
-    return 1e-3 * x, 1e-3 * y, 1e6 * shear
-
-
-def interpolate(grid, px, py):
-    """Bilinear; nan outside."""
-    x, y, values = grid
-    i, j = np.searchsorted(x, px) - 1, np.searchsorted(y, py) - 1
-    good = (i >= 0) & (i < len(x) - 1) & (j >= 0) & (j < len(y) - 1)
-    i, j = np.clip(i, 0, len(x) - 2), np.clip(j, 0, len(y) - 2)
-    s, t = ((px - x[i]) / (x[i + 1] - x[i]))[..., None], ((py - y[j]) / (y[j + 1] - y[j]))[..., None]
-    result = (1 - s) * (1 - t) * values[j, i] + s * (1 - t) * values[j, i + 1] + (1 - s) * t * values[j + 1, i] + s * t * values[j + 1, i + 1]
-    return np.where(good[..., None], result, np.nan)
-
-
-def rolling(run, label, elements, overrides, points):
-    outcome = None
-    for letter in points or "abcdef":
-        row = table_5_2()[letter]
-        exact = Hertz(row["normal_N"], RADIUS, 0.30)
-        size = 2 * Hertz(126680, RADIUS, 0.30).b / elements
-        creepage = np.array([row["longitudinal_creepage"], row["lateral_creepage"]])
-        height = ROLLING_HEIGHT + 0.9 * (Hertz(126680, RADIUS, 0.30).approach - exact.approach)
-        motion = rolling_motion(ROLLING_SPEED, -creepage[1] * ROLLING_SPEED, ROLLING_SPEED * (1 + creepage[0]) / RADIUS, height)
-        outputs = [f"output.field_interval={1e-4 if elements <= 10 else 3e-4}"]
-        results = run(f"{label}-{letter}", "rolling", [*zone("roller", size, round(0.5 * elements), -10.4e-3, 60.4e-3, 16e-3), *motion, *outputs, *overrides])
-        if results is None:
-            continue
-        force, swing, last = steady(results, 0.25)
-        normal, tangential = abs(force[2]), force[:2]
-        law = CreepLaw(row, 0.45)
-        found = law.creepage(tangential, normal)
-        wished = np.array([row["longitudinal_N"], row["lateral_N"]])
-        state = results.state(last[-1])
-        x0, y0 = state.centre()
-        x, y = state.x - x0, state.y - y0
-        hertz_now = Hertz(normal, RADIUS, 0.30)
-        shear = state.shear[..., :2]
-        turn = np.degrees(np.arctan2(tangential[1], tangential[0]) - np.arctan2(wished[1], wished[0]))
-        by_line, by_count = np.mean([results.state(k).stick_share() for k in last], axis=0)
-        outcome = outcome or Outcome(results.step_size)
-        outcome.figures += [
-            (f"({letter}) normal force, N", normal, row["normal_N"], ""),
-            (f"({letter}) tangential over friction times normal force", np.hypot(*tangential) / 0.45 / normal, np.hypot(*wished) / 0.45 / row["normal_N"], ""),
-            (f"({letter}) creepage for these forces", np.hypot(*creepage), np.hypot(*found), ""),
-            (f"({letter}) direction of the creep force, deg", turn, 0.0, "deg"),
-            (f"({letter}) swing of the creep force", swing[:2].max() / np.hypot(*tangential), 0, ""),
-            (f"({letter}) stick share of the patch, zero line", by_line, row["adhesion_share"], ""),
-            (f"({letter}) stick share of the patch, by count", by_count, row["adhesion_share"], ""),
-            (f"({letter}) peak pressure, Pa", state.pressure.max(), hertz_now.peak, ""),
-            (f"({letter}) patch area, m2", enclosed(outlines(x, y, state.pressure)), hertz_now.area, ""),
-        ]
-        grid = reference_field(letter)
-        if grid is not None:
-            scale = hertz_now.a / exact.a
-            reference = interpolate(grid, x / scale, y / scale) * scale
-            known = ~np.isnan(reference[..., 0]) & (state.slipping > 0)
-            angle = np.angle((shear[known] @ [1, 1j]) / (reference[known] @ [1, 1j]), deg=True)
-            weight = state.area[known] * np.linalg.norm(reference[known], axis=-1)
-            outcome.figures += [
-                (f"({letter}) direction of the shear, mean off, deg", np.sum(weight * np.abs(angle)) / np.sum(weight), 0.0, "deg"),
-                (f"({letter}) shear over the patch, L2", float(np.sqrt(np.sum(state.area[known, None] * (shear[known] - reference[known]) ** 2)
-                                                                     / np.sum(state.area[known, None] * reference[known] ** 2))), 0, ""),
-            ]
-            middle = int(np.argmin(np.abs(y[:, 0])))
-            inside = np.abs(x[middle]) < 1.2 * hertz_now.a
-            line = interpolate(grid, grid[0], np.full(len(grid[0]), y[middle, 0] / scale))
-            outcome.curves.append((f"({letter}) shear along the centre line", "x, mm", "MPa", [
-                ("CONTACT, along", 1e3 * grid[0] * scale, 1e-6 * line[:, 0] * scale, "-"), ("CONTACT, across", 1e3 * grid[0] * scale, 1e-6 * line[:, 1] * scale, "--"),
-                ("along", 1e3 * x[middle][inside], 1e-6 * shear[middle, inside, 0], "o"),
-                ("across", 1e3 * x[middle][inside], 1e-6 * shear[middle, inside, 1], "s")]))
-    return outcome
-
-
-rolling.contact = "rolling"
 
 CASES = {
     "hertz_sphere": hertz("hertz_sphere", "sphere", RADIUS),

@@ -1,6 +1,11 @@
 """What a run came out with, from its results file (docs/results-file.md): pressure and shear on the slave's mesh lines, areas
 finer than the mesh, forces. SI units."""
 
+import csv
+import pathlib
+import subprocess
+import tempfile
+
 import h5py
 import numpy as np
 
@@ -73,6 +78,13 @@ def shares(x, y, exact, samples=12):
     return total / weight
 
 
+def stick_shares(x, y, pressure, shear, sticks, area, friction):
+    """Of the patch's area: inside the zero line of mu p - q of the nodes that stick, and by the nodes' areas."""
+    left = friction * pressure - np.linalg.norm(shear, axis=-1)
+    inside = enclosed(outlines(x, y, np.where(sticks, np.maximum(left, 0), 0)))
+    return inside / enclosed(outlines(x, y, pressure)), area[sticks].sum() / area[pressure > 0].sum()
+
+
 class State:
     """The slave surface at one output time, its nodes in rows along x: arrays (rows, columns[, 3])."""
 
@@ -107,15 +119,14 @@ class State:
         return np.sum(weight * self.x) / np.sum(weight), np.sum(weight * self.y) / np.sum(weight)
 
     def stick_share(self):
-        """Of the patch's area: inside the zero line of mu p - q of the nodes that stick, and by the nodes' areas."""
-        sticks = self.slipping == 1
-        left = self.friction * self.pressure - np.linalg.norm(self.shear, axis=-1)
-        inside = enclosed(outlines(self.x, self.y, np.where(sticks, np.maximum(left, 0), 0)))
-        return inside / enclosed(outlines(self.x, self.y, self.pressure)), self.area[sticks].sum() / self.area[self.slipping > 0].sum()
+        return stick_shares(self.x, self.y, self.pressure, self.shear, self.slipping == 1, self.area, self.friction)
 
 
 class Run:
-    def __init__(self, path):
+    """@param program the railwave that computed it: for what `railwave contact` finds"""
+
+    def __init__(self, path, program=None):
+        self.path, self.program = path, program
         self.file = h5py.File(path, "r")
         self.contact = self.file["contact"][next(iter(self.file["contact"]))]
         self.name = next(iter(self.file["contact"]))
@@ -128,6 +139,19 @@ class Run:
 
     def times(self):
         return self.contact["time"][:]
+
+    def creepages(self, start, end):
+        """Longitudinal, lateral, spin of the largest patch at each output between these shares of the run, by `railwave contact`;
+        None without the program."""
+        if self.program is None:
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            table = pathlib.Path(folder) / "patches.csv"
+            limits = ["--from", f"{start * self.times()[-1]:.9g}", "--to", f"{end * self.times()[-1] + 1e-6:.9g}"]
+            subprocess.run([self.program, "contact", self.path, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL)
+            with open(table, encoding="utf-8") as file:
+                rows = [row for row in csv.DictReader(file) if row["patch"] == "1"]
+        return np.array([[float(row[f"{which}_creepage"]) for which in ("longitudinal", "lateral", "spin")] for row in rows])
 
     def history(self):
         """Time, normal and tangential force on the slave, (n, 3)."""

@@ -27,7 +27,7 @@ class ContactCases(unittest.TestCase):
                 for override in [*overrides, f"output.file={results}"]:
                     command += ["--set", override]
                 subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-                return Run(results)
+                return Run(results, PROGRAM)
 
             contact = CASES[name].contact
             outcome = CASES[name](run, name, 10, [f"contacts.{contact}.algorithm=multiplier"], points)
@@ -52,7 +52,13 @@ class ContactCases(unittest.TestCase):
 
     def test_rolling(self):
         self.check(self.figures("rolling", ["a"]), {"(a) creepage for these forces": 0.06, "(a) stick share": 0.10,
-                                                    "(a) direction of the creep force": 5, "(a) direction of the shear": 5})
+                                                    "(a) direction of the creep force": 5, "(a) direction of the shear": 5,
+                                                    "(a) longitudinal creepage, of the bodies' motion": 0.06})
+
+    def test_rolling_with_one_creepage_alone(self):
+        for point in ("longitudinal", "lateral", "spin"):
+            self.check(self.figures("rolling", [point]), {f"({point}) creepage for these forces": 0.06, f"({point}) stick share of the patch, zero line": 0.10,
+                                                          f"({point}) direction of the creep force": 5, f"({point}) direction of the shear": 5})
 
 
 if __name__ == "__main__":

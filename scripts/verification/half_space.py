@@ -1,0 +1,166 @@
+"""Steady rolling contact with friction of two half-spaces of one material: Kalker's exact three-dimensional theory on a grid of
+rectangles of constant traction. SI units.
+
+The patch rolls along +x. Tractions are those on the upper body, u its surface displacement less the lower one's: the integral of
+Boussinesq's and Cerruti's solutions over rectangles (Johnson 1985, section 3.6; Kalker 1990, appendix C). Material passes towards -x,
+so that over a cell of length h the upper body slips over the lower one by
+    S = h w + u(x) - u(x + h),    w = -creepage + spin (-y, x).
+Coulomb: |q| <= mu p; S = 0 below, S against q at the bound. Creepages are positive where the creep force on the upper body is
+(a driven wheel's longitudinal one), spin is the upper body's about +z less the lower one's, over the velocity, 1/m. The upwind
+difference makes forces and stick area right to the first order in the cell: `converged` takes that away with two grids."""
+
+import numpy as np
+
+
+def influence(x, y, h, k):
+    """Integrals over the rectangle h by k round (x, y) of x^2/r^3, y^2/r^3, xy/r^3, r the distance from (0, 0)."""
+    total = np.zeros((3, *np.shape(x)))
+    for side_x, side_y in ((-1, -1), (-1, 1), (1, -1), (1, 1)):
+        px, py = x + 0.5 * side_x * h, y + 0.5 * side_y * k
+        r = np.hypot(px, py)
+        total += side_x * side_y * np.array([py * np.log(px + r), px * np.log(py + r), -r])
+    return total
+
+
+def solve_linear(apply, right, tolerance, most=500):
+    """GMRES: x with apply(x) = right. The problem here is of order zero, a difference of an integral, and needs no preconditioner."""
+    size = np.linalg.norm(right)
+    basis, upper, turned = [right / size], np.zeros((most + 1, most)), np.zeros(most + 1)
+    turns, turned[0] = [], size
+    for j in range(most):
+        new = apply(basis[j])
+        for i, old in enumerate(basis):
+            upper[i, j] = new @ old
+            new = new - upper[i, j] * old
+        length = np.linalg.norm(new)
+        for i, (c, s) in enumerate(turns):
+            upper[i, j], upper[i + 1, j] = c * upper[i, j] + s * upper[i + 1, j], c * upper[i + 1, j] - s * upper[i, j]
+        diagonal = np.hypot(upper[j, j], length)
+        c, s = upper[j, j] / diagonal, length / diagonal
+        turns.append((c, s))
+        upper[j, j], turned[j], turned[j + 1] = diagonal, c * turned[j], -s * turned[j]
+        if abs(turned[j + 1]) < tolerance * size or length == 0:
+            break
+        basis.append(new / length)
+    return np.linalg.solve(upper[:j + 1, :j + 1], turned[:j + 1]) @ np.array(basis[:j + 1])
+
+
+class SteadyRolling:
+    """@param hertz the normal contact (verification.exact.Hertz); creepages longitudinal, lateral, spin (1/m); `cells` over each
+    axis of its ellipse. Arrays over the cells inside: x, y, pressure, shear (n, 2), slips, slip (n, 2) over the way."""
+
+    def __init__(self, hertz, friction, creepages, cells=40):
+        self.hertz, self.friction, self.creepages, self.cells = hertz, friction, tuple(creepages), cells
+        self.h, self.k = 2 * hertz.a / cells, 2 * hertz.b / cells
+        place = np.arange(cells) - 0.5 * (cells - 1)
+        column, row = np.meshgrid(np.arange(cells), np.arange(cells))
+        inside = (place[column] * self.h / hertz.a) ** 2 + (place[row] * self.k / hertz.b) ** 2 < 1
+        self.column, self.row = column[inside], row[inside]
+        self.x, self.y = place[self.column] * self.h, place[self.row] * self.k
+        pressure = hertz.pressure(self.x, self.y)
+        self.pressure = pressure * hertz.force / (pressure.sum() * self.h * self.k)
+        self._prepare()
+        self._solve()
+
+    def _prepare(self):
+        """Transform of what a cell's traction does to the slip of the others; both bodies' displacement: 1 / pi G."""
+        reach = np.fft.fftfreq(2 * self.cells, 1 / (2 * self.cells))
+        dx, dy = np.meshgrid(reach * self.h, reach * self.k)
+        xx, yy, xy = influence(dx, dy, self.h, self.k) - influence(dx + self.h, dy, self.h, self.k)
+        nu = self.hertz.material.poissons_ratio
+        kernel = np.array([xx + (1 - nu) * yy, yy + (1 - nu) * xx, nu * xy]) / (np.pi * self.hertz.material.shear_modulus())
+        self.own, self.kernel = kernel[0, 0, 0], np.fft.rfft2(kernel)
+
+    def _elastic_slip(self, q):
+        """u(x) - u(x + h) of the tractions q: all along x, then all along y."""
+        grid = np.zeros((2, 2 * self.cells, 2 * self.cells))
+        grid[:, self.row, self.column] = q.reshape(2, -1)
+        along, across = np.fft.rfft2(grid)
+        k = self.kernel
+        slip = np.fft.irfft2(np.stack([k[0] * along + k[2] * across, k[2] * along + k[1] * across]), s=grid.shape[1:])
+        return slip[:, self.row, self.column].ravel()
+
+    def _solve(self):
+        """Newton's iteration on q = projection of (q - rate S) onto the friction circle, which is the whole of Coulomb's law."""
+        n, bound, rate = len(self.x), self.friction * self.pressure, 1 / self.own
+        longitudinal, lateral, spin = self.creepages
+        rigid = self.h * np.concatenate([-longitudinal - spin * self.y, -lateral + spin * self.x])
+
+        def state(q):
+            slip = rigid + self._elastic_slip(q)
+            trial = q - rate * slip
+            size = np.maximum(np.hypot(trial[:n], trial[n:]), 1e-300)
+            share = np.minimum(1, bound / size)
+            return q - trial * np.tile(share, 2), slip, trial[:n] / size, trial[n:] / size, share
+
+        q = np.zeros(2 * n)
+        now = state(q)
+        for _ in range(100):
+            error, slip, tx, ty, share = now
+            slips = share < 1
+            if np.abs(error).max() < 1e-9 * bound.max():
+                break
+            # The projection's derivative: nothing changes where it sticks; bound / size (1 - t t^T) where it slips.
+            pxx, pyy, pxy = np.where(slips, share * ty * ty, 1), np.where(slips, share * tx * tx, 1), np.where(slips, -share * tx * ty, 0)
+
+            def derivative(change):
+                along, across = np.split(change - rate * self._elastic_slip(change), 2)
+                return change - np.concatenate([pxx * along + pxy * across, pxy * along + pyy * across])
+
+            step = solve_linear(derivative, -error, 1e-4)
+            length, before = 1.0, np.linalg.norm(error)
+            now = state(q + step)
+            while np.linalg.norm(now[0]) > (1 - 1e-4 * length) * before and length > 1e-3:
+                length *= 0.5
+                now = state(q + length * step)
+            q = q + length * step
+        else:
+            raise RuntimeError(f"steady rolling: no solution found for creepages {self.creepages} on {self.cells} cells")
+        self.shear, self.slip, self.slips = q.reshape(2, n).T, slip.reshape(2, n).T / self.h, slips
+        self.force = self.shear.sum(axis=0) * self.h * self.k
+        self.moment = np.sum(self.x * self.shear[:, 1] - self.y * self.shear[:, 0]) * self.h * self.k
+        self.stick_share = 1 - slips.mean()
+
+    def nearest(self, values, x, y):
+        """Of values over the cells, those of the cell at each place; 0 outside."""
+        column, row = (np.floor(place / size + 0.5 * self.cells).astype(int) for place, size in ((x, self.h), (y, self.k)))
+        inside = (column >= 0) & (column < self.cells) & (row >= 0) & (row < self.cells)
+        grid = np.zeros((self.cells, self.cells, *values.shape[1:]), dtype=values.dtype)
+        grid[self.row, self.column] = values
+        found = grid[np.clip(row, 0, self.cells - 1), np.clip(column, 0, self.cells - 1)]
+        found[~inside] = 0
+        return found
+
+    def grid(self):
+        """x, y and shear (rows, columns, 2) for interpolation; nan outside the patch."""
+        shear = np.full((self.cells, self.cells, 2), np.nan)
+        shear[self.row, self.column] = self.shear
+        place = np.arange(self.cells) - 0.5 * (self.cells - 1)
+        return place * self.h, place * self.k, shear
+
+
+def converged(hertz, friction, creepages, cells=40):
+    """Forces along and across and the share of stick, extrapolated from half as many cells."""
+    coarse, fine = (SteadyRolling(hertz, friction, creepages, n) for n in (cells // 2, cells))
+    return 2 * fine.force - coarse.force, 2 * fine.stick_share - coarse.stick_share
+
+
+def creepage_for_force(hertz, friction, creepages, which, force, cells=40):
+    """The creepage `which` (0, 1, 2: along, across, spin) in place of that in `creepages` for which the force along (0) or across (1, 2)
+    comes out, by the secant rule from there."""
+    component = 0 if which == 0 else 1
+    scale = creepages[which]
+    tried = []
+    guess = scale
+    for _ in range(8):
+        now = list(creepages)
+        now[which] = guess
+        tried.append((guess, converged(hertz, friction, now, cells)[0][component] - force))
+        if abs(tried[-1][1]) < 1e-4 * abs(force):
+            return guess
+        if len(tried) == 1:
+            guess *= 1.02 if abs(tried[0][1] + force) < abs(force) else 0.98
+        else:
+            (c0, e0), (c1, e1) = tried[-2:]
+            guess = c1 - e1 * (c1 - c0) / (e1 - e0)
+    raise RuntimeError(f"no creepage found for a force of {force:.6g} N: {tried}")

@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""The steady rolling of half-spaces that scripts/verify_contact compares with (verification.half_space) against what others found:
+Kalker's CONTACT, his linear creep coefficients, and Coulomb's law itself."""
+
+import os
+import pathlib
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "scripts"))
+from verification.exact import Hertz, Steel  # noqa: E402
+from verification.half_space import SteadyRolling, converged, creepage_for_force  # noqa: E402
+from verification.rolling import DATA, interpolate, reference_field, table_5_2  # noqa: E402
+
+
+class QuarterPoisson(Steel):
+    poissons_ratio = 0.25
+
+
+class HalfSpaceRolling(unittest.TestCase):
+    def set_of_table_5_2(self, letter):
+        row = table_5_2()[letter]
+        creepages = (row["longitudinal_creepage"], row["lateral_creepage"], 0)
+        return row, Hertz(row["normal_N"], 0.46, 0.30), creepages
+
+    def test_forces_and_stick_of_contact(self):
+        for letter in "abcdef":
+            row, hertz, creepages = self.set_of_table_5_2(letter)
+            force, stick = converged(hertz, 0.45, creepages, 40)
+            wished = np.array([row["longitudinal_N"], row["lateral_N"]])
+            self.assertLess(np.linalg.norm(force - wished), 0.005 * np.linalg.norm(wished), letter)
+            self.assertLess(abs(stick - row["adhesion_share"]), 0.03, letter)
+
+    def test_shear_of_contact(self):
+        for letter in "ace":
+            _, hertz, creepages = self.set_of_table_5_2(letter)
+            solution = SteadyRolling(hertz, 0.45, creepages, 40)
+            reference = interpolate(reference_field(letter), solution.x, solution.y)
+            known = ~np.isnan(reference[:, 0])
+            off = np.sqrt(np.sum((solution.shear[known] - reference[known]) ** 2) / np.sum(reference[known] ** 2))
+            self.assertGreater(known.mean(), 0.9)
+            self.assertLess(off, 0.05, letter)  # of two grids, each of first order
+            weight = np.linalg.norm(reference[known], axis=1)
+            angle = np.abs(np.angle((solution.shear[known] @ [1, 1j]) / (reference[known] @ [1, 1j]), deg=True))
+            self.assertLess(np.sum(weight * angle) / np.sum(weight), 0.4, letter)
+            field = np.loadtxt(DATA / f"field_{letter}.csv", delimiter=",", skiprows=1)
+            sticks = solution.nearest(~solution.slips, 1e-3 * field[:, 0], 1e-3 * field[:, 1])
+            self.assertGreater(np.mean(sticks == (field[:, 5] == 1)), 0.97, letter)
+
+    def test_kalkers_linear_coefficients(self):
+        """Circle, nu 0.25: C11 4.12, C22 3.67, C23 1.47 (Kalker 1990, table E.3); the moment of lateral creepage is C23's too. So much
+        friction that nothing slips but at the edge."""
+        hertz = Hertz(1e5, 0.46, 0.46, QuarterPoisson)
+        c, modulus = hertz.a, QuarterPoisson.shear_modulus()
+
+        def extrapolated(creepages):
+            coarse, fine = (SteadyRolling(hertz, 1000, creepages, cells) for cells in (24, 48))
+            return 2 * np.array([*fine.force, fine.moment]) - [*coarse.force, coarse.moment]
+
+        small = [0.01, 0.01, 0.01 / c]
+        longitudinal, lateral, spin = (extrapolated(small[k] * np.eye(3)[k]) / small[k] for k in range(3))
+        self.assertLess(abs(longitudinal[0] / (modulus * c**2 * 4.12) - 1), 0.015)
+        self.assertLess(abs(lateral[1] / (modulus * c**2 * 3.67) - 1), 0.015)
+        self.assertLess(abs(spin[1] / (-modulus * c**3 * 1.47) - 1), 0.03)
+        self.assertLess(abs(lateral[2] / (-modulus * c**3 * 1.47) - 1), 0.03)
+
+    def test_coulombs_law(self):
+        hertz = Hertz(1e5, 0.46, 0.30)
+        for creepages in ((0.004, 0, 0), (0, 0.004, 0), (0, 0, 1.0), (0.002, -0.001, 0.4)):
+            solution = SteadyRolling(hertz, 0.45, creepages, 20)
+            bound = 0.45 * solution.pressure
+            size, slip = np.linalg.norm(solution.shear, axis=1), np.linalg.norm(solution.slip, axis=1)
+            self.assertGreater(solution.slips.sum(), 20)
+            self.assertGreater((~solution.slips).sum(), 20)
+            self.assertLess((size / bound).max(), 1 + 1e-6)
+            self.assertLess(slip[~solution.slips].max(), 1e-6 * slip.max())
+            slips = solution.slips & (slip > 1e-3 * slip.max())
+            against = np.sum(solution.shear * solution.slip, axis=1)[slips] / (size * slip)[slips]
+            self.assertLess(against.max(), -1 + 1e-5)
+
+    def test_creepage_for_a_force(self):
+        hertz = Hertz(1e5, 0.46, 0.30)
+        for which, creepage in enumerate((0.004, 0.004, 0.6)):
+            creepages = creepage * np.eye(3)[which]
+            force = converged(hertz, 0.45, creepages, 16)[0][0 if which == 0 else 1]
+            found = creepage_for_force(hertz, 0.45, creepages * 1.05, which, force, 16)
+            self.assertLess(abs(found / creepage - 1), 2e-3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -29,6 +29,9 @@ Section settle_section() {
       key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many steps").within(at_least(1)),
+      key("friction", &Settle::friction,
+          "`false`: contacts are frictionless while the scene settles, and the run begins without shear. With friction, which a slope "
+          "needs, some of what shear the way into equilibrium happened to bring about stays"),
   };
   return section;
 }

@@ -240,6 +240,7 @@ struct Settle {
   bool active = false;
   double tolerance = 1e-3;         ///< residual force over applied force at which it counts as settled
   int max_steps = 20000;
+  bool friction = true;            ///< false: contacts are frictionless while the scene settles
 };
 
 struct Time {

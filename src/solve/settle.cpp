@@ -101,6 +101,26 @@ struct Unbalance {
   }
 };
 
+/// Contacts without friction for as long as this lives, if so wished.
+class SettlingFriction {
+ public:
+  SettlingFriction(Model& model, bool friction) : model_(model) {
+    for (ContactPair& pair : model.contacts) {
+      own_.push_back(pair.arrays.friction);
+      if (!friction) pair.arrays.friction = 0;
+    }
+  }
+  ~SettlingFriction() {
+    for (std::size_t i = 0; i < own_.size(); ++i) model_.contacts[i].arrays.friction = own_[i];
+  }
+  SettlingFriction(const SettlingFriction&) = delete;
+  SettlingFriction& operator=(const SettlingFriction&) = delete;
+
+ private:
+  Model& model_;
+  std::vector<double> own_;
+};
+
 /// The run's account begins at zero after settling.
 void forget_history(Model& model) {
   Kokkos::deep_copy(model.nodes.velocity, 0.0);
@@ -117,10 +137,8 @@ void forget_history(Model& model) {
   model.time = 0;
 }
 
-}  // namespace
-
-SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
-  const auto began = std::chrono::steady_clock::now();
+SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+  const SettlingFriction friction(model, model.scene.settle.friction);
   SettleReport report;
   const auto stages = force_stages(model);
   const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
@@ -152,6 +170,14 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
+  return report;
+}
+
+}  // namespace
+
+SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+  const auto began = std::chrono::steady_clock::now();
+  SettleReport report = relax(model, go_on);
   forget_history(model);
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return report;

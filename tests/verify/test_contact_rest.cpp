@@ -1,6 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
+#include "model/host_copy.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
@@ -64,6 +65,30 @@ TEST_CASE("a block at rest in askew axes presses with its weight") {
   Assembly assembly = assemble(scene);
   for (Vec3& x : assembly.nodes) x = turned(axes, x);
   check_rest(scene, assembly, axes[2]);
+}
+
+TEST_CASE("without friction while it settles a contact begins the run without shear, and has its friction again") {
+  for (auto algorithm : both_algorithms)
+    for (bool friction : {true, false}) {
+      TwoBlocks blocks;
+      blocks.algorithm = algorithm;
+      blocks.friction = 0.4;
+      blocks.upper_divisions = {5, 7, 2};
+      scene::Scene scene = resting(blocks, {0, 0, 1});
+      scene.settle.friction = friction;
+      hold(scene, "upper.z_max", {true, true, false});
+      Model model;
+      build_model(scene, model);
+      CHECK(settle_whole(model).settled);
+      double shear = 0;
+      const auto tangential = to_host(model.contacts[0].arrays.tangential_force);
+      for (std::size_t s = 0; s < tangential.extent(0); ++s)
+        shear = std::max(shear, std::hypot(tangential(s, 0), tangential(s, 1)));
+      INFO(name_of(algorithm) << (friction ? ", friction" : ", no friction") << " while settling: largest shear force of a node " << shear << " N");
+      if (friction) CHECK(shear > 1);
+      else CHECK(shear == 0);
+      CHECK(model.contacts[0].arrays.friction == 0.4);
+    }
 }
 
 TEST_CASE("close_gap moves the slave's part along its direction until it touches") {

@@ -13,6 +13,7 @@ sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "script
 from verification.exact import Hertz, Steel  # noqa: E402
 from verification.half_space import SteadyRolling, converged, creepage_for_force  # noqa: E402
 from verification.rolling import DATA, interpolate, reference_field, table_5_2  # noqa: E402
+from verification.stick_measure import sampled  # noqa: E402
 
 
 class QuarterPoisson(Steel):
@@ -79,6 +80,13 @@ class HalfSpaceRolling(unittest.TestCase):
             slips = solution.slips & (slip > 1e-3 * slip.max())
             against = np.sum(solution.shear * solution.slip, axis=1)[slips] / (size * slip)[slips]
             self.assertLess(against.max(), -1 + 1e-5)
+
+    def test_stick_area_is_measured_right_at_a_runs_nodes(self):
+        """Ten elements over the minor axis, half and a sixth of the patch sticking."""
+        for letter, limit in (("b", 0.04), ("e", 0.06)):
+            _, hertz, creepages = self.set_of_table_5_2(letter)
+            found = sampled(SteadyRolling(hertz, 0.45, creepages, 40), 2 * hertz.b / 10, 40)
+            self.assertLess(np.abs(found.mean(axis=0) - 1).max(), limit, letter)
 
     def test_creepage_for_a_force(self):
         hertz = Hertz(1e5, 0.46, 0.30)

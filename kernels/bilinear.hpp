@@ -58,18 +58,21 @@ struct Bilinear {
     const T mises_square = deviator<S>(tau, s);
     const T limit = flow_stress<S>(patch.constants, T(load_history<S>(value<S>(batch, 6))));
     const auto yields = mises_square > limit * limit;
-    if (any_lane(yields)) flow<S>(patch, batch, K, e, yields, s, mises_square, limit, tau);
+    T lost[6];
+    if (any_lane(yields)) flow<S, true>(patch, batch, K, e, yields, s, mises_square, limit, tau, lost);
   }
 
- private:
-  template <class S, class T, class Mask>
+  /// Brings the stress of lanes that yield back to the yield surface and books the flow.
+  /// @param s relative to the yield surface's centre; @param lost result: what the Hencky strain lost
+  /// @tparam Coaxial s has the principal axes of e
+  template <class S, bool Coaxial, class T, class Mask>
   KOKKOS_FORCEINLINE_FUNCTION void flow(const OfPatch<S>& patch, int batch, const T (&K)[3][3], const T (&e)[6], const Mask& yields,
-                                   const T (&s)[6], const T& mises_square, const T& limit, T (&tau)[6]) const {
-    T lost[6], G[3][3], plastic[6], increment[6];
+                                   const T (&s)[6], const T& mises_square, const T& limit, T (&tau)[6], T (&lost)[6]) const {
+    T G[3][3], plastic[6], increment[6];
     const T equivalent = radial_return<S>(patch.constants, yields, s, mises_square, limit, tau, lost);
     inverse_gradient<S>(patch, K, G);
     load_plastic<S>(batch, plastic);
-    plastic_increment<S>(G, e, lost, plastic, increment);
+    plastic_increment<S, Coaxial>(G, e, lost, plastic, increment);
     for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, c), choose(yields, increment[c], T(S(0))));
     add_to_history<S>(value<S>(batch, 6), equivalent);
   }

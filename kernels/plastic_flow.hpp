@@ -38,6 +38,15 @@ KOKKOS_FORCEINLINE_FUNCTION void coaxial_product(const T (&a)[6], const T (&b)[6
   c[5] = a[0] * b[5] + a[3] * b[4] + a[5] * b[2];
 }
 
+/// c = (a.b + b.a)/2.
+template <class S, class T>
+KOKKOS_FORCEINLINE_FUNCTION void symmetric_product(const T (&a)[6], const T (&b)[6], T (&c)[6]) {
+  coaxial_product(a, b, c);
+  T d[6];
+  coaxial_product(b, a, d);
+  for (int k = 3; k < 6; ++k) c[k] = S(0.5) * (c[k] + d[k]);
+}
+
 /// r = A^T s A.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION void carry(const T (&s)[6], const T (&A)[3][3], T (&r)[6]) {
@@ -111,16 +120,19 @@ KOKKOS_FORCEINLINE_FUNCTION T radial_return(const BilinearConstants& constants, 
 /// What a flow of the Hencky strain adds to the plastic strain. With h = e + e.e and all tensors coaxial, the Almansi
 /// strain loses d with (I + 2 e - d) d = flow, so d = flow - m.flow + m.m.flow, m = 2 e - flow: the error is one of the
 /// flow, never of the strain itself, so that any number of small steps adds up to what a few large ones give.
+/// Without common axes the products are the symmetric ones, for d + e.d + d.e - d.d = flow.
 /// The flow keeps the trace of the series' h, not of the exact one; det(I + 2 E_p) is therefore brought back to 1.
 /// @param G inverse deformation gradient; e trial Almansi strain, elastic part; plastic E_p before
-template <class S, class T>
+template <class S, bool Coaxial, class T>
 KOKKOS_FORCEINLINE_FUNCTION void plastic_increment(const T (&G)[3][3], const T (&e)[6], const T (&flow)[6],
                                               const T (&plastic)[6], T (&increment)[6]) {
   T m[6], product[6], d[6], F[3][3];
   for (int c = 0; c < 6; ++c) m[c] = S(2) * e[c] - flow[c];
-  coaxial_product(m, flow, product);
+  if constexpr (Coaxial) coaxial_product(m, flow, product);
+  else symmetric_product<S>(m, flow, product);
   for (int c = 0; c < 6; ++c) d[c] = flow[c] - product[c];
-  coaxial_product(m, d, product);
+  if constexpr (Coaxial) coaxial_product(m, d, product);
+  else symmetric_product<S>(m, d, product);
   for (int c = 0; c < 6; ++c) d[c] = flow[c] - product[c];
   inverse<S>(G, F);
   carry(d, F, increment);

@@ -21,13 +21,15 @@ struct ToDisplacement {
   }
 };
 
-/// Forces K u + C u / tau of the elements of one part on their corners, element by element; linear elastic about the
+/// Forces K u + C u / tau of the elements of one part on their corners, element by element (Lame's constants with the share
+/// of damping in proportion to stiffness; not that in proportion to mass); linear elastic about the
 /// present configuration, stresses' own (geometric) stiffness left out: it is of the order of stress over modulus.
 struct ElementTangent {
   int first;               ///< element
   double lambda, mu;       ///< Pa
   double hourglass;        ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
   bool viscous;            ///< scale goes with V^(2/3), else V^(1/3)
+  double bulk;             ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
   Array<const int* [8]> corners;
   Array<const double* [3]> position;
   NodeVector displacement;
@@ -50,7 +52,7 @@ struct ElementTangent {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) L[i][j] = inverse * along(u[i], B[j]);
     const double scale = hourglass * (viscous ? root * root : root);
-    const double trace = lambda * (L[0][0] + L[1][1] + L[2][2]);
+    const double trace = (lambda + bulk * root) * (L[0][0] + L[1][1] + L[2][2]);
     for (int i = 0; i < 3; ++i) {
       double q[4], T[3], modes[7], at_corner[8];
       for (int M = 0; M < 4; ++M) q[M] = scale * hourglass_content(u[i], L[i], x, M);

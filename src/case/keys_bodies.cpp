@@ -14,7 +14,7 @@ Section material_section() {
       key("poissons_ratio", &Material::poissons_ratio, "Poisson's ratio").within(inside(-1, 0.5)).needed(),
       key("density", &Material::density, "mass per volume").in("kg/m3").within(above(0)).needed(),
       key("yield_stress", &Material::yield_stress,
-          "von Mises stress at which the material begins to flow, with isotropic hardening beyond")
+          "von Mises stress at which the material begins to flow, with linear hardening beyond")
           .in("Pa")
           .within(above(0))
           .otherwise("elastic without end"),
@@ -22,6 +22,10 @@ Section material_section() {
           "slope of true stress over logarithmic strain beyond yield, under tension; below youngs_modulus")
           .in("Pa")
           .within(at_least(0)),
+      key("hardening_beta", &Material::hardening_beta,
+          "share of the hardening that widens the yield surface; the rest moves it: 1 is isotropic, 0 kinematic (Prager), "
+          "between is mixed")
+          .within(between(0, 1)),
   };
   section.rule = check_material;
   return section;
@@ -42,6 +46,22 @@ Section part_section() {
       key("hourglass_coefficient", &Part::hourglass_coefficient, "how strongly; 0 leaves the modes free")
           .within(between(0, 1))
           .otherwise("0.1 viscous, 0.05 stiffness"),
+      key("mass_damping", &Part::mass_damping,
+          "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows rigid motion "
+          "too: not for bodies that roll or travel")
+          .in("1/s")
+          .within(at_least(0)),
+      key("stiffness_damping", &Part::stiffness_damping,
+          "Rayleigh's beta: viscous stress of beta times the elastic stress of the strain rate; a mode of angular frequency w is "
+          "damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - beta")
+          .in("s")
+          .within(at_least(0)),
+      key("linear_bulk_viscosity", &Part::linear_bulk_viscosity,
+          "pressure Q2 rho c l |d| where volume shrinks at the rate d, l the cube root of an element's volume; 0.06 is usual for shocks")
+          .within(between(0, 2)),
+      key("quadratic_bulk_viscosity", &Part::quadratic_bulk_viscosity,
+          "pressure Q1 rho l^2 d^2 where volume shrinks at the rate d; 1.5 is usual for shocks")
+          .within(between(0, 10)),
   };
   section.rule = check_part;
   return section;

@@ -6,6 +6,7 @@ namespace railwave::case_file {
 
 using scene::BoxMesh;
 using scene::CrownedBlockMesh;
+using scene::CylinderMesh;
 using scene::FileMesh;
 using scene::MeshSource;
 using scene::RailMesh;
@@ -134,6 +135,20 @@ std::vector<Key> roller_keys() {
   return keys;
 }
 
+std::vector<Key> cylinder_keys() {
+  using Cylinder = CylinderMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::cylinder, field, help); };
+  return {
+      any("radius", &Cylinder::radius, "of the bar, whose axis is z").in("m").within(above(0)),
+      any("length", &Cylinder::length, "along z, from z = 0").in("m").within(above(0)),
+      any("core_divisions", &Cylinder::core_divisions, "elements along each side of the square-like core").within(between(1, 1000)),
+      any("ring_divisions", &Cylinder::ring_divisions, "elements from the core to the skin").within(between(1, 1000)),
+      any("length_divisions", &Cylinder::length_divisions, "layers of elements along z").within(between(1, 100000)),
+      any("end_ratio", &Cylinder::end_ratio, "height of the last layer over that of the first").within(between(0.01, 100)),
+      any("core_share", &Cylinder::core_share, "half diagonal of the core over the radius").within(between(0.2, 0.8)),
+  };
+}
+
 std::vector<Key> file_keys() {
   const auto file = &MeshSource::file;
   return {
@@ -149,13 +164,14 @@ std::vector<Key> file_keys() {
 Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
-  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller"}).needed()};
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder"}).needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys());
   section.add_keys("rail", rail_keys());
   section.add_keys("file", file_keys());
   section.add_keys("crowned_block", crowned_block_keys());
   section.add_keys("roller", roller_keys());
+  section.add_keys("cylinder", cylinder_keys());
   section.rule = check_mesh;
   return section;
 }

@@ -25,18 +25,21 @@ struct Material : Place {
   double density = 0;  ///< kg/m3
   std::optional<double> yield_stress;  ///< Pa, von Mises; absent: elastic
   double tangent_modulus = 0;          ///< Pa, slope of stress over strain beyond yield, uniaxial stress
+  double hardening_beta = 1;           ///< share of the hardening that is isotropic; the rest moves the yield surface
 
   /// lambda + 2 mu, Pa
   double dilatational_modulus() const {
     return youngs_modulus * (1 - poissons_ratio) / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
   }
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+  /// Yields, and its yield surface moves.
+  bool kinematic() const { return yield_stress && hardening_beta < 1; }
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
   /// C_d of thesis eq. 2.14b, m/s
   double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
 };
 
-enum class MeshType { box, wheel, rail, file, crowned_block, roller };
+enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder };
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -135,6 +138,17 @@ struct RollerMesh {
   double coarse_size = 0.01;       ///< m, largest cell
 };
 
+/// A solid round bar along z, its lower end in z = 0; see mesh/cylinder.hpp.
+struct CylinderMesh {
+  double radius = 0.01;            ///< m
+  double length = 0.05;            ///< m
+  int core_divisions = 6;          ///< elements along each side of the square-like core
+  int ring_divisions = 3;          ///< elements from the core to the skin
+  int length_divisions = 20;       ///< elements along the axis
+  double end_ratio = 1;            ///< height of the uppermost elements over that of the lowest
+  double core_share = 0.5;         ///< half diagonal of the core over the radius
+};
+
 struct MeshSource : Place {
   MeshType type = MeshType::box;
   BoxMesh box;
@@ -143,6 +157,7 @@ struct MeshSource : Place {
   FileMesh file;
   CrownedBlockMesh crowned_block;
   RollerMesh roller;
+  CylinderMesh cylinder;
 };
 
 enum class HourglassType { viscous, stiffness };
@@ -154,6 +169,14 @@ struct Part : Place {
   Vec3 position{0, 0, 0};          ///< translation of the mesh, m
   HourglassType hourglass = HourglassType::viscous;
   double hourglass_coefficient = 0.1;
+  double mass_damping = 0;         ///< 1/s: force on a node is that times its mass and velocity, against the velocity
+  double stiffness_damping = 0;    ///< s: viscous stress is that times what elasticity makes of the strain's rate
+  double linear_bulk_viscosity = 0;     ///< of volumes that shrink, over rho c l times the rate
+  double quadratic_bulk_viscosity = 0;  ///< the same over rho l^2 times its square
+
+  bool damped() const {
+    return mass_damping > 0 || stiffness_damping > 0 || linear_bulk_viscosity > 0 || quadratic_bulk_viscosity > 0;
+  }
 };
 
 enum class CurveType { constant, cosine_ramp, table };

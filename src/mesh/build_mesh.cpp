@@ -4,6 +4,7 @@
 
 #include "mesh/box.hpp"
 #include "mesh/crowned_block.hpp"
+#include "mesh/cylinder.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/rail.hpp"
 #include "mesh/roller.hpp"
@@ -25,6 +26,8 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return crowned_block_mesh(source);
     case scene::MeshType::roller:
       return roller_mesh(source);
+    case scene::MeshType::cylinder:
+      return cylinder_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
 }

@@ -29,17 +29,32 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
   }
 }
 
-int group_of(Model& model, std::vector<bool>& plastic, scene::HourglassType hourglass, bool yields, int level, const std::string& part) {
+/// What decides which kernel a material has.
+enum class MaterialKind { elastic, isotropic, kinematic };
+
+MaterialKind kind_of(const scene::Material& material) {
+  if (material.kinematic()) return MaterialKind::kinematic;
+  return material.yield_stress ? MaterialKind::isotropic : MaterialKind::elastic;
+}
+
+/// What elements of a group have in common beside hourglass control and level.
+struct GroupKind {
+  MaterialKind material;
+  bool damped;
+  bool operator==(const GroupKind& other) const { return material == other.material && damped == other.damped; }
+};
+
+int group_of(Model& model, std::vector<GroupKind>& kinds, const scene::Part& part, const GroupKind& kind, int level) {
   for (std::size_t g = 0; g < model.elements.size(); ++g)
-    if (model.elements[g].hourglass == hourglass && plastic[g] == yields && model.elements[g].level == level) {
-      model.elements[g].parts += ", " + part;
+    if (model.elements[g].hourglass == part.hourglass && kinds[g] == kind && model.elements[g].level == level) {
+      model.elements[g].parts += ", " + part.name;
       return static_cast<int>(g);
     }
   model.elements.emplace_back();
-  model.elements.back().hourglass = hourglass;
+  model.elements.back().hourglass = part.hourglass;
   model.elements.back().level = level;
-  model.elements.back().parts = part;
-  plastic.push_back(yields);
+  model.elements.back().parts = part.name;
+  kinds.push_back(kind);
   return static_cast<int>(model.elements.size()) - 1;
 }
 
@@ -203,19 +218,57 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
 }
 
 /// History and volumes of a group whose materials yield.
-PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, const std::vector<const scene::Material*>& materials) {
+PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, const std::vector<const scene::Material*>& materials,
+                             bool kinematic) {
   std::vector<BilinearConstants> constants;
-  for (const scene::Material* material : materials)
+  std::vector<double> share;
+  for (const scene::Material* material : materials) {
     constants.push_back({elastic_constants(*material), *material->yield_stress,
                          hardening_modulus(material->youngs_modulus, material->tangent_modulus)});
+    share.push_back(material->hardening_beta);
+  }
   std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
   for (std::size_t p = 0; p < group.first_element.size(); ++p)
     for (int slot = 0; slot < group.element_count[p]; ++slot) {
       const HexahedronCorners x = corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]);
       volume[p * patch_size + slot] = hexahedron_volume(x);
     }
-  return {to_device("plastic constants", constants), Array<double*>("plastic history", Bilinear::history_values * volume.size()),
-          to_device("reference volume", volume)};
+  PlasticArrays plastic{to_device("plastic constants", constants),
+                        Array<double*>("plastic history", Bilinear::history_values * volume.size()),
+                        to_device("reference volume", volume),
+                        {},
+                        {}};
+  if (!kinematic) return plastic;
+  plastic.isotropic_share = to_device("isotropic share", share);
+  plastic.back_stress = Array<double*>("back stress", KinematicBilinear::back_values * volume.size());
+  return plastic;
+}
+
+/// Constants of damped parts, and the masses that their patches' nodes have from them.
+DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
+                             const std::vector<const scene::Part*>& parts, const std::vector<const scene::Material*>& materials) {
+  std::vector<DampingConstants> constants;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const scene::Part& part = *parts[r];
+    const ElasticConstants elastic = elastic_constants(*materials[r]);
+    const double density = materials[r]->density;
+    constants.push_back({part.stiffness_damping * elastic.lambda, part.stiffness_damping * elastic.mu,
+                         part.linear_bulk_viscosity * density * materials[r]->dilatational_speed(),
+                         part.quadratic_bulk_viscosity * density, part.mass_damping});
+  }
+  const auto row = to_host(group.patches.material);
+  std::vector<double> mass(static_cast<std::size_t>(group.patches.count) * group.patches.node_stride, 0.0);
+  for (int p = 0; p < group.patches.count; ++p) {
+    std::unordered_map<int, std::size_t> place;
+    for (std::size_t l = 0; l < nodes[p].size(); ++l) place[nodes[p][l]] = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+    for (int e = group.first_element[p]; e < group.first_element[p] + group.element_count[p]; ++e) {
+      const auto& corners = model.assembly.elements[e];
+      const auto integrals = hexahedron_shape_integrals(corners_of(model.assembly.nodes, corners));
+      for (int N = 0; N < 8; ++N) mass[place[corners[N]]] += materials[row(p)]->density * integrals[N];
+    }
+  }
+  return {to_device("damping constants", constants), to_device("mass of patches' nodes", mass),
+          Array<double*>("damping energy", group.patches.count), group.first_partial + group.patches.count * group.patches.node_stride};
 }
 
 /// The patches' numbers, level by level, so that groups ascend by it.
@@ -248,7 +301,8 @@ void build_elements(Model& model) {
   const int lanes = single ? lane_count<float> : lane_count<double>;
   std::vector<PatchLists> lists;
   std::vector<std::vector<const scene::Material*>> materials;
-  std::vector<bool> plastic;
+  std::vector<std::vector<const scene::Part*>> parts;
+  std::vector<GroupKind> kinds;
   std::size_t part = 0, group = 0;
   int part_with_constants = -1;
   for (const int p : patches_by_level(model.order)) {
@@ -260,10 +314,13 @@ void build_elements(Model& model) {
     if (key != part_with_constants) {
       part_with_constants = key;
       const scene::Material& material = model.scene.materials[range.material];
-      group = group_of(model, plastic, model.scene.parts[part].hourglass, material.yield_stress.has_value(), model.order.level[p], range.name);
+      const scene::Part& of_scene = model.scene.parts[part];
+      group = group_of(model, kinds, of_scene, {kind_of(material), of_scene.damped()}, model.order.level[p]);
       lists.resize(model.elements.size());
       materials.resize(model.elements.size());
+      parts.resize(model.elements.size());
       materials[group].push_back(&material);
+      parts[group].push_back(&of_scene);
     }
     append_patch(assembly, model.order, first, end, lanes, lists[group]);
     lists[group].material.push_back(static_cast<int>(materials[group].size()) - 1);
@@ -282,9 +339,12 @@ void build_elements(Model& model) {
     std::vector<ElasticConstants> constants;
     for (const scene::Material* material : materials[g]) constants.push_back(elastic_constants(*material));
     elements.constants = to_device("elastic constants", constants);
-    if (plastic[g]) elements.plastic = plastic_arrays(model, elements, materials[g]);
+    if (kinds[g].material != MaterialKind::elastic)
+      elements.plastic = plastic_arrays(model, elements, materials[g], kinds[g].material == MaterialKind::kinematic);
     elements.first_partial = rows;
-    rows += elements.patches.count * elements.patches.node_stride;
+    if (kinds[g].damped)
+      elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
+    rows = elements.rows_end();
   }
   model.partial.single_precision = single;
   if (single) model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);

@@ -8,6 +8,7 @@
 #include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
 #include "model/lanczos.hpp"
+#include "model/stable_step.hpp"
 #include "model/tangent_springs.hpp"
 
 namespace railwave {
@@ -115,9 +116,12 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
     const scene::Material& material = model.scene.materials[range.material];
     const bool viscous = part.hourglass == scene::HourglassType::viscous;
     const double factor = hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
-    const double mu = material.shear_modulus();
+    const double mu = material.shear_modulus(), damped = 1 + part.stiffness_damping * inverse_time;
+    const double bulk = (part.linear_bulk_viscosity * material.dilatational_speed() +
+                         part.quadratic_bulk_viscosity * largest_initial_speed(model.scene)) * material.density * inverse_time;
     Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
-                         ElementTangent{range.first_element, material.dilatational_modulus() - 2 * mu, mu, factor, viscous,
+                         ElementTangent{range.first_element, damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous,
+                                        bulk,
                                         corners_, model.nodes.position, displacement_, corner_force_});
   }
   Kokkos::parallel_for("tangent_gather", Range(0, nodes), GatherTangent{first_corner_, corner_, corner_force_, image_});
@@ -168,8 +172,11 @@ GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double
   result.step = guess;
   set_springs(model, horizon, result);
   bool damped = false;
-  for (const scene::Part& part : model.scene.parts)
-    damped = damped || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
+  double mass_rate = 0;  // counted as if all nodes had the largest
+  for (const scene::Part& part : model.scene.parts) {
+    damped = damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
+    mass_rate = std::fmax(mass_rate, part.mass_damping);
+  }
   for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
   for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
   if (!damped) {
@@ -181,7 +188,8 @@ GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double
     constexpr int most_passes = 8;
     double step = guess;
     for (int k = 0; k < most_passes; ++k) {
-      const double eigenvalue = largest_eigenvalue(model, 2 / step, k == 0 ? 4 * tolerance : tolerance, result);
+      const double eigenvalue =
+          largest_eigenvalue(model, 2 / step, k == 0 ? 4 * tolerance : tolerance, result) + mass_rate * 2 / step;
       if (!(eigenvalue > 0)) break;
       result.step = 2 / std::sqrt(eigenvalue);
       if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;

@@ -7,20 +7,26 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   const auto note = [&](bool absent, const char* what) {
     if (absent) left_out.emplace_back(what);
   };
-  bool any_elastic = false, any_plastic = false;
+  bool any_elastic = false, any_plastic = false, any_kinematic = false;
   for (const auto& part : scene.parts) {
     for (const auto& material : scene.materials) {
       if (material.name != part.material) continue;
       (material.yield_stress ? any_plastic : any_elastic) = true;
+      any_kinematic = any_kinematic || material.kinematic();
     }
   }
   note(!any_plastic, "plasticity: every part is elastic, no yield test and no stored stress");
   note(any_plastic && any_elastic, "plasticity of the elastic parts: they have no yield test and no history");
+  note(any_plastic && !any_kinematic, "back stress: hardening is isotropic everywhere");
   const scene::Precision precision = scene.solver.precision;
   note(precision == scene::Precision::mixed, "double precision of the elements: they are computed in single, nodes move in double");
   note(precision == scene::Precision::single_precision,
        "double precision of elements and nodes: nodes are kept in single as what their part's rigid motion at the start leaves "
        "of their motion; contact, loads, constraints, settling and the account are in double");
+  bool any_damped = false, any_undamped = false;
+  for (const auto& part : scene.parts) (part.damped() ? any_damped : any_undamped) = true;
+  note(!any_damped, "damping of parts");
+  note(any_damped && any_undamped, "damping of the other parts: their nodes and elements know nothing of it");
   note(scene.contacts.empty(), "contact: the scene has none");
   bool any_frictionless = false;
   for (const auto& contact : scene.contacts) any_frictionless = any_frictionless || contact.friction == 0;

@@ -67,6 +67,8 @@ void reset_to_start(Model& model) {
     zero(group.patches.hourglass_energy);
     renew_frames(model, group);
     zero(group.plastic.history);
+    zero(group.plastic.back_stress);
+    zero(group.damping.energy);
   }
   zero(model.connectors.arrays.energy);
   for (const PrescribedSet& set : model.prescribed) zero(set.work);
@@ -114,7 +116,9 @@ std::size_t device_bytes(const Model& model) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
                    p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants,
-                   group.plastic.constants, group.plastic.history, group.plastic.volume, group.carried.local, group.carried.arm);
+                   group.plastic.constants, group.plastic.history, group.plastic.volume, group.plastic.isotropic_share,
+                   group.plastic.back_stress, group.damping.constants, group.damping.node_mass, group.damping.energy,
+                   group.carried.local, group.carried.arm);
   }
   const CarriedNodes& carried = model.carried;
   total += bytes(carried.node, carried.listed_arm, carried.motion, carried.steps);

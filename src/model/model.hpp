@@ -8,7 +8,9 @@
 #include "kernels/bilinear.hpp"
 #include "kernels/carried_nodes.hpp"
 #include "kernels/contact_law.hpp"
+#include "kernels/damping_arrays.hpp"
 #include "kernels/element_force.hpp"
+#include "kernels/kinematic_bilinear.hpp"
 #include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
 #include "kernels/set_loads.hpp"
@@ -23,7 +25,10 @@ struct PlasticArrays {
   Array<BilinearConstants*> constants;  ///< by the patches' material row
   Array<double*> history;               ///< see Bilinear
   Array<double*> volume;                ///< m3, of the reference, by slot; zero in slots that only fill up
+  Array<double*> isotropic_share;       ///< by the patches' material row; empty unless the group's hardening is kinematic or mixed
+  Array<double*> back_stress;           ///< see KinematicBilinear; empty likewise
   bool active() const { return constants.extent(0) > 0; }
+  bool kinematic() const { return back_stress.extent(0) > 0; }
 };
 
 /// What patches have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
@@ -55,7 +60,8 @@ struct CarriedNodes {
   double time_of(long step) const { return block_time + static_cast<double>(step - block_step) * block_size; }
 };
 
-/// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control.
+/// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control, damped or
+/// not.
 struct ElementGroup {
   std::string parts;                   ///< their names, for the summary
   scene::HourglassType hourglass = scene::HourglassType::viscous;
@@ -63,10 +69,14 @@ struct ElementGroup {
   PatchArrays patches;
   Array<ElasticConstants*> constants;  ///< by the patches' material row
   PlasticArrays plastic;
+  DampingArrays damping;
   CarriedPatches carried;
   int first_partial = 0;               ///< row of the first patch's first node in the partial forces
   std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
   std::vector<int> element_count;      ///< of each patch
+
+  /// Rows of the partial forces up to the group's last.
+  int rows_end() const { return (damping.active() ? damping.first_partial : first_partial) + patches.count * patches.node_stride; }
 };
 
 /// A load of fixed direction, a pressure or a torque: its contributions, and the curve it follows.

@@ -67,6 +67,9 @@ void build_gather(Model& model) {
         const int k = p * group.patches.node_stride + l;
         rows.emplace_back(nodes(k), group.first_partial + k);
         ++first[nodes(k) + 1];
+        if (!group.damping.active()) continue;
+        rows.emplace_back(nodes(k), group.damping.first_partial + k);
+        ++first[nodes(k) + 1];
       }
   }
   for (int n = 0; n < count; ++n) first[n + 1] += first[n];

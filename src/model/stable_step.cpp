@@ -17,6 +17,33 @@
 namespace railwave {
 namespace {
 
+/// Stable step of an element of the undamped stable step dt_0 whose part is damped. With velocities half a step behind,
+/// dt^2/4 K + dt/2 C <= M; C = beta K + alpha M makes of it dt^2 + 2 b dt <= dt_0^2, b = beta + alpha dt_0^2 / 4. Bulk
+/// viscosity acts on changes of volume alone, which have at least the bulk modulus k: it counts as beta =
+/// (Q2 c + Q1 v) l rho / k, with l |tr d| at most v, the speed of what hits.
+/// @param length V^(1/3), m
+double damped_element_step(const scene::Part& part, const scene::Material& material, double length, double speed, double step) {
+  if (!part.damped()) return step;
+  const double viscous = (part.linear_bulk_viscosity * material.dilatational_speed() + part.quadratic_bulk_viscosity * speed) *
+                         length * material.density / material.bulk_modulus();
+  const double b = part.stiffness_damping + viscous + 0.25 * part.mass_damping * step * step;
+  return step * step / (std::sqrt(step * step + b * b) + b);
+}
+
+/// Shortens each element's step by its part's damping.
+void damp(const Model& model, std::vector<double>& steps) {
+  const double speed = largest_initial_speed(model.scene);
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const scene::Part& part = model.scene.parts[p];
+    if (!part.damped()) continue;
+    const auto& range = model.assembly.parts[p];
+    for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
+      const double volume = hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+      steps[e] = damped_element_step(part, model.scene.materials[range.material], std::cbrt(volume), speed, steps[e]);
+    }
+  }
+}
+
 /// Stable steps of each element by its highest eigenvalues.
 struct EigenvalueSteps {
   std::vector<double> step, control;
@@ -36,6 +63,7 @@ EigenvalueSteps eigenvalue_steps(const Model& model) {
       steps.control[e] = own.control;
     }
   }
+  damp(model, steps.step);
   return steps;
 }
 
@@ -43,10 +71,13 @@ EigenvalueSteps eigenvalue_steps(const Model& model) {
 /// viscous one of more than about 0.13 would else go unstable.
 std::vector<double> element_steps(const Model& model, const EigenvalueSteps& eigenvalues) {
   std::vector<double> steps(model.element_length.size());
-  for (const auto& part : model.assembly.parts) {
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const auto& part = model.assembly.parts[p];
     const double speed = model.scene.materials[part.material].dilatational_speed();
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-      steps[e] = std::fmin(model.element_length[e] / speed, eigenvalues.control[e]);
+      // Heights can be somewhat too long, which stiff damping makes worse: damped elements go by their eigenvalues.
+      steps[e] = model.scene.parts[p].damped() ? eigenvalues.step[e]
+                                               : std::fmin(model.element_length[e] / speed, eigenvalues.control[e]);
   }
   return steps;
 }
@@ -181,6 +212,14 @@ void estimate_by_elements(Model& model) {
 std::vector<double> own_steps(const Model& model) {
   const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
   return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalues.step : element_steps(model, eigenvalues);
+}
+
+double largest_initial_speed(const scene::Scene& scene) {
+  double largest = 0;
+  for (const scene::InitialMotion& motion : scene.initial_motions)
+    largest = std::fmax(largest, std::sqrt(motion.velocity[0] * motion.velocity[0] + motion.velocity[1] * motion.velocity[1] +
+                                           motion.velocity[2] * motion.velocity[2]));
+  return largest;
 }
 
 double largest_step(const Model& model) {

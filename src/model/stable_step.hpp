@@ -13,6 +13,9 @@ double largest_step(const Model& model);
 /// Each element's own stable step by the estimate that the case chose, s; not for the global one.
 std::vector<double> own_steps(const Model& model);
 
+/// Speed of the fastest initial motion, turning left out, m/s: what bodies that hit at the beginning hit with.
+double largest_initial_speed(const scene::Scene& scene);
+
 /// Estimates the whole scene's stable step anew at the present instant. The case must have asked for the global estimate.
 void renew_global_step(Model& model);
 

@@ -48,7 +48,7 @@ void build_subcycling(Model& model) {
   subcycling.elements.assign(subcycling.levels, 0);
   int rows = 0;
   for (const ElementGroup& group : model.elements) {
-    rows = group.first_partial + group.patches.count * group.patches.node_stride;
+    rows = group.rows_end();
     for (int l = group.level; l < most_levels; ++l) subcycling.paces.row_end[l] = rows;
     for (int count : group.element_count) subcycling.elements[group.level] += count;
   }

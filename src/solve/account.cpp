@@ -42,7 +42,7 @@ struct PatchEnergy {
   }
 };
 
-/// Dissipated by plastic flow: a function of the equivalent plastic strain.
+/// Work of plastic flow: a function of the equivalent plastic strain and the back stress.
 template <class S>
 struct PlasticEnergy {
   static constexpr int values = 1;
@@ -51,7 +51,15 @@ struct PlasticEnergy {
   KOKKOS_INLINE_FUNCTION void operator()(int slot, double* sum) const {
     const BilinearConstants constants = plastic.constants(patches.material(slot / patch_size));
     const double equivalent = plastic.history(tiled_slot<S>(slot, Bilinear::history_values, 6));
-    sum[0] += plastic.volume(slot) * plastic_work(constants, equivalent);
+    if (plastic.back_stress.extent(0) == 0) {
+      sum[0] += plastic.volume(slot) * plastic_work(constants, equivalent);
+      return;
+    }
+    double back[KinematicBilinear::back_values];
+    for (int c = 0; c < KinematicBilinear::back_values; ++c)
+      back[c] = plastic.back_stress(tiled_slot<S>(slot, KinematicBilinear::back_values, c));
+    sum[0] += plastic.volume(slot) *
+              plastic_work(constants, plastic.isotropic_share(patches.material(slot / patch_size)), equivalent, back);
   }
 };
 
@@ -149,6 +157,10 @@ void element_energy(const Model& model, const ElementGroup& group, EnergyAccount
   block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
+  if (group.damping.active()) {
+    block_sum(Work{group.damping.energy}, group.patches.count, sum, model.sum_space);
+    energy.damping += sum[0];
+  }
   if (!group.plastic.active()) return;
   block_sum(PlasticEnergy<S>{group.patches, group.plastic}, group.patches.count * patch_size, sum);
   energy.plastic += sum[0];

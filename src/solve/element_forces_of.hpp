@@ -31,22 +31,20 @@ const Array<PartialForce<S>*>& partial_forces(const Model& model) {
   else return model.partial.narrow;
 }
 
-template <class S, class Hourglass, bool Advance, class Nodes>
-void patch_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant) {
+template <class S, class Hourglass, bool Advance, class Nodes, class Material>
+void patch_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant, const Material& material) {
   const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
   const Array<float*>& scale = instant.settling ? group.patches.settling_hourglass : group.patches.hourglass_scale;
-  with_material(group, [&](const auto& material) {
-    using Force = PatchForce<S, std::decay_t<decltype(material)>, Hourglass, Advance, Nodes>;
-    const Force force{material, group.patches, scale, nodes, pace * instant.step, partial_forces<S>(model), group.first_partial};
-    if constexpr (on_device && Advance) {
-      if (go_together(model, instant) && &group == &model.elements.front()) {
-        if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
-        else forces_together<Force, false>(model, group.patches, force, instant);
-        return;
-      }
+  using Force = PatchForce<S, Material, Hourglass, Advance, Nodes>;
+  const Force force{material, group.patches, scale, nodes, pace * instant.step, partial_forces<S>(model), group.first_partial};
+  if constexpr (on_device && Advance) {
+    if (go_together(model, instant) && &group == &model.elements.front()) {
+      if (model.contacts.front().arrays.friction > 0) forces_together<Force, true>(model, group.patches, force, instant);
+      else forces_together<Force, false>(model, group.patches, force, instant);
+      return;
     }
-    launch_patches(group.patches, force);
-  });
+  }
+  launch_patches(group.patches, force);
 }
 
 inline NodeAdvance advance_of(const Model& model, const ElementGroup& group, double step, const NodeAdvance* /*kind*/) {
@@ -60,15 +58,25 @@ inline CarriedAdvance advance_of(const Model& model, const ElementGroup& group, 
   return carried_advance(model, group.carried, step);
 }
 
-template <class S, class Nodes>
-void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
+template <class S, class Nodes, class Material>
+void forces_of_material(const Model& model, const ElementGroup& group, const Instant& instant, const Material& material) {
   const Nodes nodes = advance_of(model, group, instant.step, static_cast<const Nodes*>(nullptr));
   const bool viscous = group.hourglass == scene::HourglassType::viscous && !instant.settling;
   const bool advancing = instant.advancing && !instant.settling;
-  if (viscous && advancing) patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant);
-  else if (viscous) patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant);
-  else if (advancing) patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant);
-  else patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant);
+  if (viscous && advancing) patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant, material);
+  else if (viscous) patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant, material);
+  else if (advancing) patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, material);
+  else patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, material);
+}
+
+// In files of their own, element_forces_kinematic_*.cpp, so that compilers can work side by side.
+extern template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&, const KinematicBilinear&);
+extern template void forces_of_material<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&, const KinematicBilinear&);
+extern template void forces_of_material<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&, const KinematicBilinear&);
+
+template <class S, class Nodes>
+void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
+  with_material(group, [&](const auto& material) { forces_of_material<S, Nodes>(model, group, instant, material); });
 }
 
 }  // namespace railwave

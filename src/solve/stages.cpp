@@ -10,6 +10,7 @@
 #include "solve/contact_multiplier.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
+#include "solve/element_damping.hpp"
 #include "solve/element_forces.hpp"
 
 namespace railwave {
@@ -43,9 +44,17 @@ Stage element_stage(Model& model, const ElementGroup& group) {
     else if (instant.settling || !model.carried.active()) element_forces<float, NodeAdvance>(model, group, instant);
     else element_forces<float, CarriedAdvance>(model, group, instant);
   };
-  const char* kind = group.plastic.active() ? ", elastoplastic" : "";
+  const char* kind = group.plastic.kinematic() ? ", elastoplastic with back stress" : group.plastic.active() ? ", elastoplastic" : "";
   const std::string pace = group.level == 0 ? "" : ", every " + std::to_string(1L << group.level) + " steps";
   return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control" + pace, run};
+}
+
+/// Statics know no damping: while the scene settles its rows stay empty.
+Stage damping_stage(const Model& model, const ElementGroup& group) {
+  return {"damping of " + group.parts, [&model, &group](const Instant& instant) {
+            if (instant.settling || group.level > model.subcycling.phase(model.step)) return;
+            element_damping(model, group, instant);
+          }};
 }
 
 /// Before all else: nodes in single precision, and the double ones where somebody looks.
@@ -153,6 +162,9 @@ std::vector<Stage> force_stages(Model& model) {
   // Its patches may move their nodes at once, where all else must still find them: all but multipliers, which need the
   // elements' forces and concern no node that a patch moves.
   for (const ElementGroup& group : model.elements) stages.push_back(element_stage(model, group));
+  // No patch moves nodes of damped elements by itself.
+  for (const ElementGroup& group : model.elements)
+    if (group.damping.active()) stages.push_back(damping_stage(model, group));
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
     stages.push_back(multiplier_stage(model));
   return stages;

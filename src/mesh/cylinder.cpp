@@ -1,0 +1,138 @@
+#include "mesh/cylinder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/mesh_checks.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner is
+/// as flat as it would be at either.
+constexpr double bulge = 0.4;
+
+using Point = std::array<double, 2>;
+
+void check(const scene::MeshSource& source) {
+  const scene::CylinderMesh& c = source.cylinder;
+  MeshChecks checks(source);
+  checks.expect(c.radius > 0, "radius", c.radius, "above 0");
+  checks.expect(c.length > 0, "length", c.length, "above 0");
+  checks.expect(c.core_divisions >= 1, "core_divisions", c.core_divisions, "at least 1");
+  checks.expect(c.ring_divisions >= 1, "ring_divisions", c.ring_divisions, "at least 1");
+  checks.expect(c.length_divisions >= 1, "length_divisions", c.length_divisions, "at least 1");
+  checks.expect(c.end_ratio >= 0.01 && c.end_ratio <= 100, "end_ratio", c.end_ratio, "0.01 to 100");
+  checks.expect(c.core_share >= 0.2 && c.core_share <= 0.8, "core_share", c.core_share, "0.2 to 0.8");
+  checks.report();
+}
+
+/// Point of the disc that lies in the direction of (u, v), a point of the square from -1 to 1, equal angles for equal ways
+/// along the square's sides.
+Point on_disc(double u, double v, double radius) {
+  const bool along_x = std::fabs(u) >= std::fabs(v);
+  const double far = along_x ? u : v, near = along_x ? v : u;
+  if (far == 0) return {0, 0};
+  const double angle = pi / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
+  return along_x ? Point{a, b} : Point{b, a};
+}
+
+/// A point of the core; it is the more bulged the farther out.
+Point in_core(double u, double v, double radius) {
+  const Point round = on_disc(u, v, radius);
+  const double share = bulge * std::max(std::fabs(u), std::fabs(v)), straight = radius / std::sqrt(2.0);
+  return {(1 - share) * straight * u + share * round[0], (1 - share) * straight * v + share * round[1]};
+}
+
+/// Nodes and quadrilaterals of the cross-section, counter-clockwise; those of the skin have it between their second and
+/// third corner.
+struct Disc {
+  std::vector<Point> nodes;
+  std::vector<std::array<int, 4>> cells;
+  int first_skin_node = 0, first_skin_cell = 0;
+};
+
+Disc disc(const scene::CylinderMesh& c) {
+  const int n = c.core_divisions, around = 4 * n;
+  const auto number = [n](int i, int j) { return j * (n + 1) + i; };
+  const auto place = [n](int i) { return 2.0 * i / n - 1; };
+  Disc disc;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) disc.nodes.push_back(in_core(place(i), place(j), c.core_share * c.radius));
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i) disc.cells.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
+
+  // Counter-clockwise along the core's sides.
+  std::vector<std::array<int, 2>> side;
+  for (int k = 0; k < n; ++k) side.push_back({k, 0});
+  for (int k = 0; k < n; ++k) side.push_back({n, k});
+  for (int k = 0; k < n; ++k) side.push_back({n - k, n});
+  for (int k = 0; k < n; ++k) side.push_back({0, n - k});
+  std::vector<int> inner;
+  for (const auto& [i, j] : side) inner.push_back(number(i, j));
+  for (int ring = 1; ring <= c.ring_divisions; ++ring) {
+    const double share = static_cast<double>(ring) / c.ring_divisions;
+    std::vector<int> outer;
+    disc.first_skin_node = static_cast<int>(disc.nodes.size());
+    disc.first_skin_cell = static_cast<int>(disc.cells.size());
+    for (int k = 0; k < around; ++k) {
+      const double u = place(side[k][0]), v = place(side[k][1]);
+      const Point from = in_core(u, v, c.core_share * c.radius), to = on_disc(u, v, c.radius);
+      outer.push_back(static_cast<int>(disc.nodes.size()));
+      disc.nodes.push_back(ring == c.ring_divisions ? to
+                                                    : Point{(1 - share) * from[0] + share * to[0], (1 - share) * from[1] + share * to[1]});
+    }
+    for (int k = 0; k < around; ++k)
+      disc.cells.push_back({inner[k], outer[k], outer[(k + 1) % around], inner[(k + 1) % around]});
+    inner = outer;
+  }
+  return disc;
+}
+
+std::vector<double> heights(const scene::CylinderMesh& c) {
+  const int n = c.length_divisions;
+  const double ratio = n > 1 ? std::pow(c.end_ratio, 1.0 / (n - 1)) : 1;
+  std::vector<double> z{0};
+  double cell = 1;
+  for (int k = 0; k < n; ++k, cell *= ratio) z.push_back(z.back() + cell);
+  const double scale = c.length / z.back();
+  for (double& height : z) height *= scale;
+  z.back() = c.length;
+  return z;
+}
+
+}  // namespace
+
+Mesh cylinder_mesh(const scene::MeshSource& source) {
+  check(source);
+  const Disc section = disc(source.cylinder);
+  const auto z = heights(source.cylinder);
+  const int nodes = static_cast<int>(section.nodes.size()), cells = static_cast<int>(section.cells.size());
+  const int layers = static_cast<int>(z.size()) - 1;
+  Mesh mesh;
+  for (int k = 0; k <= layers; ++k)
+    for (int n = 0; n < nodes; ++n) {
+      const int number = static_cast<int>(mesh.nodes.size());
+      if (k == 0) mesh.node_sets["z_min"].push_back(number);
+      if (k == layers) mesh.node_sets["z_max"].push_back(number);
+      if (n >= section.first_skin_node) mesh.node_sets["skin"].push_back(number);
+      mesh.nodes.push_back({section.nodes[n][0], section.nodes[n][1], z[k]});
+    }
+  for (int k = 0; k < layers; ++k)
+    for (int c = 0; c < cells; ++c) {
+      const int element = static_cast<int>(mesh.elements.size());
+      std::array<int, 8> corners{};
+      for (int i = 0; i < 4; ++i) {
+        corners[i] = k * nodes + section.cells[c][i];
+        corners[4 + i] = (k + 1) * nodes + section.cells[c][i];
+      }
+      mesh.elements.push_back(corners);
+      if (k == 0) mesh.surfaces["z_min"].push_back({element, 0});
+      if (k == layers - 1) mesh.surfaces["z_max"].push_back({element, 1});
+      if (c >= section.first_skin_cell) mesh.surfaces["skin"].push_back({element, 3});
+    }
+  return mesh;
+}
+
+}  // namespace railwave

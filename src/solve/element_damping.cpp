@@ -1,0 +1,29 @@
+#include "solve/element_damping.hpp"
+
+#include "kernels/element_damping.hpp"
+#include "model/carriers.hpp"
+#include "model/patch_launch.hpp"
+#include "solve/element_forces.hpp"
+
+namespace railwave {
+
+template <class S, class Nodes>
+struct LaunchBoundsOf<PatchDamping<S, Nodes>> {
+  using type = Kokkos::LaunchBounds<patch_size, 1>;
+};
+
+void element_damping(const Model& model, const ElementGroup& group, const Instant& instant) {
+  const double elapsed = static_cast<double>(1L << group.level) * instant.elapsed;
+  if (!model.scene.solver.elements_in_single())
+    launch_patches(group.patches, PatchDamping<double, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step), elapsed,
+                                                                    model.partial.wide});
+  else if (!model.carried.active())
+    launch_patches(group.patches, PatchDamping<float, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step), elapsed,
+                                                                   model.partial.narrow});
+  else
+    launch_patches(group.patches,
+                   PatchDamping<float, CarriedAdvance>{group.damping, group.patches, carried_advance(model, group.carried, instant.step),
+                                                       elapsed, model.partial.narrow});
+}
+
+}  // namespace railwave

@@ -1,0 +1,7 @@
+#include "solve/element_forces_of.hpp"
+
+namespace railwave {
+
+template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&, const KinematicBilinear&);
+
+}  // namespace railwave

@@ -49,6 +49,7 @@ struct PatchDamping {
   PatchArrays patches;
   Nodes nodes;
   double elapsed;                   ///< s since the forces in the rows; 0: there are none yet
+  double share_before;              ///< of the rows' forces to book now: 1, or 0 where BookDamping has done it
   Array<PartialForce<S>*> partial;  ///< N
 
   static std::size_t scratch_size(const PatchArrays& patches) {
@@ -124,11 +125,33 @@ struct PatchDamping {
       PartialForce<S> now{};
       for (int i = 0; i < 3; ++i) {
         now.x[i] = static_cast<S>(lane_sum[i][lane] - rate * v[i]);
-        dissipated -= 0.5 * elapsed * (static_cast<double>(before.x[i]) + static_cast<double>(now.x[i])) * v[i];
+        dissipated -= 0.5 * elapsed * (share_before * static_cast<double>(before.x[i]) + static_cast<double>(now.x[i])) * v[i];
       }
       partial(damping.first_partial + at) = now;
     }
     return dissipated;
+  }
+};
+
+/// Of elements evaluated every so many steps: books the half of the forces' work that they do after their evaluation, one step
+/// later, when nodes of a finer pace still have the velocity that followed it.
+template <class S>
+struct BookDamping {
+  DampingArrays damping;
+  PatchArrays patches;
+  Array<const double* [3]> velocity;
+  double half_time;                       ///< s, half of what the forces act for
+  Array<const PartialForce<S>*> partial;  ///< N
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
+    double work = 0;
+    for (int l = 0; l < patches.node_count(p); ++l) {
+      const int at = p * patches.node_stride + l;
+      const PartialForce<S> f = partial(damping.first_partial + at);
+      const Vector3 v = row(velocity, patches.node(at) & ~advance_bit);
+      for (int i = 0; i < 3; ++i) work += static_cast<double>(f.x[i]) * v[i];
+    }
+    damping.energy(p) -= half_time * work;
   }
 };
 

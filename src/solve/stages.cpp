@@ -52,7 +52,9 @@ Stage element_stage(Model& model, const ElementGroup& group) {
 /// Statics know no damping: while the scene settles its rows stay empty.
 Stage damping_stage(const Model& model, const ElementGroup& group) {
   return {"damping of " + group.parts, [&model, &group](const Instant& instant) {
-            if (instant.settling || group.level > model.subcycling.phase(model.step)) return;
+            if (instant.settling) return;
+            if (group.level > 0 && model.step % (1L << group.level) == 1) book_damping(model, group, instant.elapsed);
+            if (group.level > model.subcycling.phase(model.step)) return;
             element_damping(model, group, instant);
           }};
 }

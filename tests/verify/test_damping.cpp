@@ -1,7 +1,8 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "tests/verify/march.hpp"
+#include "tests/verify/graded_bar.hpp"
+#include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -221,4 +222,28 @@ TEST_CASE("only damped parts have damping, and what is left out says so") {
   CHECK(model.elements[0].damping.active() != model.elements[1].damping.active());
   CHECK(force_stages(model).size() == force_stages(plain).size() + 2);
   CHECK(device_bytes(model) > device_bytes(plain));
+}
+
+TEST_CASE("a pulse loses as much to damping with subcycling as without, and its balance holds") {
+  double dissipated[2] = {}, first[2] = {};
+  for (const bool subcycling : {false, true}) {
+    GradedBar bar(6, 10, 1e-4);
+    bar.scene.parts[0].stiffness_damping = 2e-7;
+    bar.scene.parts[0].mass_damping = 500;
+    hold(bar.scene, "block", {false, true, true});
+    Model model;
+    bar.build(model, subcycling);
+    CHECK((model.subcycling.levels > 1) == subcycling);
+    Pulse{0.06, 1e-6, 0.15, bar.wave_speed()}.set(model);
+    Recorder recorder;
+    run(model, {&recorder});
+    const EnergyAccount &begin = recorder.samples.front().energy, &end = recorder.samples.back().energy;
+    first[subcycling] = begin.kinetic + begin.internal;
+    dissipated[subcycling] = end.damping;
+    INFO("subcycling " << subcycling << ": dissipated " << end.damping / first[subcycling] << ", balance error "
+                       << end.balance_error / first[subcycling] << ", updates " << model.subcycling.gain() << " times fewer");
+    CHECK(end.damping > 0.05 * first[subcycling]);
+    CHECK(std::fabs(end.balance_error) < 1e-2 * first[subcycling]);
+  }
+  CHECK_THAT(dissipated[1], WithinRel(dissipated[0], 0.02));
 }

@@ -1,8 +1,7 @@
 """Taylor's bar (cases/verify/taylor_bar.toml): final length and radius of the foot against published figures, within 2 %.
 
-The benchmark is that of Kamoulakos (1990, A simple benchmark for impact). Published for it are final lengths of 21.42 to
-21.47 mm and foot radii of 7.02 to 7.24 mm: DYNA2D, DYNA3D and NIKE2D of Hallquist, and finite elements that came later
-(Zhu & Cescotto 1995, Camacho & Ortiz 1997). Prints every figure.
+The benchmark is known as that of Kamoulakos (1990). Reprinted for it are final lengths of 21.42 to 21.47 mm and foot radii of
+7.02 to 7.21 mm, Hallquist's DYNA and NIKE among them (DYNA3D: 21.47 mm, 7.03 mm). Prints every figure.
 
 RAILWAVE_OPTIONS   further --set options, divided by blanks, such as parts.bar.linear_bulk_viscosity=0.06
 """
@@ -17,7 +16,7 @@ import numpy as np
 import figures
 
 LENGTH = (21.42, 21.47)  # mm
-RADIUS = (7.02, 7.24)
+RADIUS = (7.02, 7.21)
 
 
 def outside(value, published):
@@ -48,7 +47,7 @@ def main():
     radius = np.hypot(now[foot, 0], now[foot, 1]).max()
     print(f"final length        {length:8.3f} mm   published {LENGTH[0]} to {LENGTH[1]} mm")
     print(f"radius of the foot  {radius:8.3f} mm   published {RADIUS[0]} to {RADIUS[1]} mm")
-    print(f"largest equivalent plastic strain {plastic.max():.2f}   published 2.47 to 3.25")
+    print(f"largest equivalent plastic strain {plastic.max():.2f}")
     start = energy["kinetic"][0]
     for name in ("kinetic", "internal", "plastic", "hourglass", "damping", "contact"):
         print(f"energy at the end: {name:10s} {np.ravel(energy[name])[-1] / start:8.4f} of the impact's")

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact_law.hpp"
+#include "kernels/contact_normals.hpp"
 #include "kernels/contact_track.hpp"
 #include "kernels/extra_force.hpp"
 
@@ -11,7 +12,8 @@ namespace railwave {
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
 /// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27).
 /// @tparam Law what presses and what bounds friction: see kernels/contact_law.hpp
-template <bool Friction, class Law = PlainContactLaw>
+/// @tparam Normals along which it presses: see kernels/contact_normals.hpp
+template <bool Friction, class Law = PlainContactLaw, class Normals = FacetNormals>
 struct ContactForce {
   ContactSearch search;
   ContactWindow window;
@@ -30,7 +32,7 @@ struct ContactForce {
     const int tracked = contact.tracked(s);
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
 
-    const Projection now = ContactTrack::where(search, slave, tracked, place, touched);
+    const Projection now = Normals::turned(search, slave, ContactTrack::where(search, slave, tracked, place, touched));
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact_normals.hpp"
 #include "kernels/contact_track.hpp"
 #include "kernels/multiplier_arrays.hpp"
 
@@ -44,7 +45,8 @@ struct Multiplier {
 /// from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do to its nodes, the
 /// iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the node stuck, at the next step.
 /// Forces are summed in whole quanta: a run is bitwise repeatable.
-template <bool Friction>
+/// @tparam Normals along which they press: see kernels/contact_normals.hpp
+template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
   ContactSearch search;
   ContactWindow window;
@@ -74,7 +76,7 @@ struct ContactMultiplier {
     const int status = contact.status(s), tracked = contact.tracked(s);
     const bool touched = status != status_apart;
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
-    const Projection now = ContactTrack::where(search, slave, tracked, place, touched);
+    const Projection now = Normals::turned(search, slave, ContactTrack::where(search, slave, tracked, place, touched));
     MultiplierRow& r = multipliers.rows(s);
     r.moved = touched ? now.offset - search.see(slave, tracked).point(place) : Vector3{{0, 0, 0}};
     r.normal = now.normal;

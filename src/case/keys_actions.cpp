@@ -55,6 +55,10 @@ Section contact_section() {
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the next step, "
           "nor slips where friction holds it")
           .one_of({"penalty", "multiplier"}),
+      key("normals", &Contact::normals,
+          "`facet`: each face of the master is as its nodes make it and presses along its own normal; `smooth`: it is curved such that the "
+          "normal is continuous, at nodes the mean of the faces around; faces that meet at more than 30 degrees keep their edge")
+          .one_of({"facet", "smooth"}),
       key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next; of several contacts the most counts").within(between(2, 100)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
       key("penalty_growth", &Contact::penalty_growth,

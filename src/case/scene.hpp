@@ -223,6 +223,7 @@ struct Constraint : Place {
 };
 
 enum class ContactAlgorithm { penalty, multiplier };
+enum class ContactNormals { facet, smooth };
 
 struct Contact : Place {
   std::string slave;               ///< `part.surface`
@@ -231,6 +232,7 @@ struct Contact : Place {
   std::optional<double> dynamic_friction;  ///< at high speed, mu_d of thesis eq. 2.29
   double friction_decay = 0;       ///< c of thesis eq. 2.29, s/m; 0: friction is constant
   ContactAlgorithm algorithm = ContactAlgorithm::penalty;
+  ContactNormals normals = ContactNormals::facet;  ///< of the master, along which it presses
   int sweeps = 2;                  ///< of the multipliers' iteration, in a step
   double penalty_scale = 1.0;      ///< f_SI of thesis eq. 2.26d
   std::vector<std::array<double, 2>> penalty_growth;  ///< (penetration in m, factor on the spring's tangent stiffness); empty: linear

@@ -29,7 +29,8 @@ std::vector<std::array<double, 5>> growth_points(std::vector<std::array<double, 
 
 ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves) {
   ContactLawArrays law;
-  law.active = contact.falling_friction() || !contact.penalty_growth.empty() || contact.damping > 0;
+  law.active = contact.falling_friction() || !contact.penalty_growth.empty() || contact.damping > 0 ||
+               (contact.normals != scene::ContactNormals::facet && contact.algorithm == scene::ContactAlgorithm::penalty);
   if (!law.active) return law;
   law.growth.points = to_device("penalty growth", growth_points(contact.penalty_growth));
   law.damping = contact.damping;
@@ -63,6 +64,7 @@ std::string describe_contact_law(const scene::Contact& contact) {
   std::string words = contact.friction > 0 ? ", friction" : ", frictionless";
   if (contact.falling_friction()) words += " that falls with speed";
   if (!contact.penalty_growth.empty()) words += ", growing penalty";
+  if (contact.normals != scene::ContactNormals::facet) words += ", smooth normals";
   if (contact.damping > 0) words += ", damping";
   return words;
 }

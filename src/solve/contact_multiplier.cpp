@@ -22,13 +22,20 @@ FreeMotion free_motion(const Model& model, const Instant& instant) {
   return {model.acceleration(), advance.velocity_step, advance.step, {}, {}};
 }
 
-using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>>;
+using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>, ContactMultiplier<false, SmoothNormals>,
+                                   ContactMultiplier<true, SmoothNormals>>;
 
-AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
+template <class Normals>
+AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const Instant& instant) {
   const ContactSearch search{{pair.arrays, model.nodes.position}};
   const FreeMotion motion = free_motion(model, instant);
-  if (pair.arrays.friction > 0) return ContactMultiplier<true>{search, pair.window, model.extra.sum, motion, pair.multipliers};
-  return ContactMultiplier<false>{search, pair.window, model.extra.sum, motion, pair.multipliers};
+  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers};
+  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers};
+}
+
+AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
+  if (pair.contact->normals == scene::ContactNormals::smooth) return multiplier_with<SmoothNormals>(model, pair, instant);
+  return multiplier_with<FacetNormals>(model, pair, instant);
 }
 
 template <class Phase>

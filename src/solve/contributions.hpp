@@ -25,8 +25,8 @@ SetLoads set_loads(const Model& model, const Instant& instant);
 /// A pair's law, where that is not the plain one.
 ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant);
 
-template <bool Friction, class Law = PlainContactLaw>
-ContactForce<Friction, Law> contact_force(const Model& model, const ContactPair& pair, const Law& law = {}) {
+template <bool Friction, class Normals = FacetNormals, class Law = PlainContactLaw>
+ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Law& law = {}) {
   return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra, law};
 }
 

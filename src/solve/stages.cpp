@@ -121,7 +121,10 @@ Stage contact_stage(Model& model, ContactPair& pair) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;
             const ContactRange range(0, pair.window.count);
-            if (pair.law.active)
+            if (pair.contact->normals == scene::ContactNormals::smooth)
+              Kokkos::parallel_for("contact_force", range,
+                                   contact_force<Friction, SmoothNormals>(model, pair, contact_law(model, pair, instant)));
+            else if (pair.law.active)
               Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, contact_law(model, pair, instant)));
             else
               Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair));

@@ -71,7 +71,7 @@ struct Ride {
   long steps = 0, crossings = 0;
 };
 
-Ride ride(double damping) {
+Ride ride(double damping, scene::ContactNormals normals) {
   TwoBlocks blocks;
   blocks.upper_size = {cube, cube, cube};
   blocks.upper_divisions = {1, 1, 1};
@@ -82,6 +82,7 @@ Ride ride(double damping) {
   scene::Scene scene = blocks.scene(turn_time);
   scene.parts[0].position[2] = blocks.gap;
   scene.contacts[0].damping = damping;
+  scene.contacts[0].normals = normals;
   hold(scene, "lower", {true, true, true});
   hold(scene, "upper", {true, true, false});
   add_force(scene, "upper", {0, 0, -load}, "");
@@ -131,7 +132,7 @@ Ride ride(double damping) {
 
 TEST_CASE("no contact is lost in a full turn of a faceted cylinder below a loaded block") {
   for (double damping : {0.0, 0.1}) {
-    const Ride result = ride(damping);
+    const Ride result = ride(damping, scene::ContactNormals::facet);
     WARN("faceted cylinder, damping " << damping << ": force " << result.least << " to " << result.most << " of the load, jitter (rms) "
                                       << result.deviation << ", mean " << result.mean << ", edges crossed " << result.crossings
                                       << ", at least " << result.fewest << " of 4 nodes in contact, " << result.steps << " steps");
@@ -140,4 +141,12 @@ TEST_CASE("no contact is lost in a full turn of a faceted cylinder below a loade
     CHECK_THAT(result.mean, WithinRel(1.0, 0.01));
     CHECK(result.crossings >= 4 * facets);
   }
+}
+
+TEST_CASE("with smooth normals a block does not feel the facets of a turning cylinder") {
+  const Ride result = ride(0, scene::ContactNormals::smooth);
+  WARN("faceted cylinder, smooth normals: force " << result.least << " to " << result.most << " of the load, jitter (rms) " << result.deviation);
+  CHECK(result.fewest == 4);
+  CHECK(result.deviation < 1e-5);
+  CHECK(result.crossings >= 4 * facets);
 }

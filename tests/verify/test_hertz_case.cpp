@@ -31,3 +31,18 @@ TEST_CASE("the case of Hertz's sphere on a plane comes near Hertz's solution on 
   CHECK_THAT(found.peak_nodal_pressure, WithinRel(1.5 * force / (M_PI * a * a), 0.06));
   CHECK_THAT(found.area, WithinRel(M_PI * a * a, 0.1));
 }
+
+// A node of the sphere that lies on a node of the block has four facets below it, whose normals differ.
+TEST_CASE("nodes that meet exactly come to rest with smooth normals") {
+  std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "contacts.hertz.normals=smooth", "settle.tolerance=2e-3",
+                                   "settle.max_steps=3000", "meshes.block.zone_centre=0"};
+  for (const std::string mesh : {"sphere", "block"})
+    for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04", "zone_start=-0.012", "zone_end=0.012", "zone_width=0.024"})
+      changed.push_back("meshes." + mesh + "." + key);
+  const scene::Scene scene = read_case(RAILWAVE_SOURCE_DIR "/cases/verify/hertz_sphere.toml", changed);
+  Model model;
+  build_model(scene, model);
+  const SettleReport report = settle_whole(model);
+  INFO("unbalanced force " << report.unbalance << " of all after " << report.steps << " steps");
+  CHECK(report.settled);
+}

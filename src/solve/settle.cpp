@@ -175,6 +175,7 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
+  hold_ends(model, update.unbalanced);
   return report;
 }
 
@@ -184,7 +185,6 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
   const auto began = std::chrono::steady_clock::now();
   SettleReport report = relax(model, go_on);
   forget_history(model);
-  hold_ends(model, update.unbalanced);
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return report;
 }

@@ -48,6 +48,7 @@ std::vector<Variant> variants() {
       {"stiffness, elements and nodes alone", {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"}, bare},
       {"mixed instead of double precision", {"solver.precision=mixed"}, keep},
       {"coarse regions subcycled", {"solver.subcycling=true"}, keep},
+      {"with a non-reflecting end", {}, [](Scene& s) { s.non_reflecting.push_back({{"far", 0}, "rail.start_face"}); }},
       {"with plasticity", {"materials.steel.yield_stress=500e6", "materials.steel.tangent_modulus=21e9"}, keep},
   };
 }

@@ -39,6 +39,8 @@ Section constraint_section();
 Section contact_section();
 Section motion_section();
 Section prescribed_section();
+Section non_reflecting_section();
+Section tie_section();
 Section gravity_section();
 
 }  // namespace railwave::case_file

@@ -172,4 +172,31 @@ Section prescribed_section() {
   return section;
 }
 
+Section non_reflecting_section() {
+  using scene::NonReflecting;
+  auto section = named_section("non_reflecting", "non-reflecting end", &Scene::non_reflecting,
+                               "Surfaces where bodies go on without end: dashpots of the part's own wave impedances (rho C_d along "
+                               "the normal, rho C_s across) let waves out. While the scene settles their nodes are held, and what "
+                               "held them then acts on them as a constant force during the run.");
+  section.keys = {key("target", &NonReflecting::target, "where waves leave").names(surface).needed()};
+  return section;
+}
+
+Section tie_section() {
+  using scene::Tie;
+  auto section = named_section("ties", "tie", &Scene::ties,
+                               "Pairs of surfaces grown together whose meshes need not match: each node of the slave keeps its place "
+                               "over a face of the master. Take the finer mesh for the slave.");
+  section.keys = {
+      key("slave", &Tie::slave, "surface whose nodes are tied").names(surface).needed(),
+      key("master", &Tie::master, "surface to whose faces they are tied").names(surface).needed(),
+      key("max_distance", &Tie::max_distance, "how far from its face a slave node may lie; the distance is kept")
+          .in("m")
+          .within(above(0))
+          .otherwise("a tenth of the face's shorter diagonal"),
+  };
+  section.rule = check_tie;
+  return section;
+}
+
 }  // namespace railwave::case_file

@@ -203,6 +203,13 @@ void check_motion(void* entry, EntryCheck& check) {
   }
 }
 
+void check_tie(void* entry, EntryCheck& check) {
+  const auto& tie = *static_cast<scene::Tie*>(entry);
+  if (check.sound({"slave", "master"}) && tie.slave == tie.master) {
+    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot be tied to itself: name two surfaces", tie.master));
+  }
+}
+
 void check_time(void* entry, EntryCheck& check) {
   const auto& time = *static_cast<scene::Time*>(entry);
   at_most(check, {"step", time.step}, {"end", time.end});

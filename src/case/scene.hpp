@@ -37,6 +37,8 @@ struct Material : Place {
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
   /// C_d of thesis eq. 2.14b, m/s
   double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
+  /// C_s, m/s
+  double shear_speed() const { return std::sqrt(shear_modulus() / density); }
 };
 
 enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder };
@@ -260,6 +262,18 @@ struct PrescribedMotion : Place {
   std::string curve;               ///< factor on both; empty: constant 1
 };
 
+/// Dashpots on a surface that let waves out (Lysmer & Kuhlemeyer 1969); while the scene settles its nodes are held.
+struct NonReflecting : Place {
+  std::string target;              ///< `part.surface`
+};
+
+/// Each node of the slave stays where it lies over a face of the master.
+struct Tie : Place {
+  std::string slave;               ///< `part.surface`
+  std::string master;              ///< `part.surface`
+  std::optional<double> max_distance;  ///< m from the master's faces; absent: a tenth of the face's shorter diagonal
+};
+
 /// Static equilibrium by dynamic relaxation before the run; absent: the run starts from the undeformed mesh.
 struct Settle {
   bool active = false;
@@ -312,6 +326,8 @@ struct Scene {
   std::vector<Contact> contacts;
   std::vector<InitialMotion> initial_motions;
   std::vector<PrescribedMotion> prescribed_motions;
+  std::vector<NonReflecting> non_reflecting;
+  std::vector<Tie> ties;
   Vec3 gravity{0, 0, 0};           ///< m/s2
   Settle settle;
   Time time;

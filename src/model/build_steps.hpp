@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+
 #include "model/model.hpp"
 
 /// The steps of build_model, each in a file of its own.
@@ -12,6 +14,10 @@ void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists
 void build_carried_nodes(Model& model);  ///< carriers.cpp: nodes in single precision
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
 void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
+void build_ties(Model& model);         ///< ties.cpp: places of slave nodes on their masters' faces
+void build_non_reflecting(Model& model);  ///< non_reflecting.cpp: dashpots of the ends
+/// node_arrays.cpp: orthonormal directions in which constraints and prescribed motions hold nodes
+std::map<int, std::vector<Vec3>> held_directions(const scene::Scene& scene, const Assembly& assembly);
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void build_stable_step(Model& model);  ///< stable_step.cpp
 void build_subcycling(Model& model);   ///< subcycling.cpp: paces of nodes; whole rounds of steps

@@ -112,6 +112,9 @@ void build_carried_nodes(Model& model) {
   carried.listed_arm = unset_array<CarriedArm*>("arms of listed nodes", model.listed_nodes.extent(0));
   carried.motion = unset_array<CarrierMotion*>("carriers", carried.range.size());
   carried.steps = unset_array<CarrierStep*>("steps of carriers", steps_of_block * carried.range.size());
+  std::vector<int> of_slave;
+  for (const TiedPlace& tied : model.ties.places) of_slave.push_back(carrier_of(carried, tied.slave));
+  model.ties.carrier = to_device("carriers of tied nodes", of_slave);
   for (ElementGroup& group : model.elements) {
     group.carried.local = local_places(model, group);
     group.carried.arm = unset_array<CarriedArm*>("arms of patches", group.patches.count);

@@ -185,6 +185,31 @@ void add_forces(const ContactPair& pair, const SlavesNow& now, ContactSide& slav
   }
 }
 
+HostField own_node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
+  const auto result = unset_array<double*>("node field", 3 * nodes.size());
+  Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
+                       FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
+  return {3, to_vector(result)};
+}
+
+/// Tied nodes have no acceleration of their own but that of the face they lie on.
+void follow_masters(const Model& model, NodeField field, const std::vector<int>& nodes, std::vector<double>& values) {
+  std::vector<int> place_of(model.nodes.count, -1), masters;
+  for (std::size_t s = 0; s < model.ties.places.size(); ++s) place_of[model.ties.places[s].slave] = static_cast<int>(s);
+  for (int n : nodes)
+    if (place_of[n] >= 0) masters.insert(masters.end(), model.ties.places[place_of[n]].face, model.ties.places[place_of[n]].face + 4);
+  if (masters.empty()) return;
+  const auto of_masters = own_node_field(model, field, masters).values;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (place_of[nodes[i]] < 0) continue;
+    const TiedPlace& tied = model.ties.places[place_of[nodes[i]]];
+    for (int c = 0; c < 3; ++c) values[3 * i + c] = 0;
+    for (int k = 0; k < 4; ++k, ++next)
+      for (int c = 0; c < 3; ++c) values[3 * i + c] += tied.weight[k] * of_masters[3 * next + c];
+  }
+}
+
 /// Velocity of a slave over its segment, in the plane across the force that presses it.
 Vec3 slip_velocity(const ContactPair& pair, const SlavesNow& now, const ContactState& state, int s) {
   Vec3 slip{};
@@ -204,10 +229,10 @@ Vec3 slip_velocity(const ContactPair& pair, const SlavesNow& now, const ContactS
 }  // namespace
 
 HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
-  const auto result = unset_array<double*>("node field", 3 * nodes.size());
-  Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-                       FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
-  return {3, to_vector(result)};
+  HostField values = own_node_field(model, field, nodes);
+  const bool follows = field == NodeField::velocity || field == NodeField::acceleration;
+  if (follows && model.ties.arrays.active()) follow_masters(model, field, nodes, values.values);
+  return values;
 }
 
 HostField element_stress(const Model& model, const std::vector<int>& elements) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/block_sum.hpp"
+#include "kernels/tie.hpp"
 #include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
 #include "model/lanczos.hpp"
@@ -110,6 +111,9 @@ void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep&
 void GlobalEstimate::apply(const Model& model, double inverse_time) {
   const int nodes = static_cast<int>(model.assembly.nodes.size());
   Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
+  const TieArrays& ties = model.ties.arrays;
+  if (ties.active())
+    Kokkos::parallel_for("tangent_ties", Range(0, ties.slave_count), TieMotion{ties, model.nodes.position, displacement_});
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
     const auto& range = model.assembly.parts[p];
     const scene::Part& part = model.scene.parts[p];
@@ -128,6 +132,10 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   if (springs_.count > 0) {
     Kokkos::parallel_for("tangent_springs", Range(0, springs_.count), SpringForce{springs_, displacement_, inverse_time});
     Kokkos::parallel_for("tangent_add_springs", Range(0, springs_.node_count), AddSprings{springs_, image_});
+  }
+  if (ties.active()) {
+    Kokkos::parallel_for("tangent_tie_force", Range(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
+    Kokkos::parallel_for("tangent_tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_nodes, image_});
   }
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});

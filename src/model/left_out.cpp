@@ -36,6 +36,8 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   note(scene.connectors.empty(), "springs and dashpots");
   note(scene.constraints.empty(), "constraints");
   note(scene.prescribed_motions.empty(), "prescribed motion");
+  note(scene.non_reflecting.empty(), "non-reflecting ends");
+  note(scene.ties.empty(), "ties between meshes");
   note(!scene.settle.active, "settling: the run starts from the undeformed mesh");
   bool any_viscous = false;
   for (const auto& part : scene.parts) any_viscous = any_viscous || part.hourglass == scene::HourglassType::viscous;

@@ -233,6 +233,11 @@ void build_extra(const Collector& collector) {
     concerned.insert(concerned.end(), pair.slave_nodes.begin(), pair.slave_nodes.end());
     concerned.insert(concerned.end(), pair.master_nodes.begin(), pair.master_nodes.end());
   }
+  // What ties and non-reflecting ends do to nodes is added to their loads, so these have a sum of loads, if of none.
+  std::vector<char> added(model.assembly.nodes.size(), 0);
+  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes})
+    for (int n : *nodes) added[n] = 1;
+  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes}) concerned.insert(concerned.end(), nodes->begin(), nodes->end());
   std::sort(concerned.begin(), concerned.end());
   concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
   const int rows = static_cast<int>(concerned.size());
@@ -244,14 +249,14 @@ void build_extra(const Collector& collector) {
   for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
   for (ContactPair& pair : model.contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes) pair.loaded = pair.loaded || first[row_of_node[n]] < first[row_of_node[n] + 1];
+      for (int n : *nodes) pair.loaded = pair.loaded || added[n] != 0 || first[row_of_node[n]] < first[row_of_node[n] + 1];
   std::vector<int> filled(first.begin(), first.end() - 1);
   std::vector<RowShare> sorted(collector.contribution_node.size());
   for (const RowShare& share : contribution_shares(collector))
     sorted[filled[row_of_node[collector.contribution_node[share.contribution]]]++] = share;
   std::vector<LoadedRow> loaded;
   for (int r = 0; r < rows; ++r)
-    if (first[r + 1] > first[r]) loaded.push_back({r, concerned[r], first[r], first[r + 1]});
+    if (first[r + 1] > first[r] || added[concerned[r]] != 0) loaded.push_back({r, concerned[r], first[r], first[r + 1]});
 
   ExtraForces& extra = model.extra;
   extra.row_count = rows;
@@ -269,6 +274,17 @@ void build_extra(const Collector& collector) {
   extra.contribution_node = to_device("node of contribution", collector.contribution_node);
   extra.work = Array<double*>("work of contribution", extra.contribution_count);
   model.nodes.extra = to_device("extra row", row_of_node);
+
+  std::vector<int> master_rows;
+  for (int n : model.ties.masters) master_rows.push_back(row_of_node[n]);
+  model.ties.arrays.master_rows = to_device("rows of ties", master_rows);
+  if (model.ends.nodes.empty()) return;
+  model.ends.alone.assign(model.assembly.nodes.size(), 0);
+  for (int n : model.ends.nodes) model.ends.alone[n] = first[row_of_node[n]] == first[row_of_node[n] + 1] ? 1 : 0;
+  for (const ContactPair& pair : model.contacts)
+    for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
+      for (int n : *nodes) model.ends.alone[n] = 0;
+  for (int n : model.ties.masters) model.ends.alone[n] = 0;
 }
 
 }  // namespace

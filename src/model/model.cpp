@@ -6,6 +6,7 @@
 #include "kernels/block_sum.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
+#include "model/non_reflecting.hpp"
 
 namespace railwave {
 
@@ -28,6 +29,8 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   build_elements(model);
   build_contacts(model);
+  build_ties(model);
+  build_non_reflecting(model);
   build_loads(model);
   build_prescribed_motions(model);
   build_node_arrays(model);
@@ -71,6 +74,7 @@ void reset_to_start(Model& model) {
     zero(group.damping.energy);
   }
   zero(model.connectors.arrays.energy);
+  hold_ends(model, {});
   for (const PrescribedSet& set : model.prescribed) zero(set.work);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
@@ -131,6 +135,10 @@ std::size_t device_bytes(const Model& model) {
                    pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);
   }
   for (const PrescribedSet& set : model.prescribed) total += bytes(set.nodes, set.work);
+  const NonReflectingArrays& e = model.ends.arrays;
+  const TieArrays& t = model.ties.arrays;
+  total += bytes(e.nodes, e.dashpot, e.support, e.start, e.force, e.dissipated, t.places, t.master_nodes, t.master_rows, t.first_share,
+                 t.shares, t.passed_on, t.before, model.ties.carrier);
   return total;
 }
 

@@ -13,7 +13,9 @@
 #include "kernels/kinematic_bilinear.hpp"
 #include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
+#include "kernels/non_reflecting.hpp"
 #include "kernels/set_loads.hpp"
+#include "kernels/tie.hpp"
 #include "model/assembly.hpp"
 #include "model/patches.hpp"
 #include "model/subcycling.hpp"
@@ -134,6 +136,21 @@ struct PrescribedSet {
   Array<double*> work;                  ///< J, by node of the set
 };
 
+/// All non-reflecting ends together.
+struct NonReflectingEnds {
+  NonReflectingArrays arrays;
+  std::vector<int> nodes;              ///< ascending
+  std::vector<char> alone;             ///< by node of the model: feels no other extra forces; may have a pace of its own
+};
+
+/// All ties together.
+struct Ties {
+  TieArrays arrays;
+  std::vector<TiedPlace> places;       ///< host copy
+  std::vector<int> masters;            ///< ascending
+  Array<int*> carrier;                 ///< by slave, where nodes are in single precision
+};
+
 /// The stable step, s, by each estimate, and what sets it.
 struct StableStep {
   double elements = 0;                 ///< min V / (A_max C_d), thesis eq. 2.14
@@ -187,6 +204,8 @@ struct Model {
   ConnectorStage connectors;
   TorqueArrays torques;
   std::vector<PrescribedSet> prescribed;
+  NonReflectingEnds ends;
+  Ties ties;
   std::vector<ContactPair> contacts;   ///< of the scene's contacts in order, then the reversed ones
   std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute
 

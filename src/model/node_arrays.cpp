@@ -6,6 +6,7 @@
 #include "case/error.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
+#include "model/ties.hpp"
 
 namespace railwave {
 namespace {
@@ -24,17 +25,15 @@ void add_direction(Directions& directions, Vec3 d) {
   directions.push_back(d);
 }
 
+void hold(Directions& directions) {
+  for (int i = 0; i < 3; ++i) add_direction(directions, {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0});
+}
+
 /// Constraint row of each node, and the projections.
 void build_constraints(Model& model, std::vector<int>& row_of_node) {
-  std::map<int, Directions> constrained;
-  for (const scene::Constraint& constraint : model.scene.constraints)
-    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target))
-      for (int a = 0; a < 3; ++a)
-        if (constraint.fixed[a]) add_direction(constrained[n], constraint.axes[a]);
-
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
-    for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
-      for (int i = 0; i < 3; ++i) add_direction(constrained[n], {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0});
+  auto constrained = held_directions(model.scene, model.assembly);
+  // A tied node goes where its master does: forces of its own must not move it.
+  for (const TiedPlace& tied : model.ties.places) hold(constrained[tied.slave]);
 
   std::map<Directions, int> rows;
   for (const auto& [node, directions] : constrained) {
@@ -107,6 +106,17 @@ void share_out_nodes(Model& model) {
 
 }  // namespace
 
+std::map<int, Directions> held_directions(const scene::Scene& scene, const Assembly& assembly) {
+  std::map<int, Directions> held;
+  for (const scene::Constraint& constraint : scene.constraints)
+    for (int n : find_node_set(scene, assembly, constraint, "target", constraint.target))
+      for (int a = 0; a < 3; ++a)
+        if (constraint.fixed[a]) add_direction(held[n], constraint.axes[a]);
+  for (const scene::PrescribedMotion& motion : scene.prescribed_motions)
+    for (int n : find_node_set(scene, assembly, motion, "target", motion.target)) hold(held[n]);
+  return held;
+}
+
 void build_node_arrays(Model& model) {
   const Assembly& assembly = model.assembly;
   NodeArrays& nodes = model.nodes;
@@ -118,7 +128,7 @@ void build_node_arrays(Model& model) {
   nodes.reference = to_device("reference", assembly.nodes);
   nodes.position = unset_array<double* [3]>("position", nodes.count);
   nodes.velocity = unset_array<double* [3]>("velocity", nodes.count);
-  nodes.mass = to_device("mass", model.mass);
+  nodes.mass = to_device("mass", masses_with_ties(model, model.mass));
   std::vector<int> constraint(nodes.count, -1);
   build_constraints(model, constraint);
   nodes.constraint = to_device("constraint", constraint);

@@ -24,6 +24,8 @@ void refuse_unknown_methods(const scene::Scene& scene) {
     refuse(scene, "precision = \"float\" with a [prescribed_motion]", "set precision to \"mixed\" or \"double\"");
   if (!scene.prescribed_motions.empty() && solver.subcycling)
     refuse(scene, "subcycling = true with a [prescribed_motion]", "leave subcycling out");
+  if (!scene.ties.empty() && solver.subcycling)
+    refuse(scene, fmt::format("subcycling = true with [ties.{}]", scene.ties.front().name), "leave subcycling out");
   if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
     refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }

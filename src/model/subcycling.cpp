@@ -26,14 +26,15 @@ double Subcycling::gain() const {
 
 namespace {
 
-/// Level of each node: extra forces are evaluated at every step, elements at their own pace. Rows of partial forces ascend
+/// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of non-reflecting
+/// ends at their nodes'. Rows of partial forces ascend
 /// by level, so a node's first row is of its finest patch.
 std::vector<std::uint8_t> node_levels(const Model& model) {
   const auto first = to_host(model.nodes.first_partial), place = to_host(model.nodes.partial_place);
   const auto extra = to_host(model.nodes.extra);
   std::vector<std::uint8_t> level(model.nodes.count, 0);
   for (int n = 0; n < model.nodes.count; ++n)
-    if (extra(n) < 0 && first(n + 1) > first(n))
+    if ((extra(n) < 0 || (!model.ends.alone.empty() && model.ends.alone[n] != 0)) && first(n + 1) > first(n))
       while (place(first(n)) >= model.subcycling.paces.row_end[level[n]]) ++level[n];
   return level;
 }

@@ -199,6 +199,11 @@ EnergyAccount account_energies(const Model& model, double step) {
     block_sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), sum, model.sum_space);
     energy.external_work += sum[0];
   }
+  if (model.ends.arrays.count > 0) {
+    block_sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count, sum, model.sum_space);
+    energy.damping += sum[0];
+    energy.external_work += sum[1];
+  }
   const auto connectors = to_host(model.connectors.arrays.energy);
   for (int c = 0; c < model.connectors.arrays.count; ++c) {
     energy.connector += connectors(c, 0);
@@ -252,8 +257,28 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
   return totals;
 }
 
+namespace {
+
+/// On the host, for tied nodes move as their masters do.
+MeanMotion mean_motion_with_ties(const Model& model, int begin, int end) {
+  const auto all = to_host(model.sets.nodes);
+  const auto weight = to_host(model.sets.weight);
+  const std::vector<int> nodes(all.data() + begin, all.data() + end);
+  MeanMotion mean;
+  for (auto [field, sum] : {std::pair{NodeField::displacement, &mean.displacement}, {NodeField::velocity, &mean.velocity},
+                            {NodeField::acceleration, &mean.acceleration}}) {
+    const auto values = node_field(model, field, nodes).values;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      for (int i = 0; i < 3; ++i) (*sum)[i] += weight(begin + static_cast<int>(k)) * values[3 * k + i];
+  }
+  return mean;
+}
+
+}  // namespace
+
 MeanMotion mean_motion(const Model& model, int set) {
   const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
+  if (model.ties.arrays.active()) return mean_motion_with_ties(model, begin, end);
   double sum[9];
   block_sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin, sum,
             model.sum_space);

@@ -10,7 +10,9 @@ bool go_together(const Model& model, const Instant& instant) {
 }
 
 bool sets_go_along(const Model& model, const Instant& instant) {
-  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1 && model.prescribed.empty();
+  // Ties and non-reflecting ends must find the loads where they add to them.
+  const bool added_to = model.ties.arrays.active() || model.ends.arrays.count > 0;
+  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1 && model.prescribed.empty() && !added_to;
 }
 
 RowLoads row_loads(const Model& model, double elapsed) {

@@ -8,6 +8,8 @@
 #include "mesh/hexahedron.hpp"
 #include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
+#include "model/non_reflecting.hpp"
+#include "model/ties.hpp"
 #include "solve/stages.hpp"
 
 namespace railwave {
@@ -53,6 +55,8 @@ std::vector<double> relaxation_masses(const Model& model) {
     mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share[i]) * (k[0] + k[1] + k[2]);
   }
   for (int n : assembly.point_nodes) mass[n] = 1e300;  // held
+  mass = masses_with_ties(model, std::move(mass));
+  for (int n : model.ends.nodes) mass[n] = 1e300;
   return mass;
 }
 
@@ -154,6 +158,7 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     model.step = report.steps;
     for (const Stage& stage : stages) stage.run(instant);
     Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
+    if (model.ties.arrays.active()) follow_ties(model, instant.step, false);
     if (report.steps % steps_between_peaks == 0) {
       double energy = 0;
       block_sum(RelaxationEnergy{update}, model.nodes.count, &energy);
@@ -170,6 +175,7 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
+  hold_ends(model, update.unbalanced);
   return report;
 }
 

@@ -93,7 +93,7 @@ using RowRange = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 /// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
 Stage set_load_stage(Model& model) {
   const bool sets = model.sets.moving > 0, many = model.extra.loaded_count > most_rows_of_a_team;
-  std::string name = "gather of loads";
+  std::string name = model.extra.contribution_count > 0 ? "gather of loads" : "clearing of loads";
   if (model.torques.count > 0) name = "torques, " + name;
   if (model.connectors.arrays.count > 0) name = "connectors, " + name;
   return {name, [&model, sets, many](const Instant& instant) {
@@ -103,6 +103,25 @@ Stage set_load_stage(Model& model) {
             if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), set_loads(model, instant));
             if (!sets || many)
               Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
+          }};
+}
+
+/// After all other forces on their nodes.
+Stage non_reflecting_stage(Model& model) {
+  return {"non-reflecting ends", [&model](const Instant& instant) {
+            if (instant.settling) return;
+            NonReflectingForce force{model.ends.arrays, model.paced_acceleration(), model.velocity_lag, instant.elapsed};
+            force.acceleration.phase = model.subcycling.phase(model.step);
+            Kokkos::parallel_for("non_reflecting", Range(0, model.ends.arrays.count), force);
+          }};
+}
+
+/// Forces on the slaves' nodes go to their masters.
+Stage tie_stage(Model& model) {
+  return {"ties", [&model](const Instant&) {
+            const TieArrays& ties = model.ties.arrays;
+            Kokkos::parallel_for("tie_force", Range(0, ties.slave_count), TieForce{ties, model.acceleration().force});
+            Kokkos::parallel_for("tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
           }};
 }
 
@@ -154,6 +173,13 @@ void advance_carried(const Model& model, double step) {
 
 }  // namespace
 
+void follow_ties(const Model& model, double step, bool carried) {
+  const TieFollow follow{model.ties.arrays, model.nodes, step};
+  const Range slaves(0, model.ties.arrays.slave_count);
+  if (carried) Kokkos::parallel_for("ties", slaves, CarriedTieFollow{follow, carried_advance(model, {}, step).nodes, model.ties.carrier});
+  else Kokkos::parallel_for("ties", slaves, follow);
+}
+
 std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages;
   if (model.carried.active()) stages.push_back(carrier_stage(model));
@@ -170,6 +196,8 @@ std::vector<Stage> force_stages(Model& model) {
   // No patch moves nodes of damped elements by itself.
   for (const ElementGroup& group : model.elements)
     if (group.damping.active()) stages.push_back(damping_stage(model, group));
+  if (model.ties.arrays.active()) stages.push_back(tie_stage(model));
+  if (model.ends.arrays.count > 0) stages.push_back(non_reflecting_stage(model));
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
     stages.push_back(multiplier_stage(model));
   return stages;
@@ -187,6 +215,7 @@ void advance(Model& model, double step) {
                                           row_loads(model, model.rows_elapsed), model.rows_are_due});
   else
     Kokkos::parallel_for("node_update", RowRange(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
+  if (model.ties.arrays.active()) follow_ties(model, step, model.carried.active());
   model.patches_have_advanced = model.rows_are_due = false;
   ++model.step;
   model.velocity_lag = 0.5 * step;

@@ -29,6 +29,9 @@ struct Stage {
 /// The model must outlive the list.
 std::vector<Stage> force_stages(Model& model);
 
+/// Brings tied nodes after their masters; `step` as of Instant.
+void follow_ties(const Model& model, double step, bool carried);
+
 /// Accelerations, constraints, velocities and positions: from the present instant to the next.
 void advance(Model& model, double step);
 

@@ -176,6 +176,14 @@ velocity = [1, 2, 3]
 angular_velocity = [4, 5, 6]
 centre = [7, 8, 9]
 
+[non_reflecting.far]
+target = "wheel.x_max"
+
+[ties.zone]
+slave = "wheel.tread"
+master = "wheel.rim"
+max_distance = 2e-4
+
 [settle]
 tolerance = 1e-4
 max_steps = 5e3
@@ -352,6 +360,12 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.initial_motions[0].velocity == Vec3{1, 2, 3});
   CHECK(scene.initial_motions[0].angular_velocity == Vec3{4, 5, 6});
   CHECK(scene.initial_motions[0].centre == Vec3{7, 8, 9});
+  REQUIRE(scene.non_reflecting.size() == 1);
+  CHECK(scene.non_reflecting[0].target == "wheel.x_max");
+  REQUIRE(scene.ties.size() == 1);
+  CHECK(scene.ties[0].slave == "wheel.tread");
+  CHECK(scene.ties[0].master == "wheel.rim");
+  CHECK(scene.ties[0].max_distance == 2e-4);
 
   CHECK(scene.settle.active);
   CHECK(scene.settle.tolerance == 1e-4);

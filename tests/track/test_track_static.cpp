@@ -26,9 +26,9 @@ scene::Scene loaded_track(const std::string& load_place, double force) {
 start = -2.4
 end = 2.4
 first_sleeper = -2.1
-zone_size = 0.01
-zone_start = -0.03
-zone_end = 0.03
+zone_size = 0.007
+zone_start = -0.028
+zone_end = 0.028
 zone_layers = 1
 coarse_size = 0.05
 core_size = 0.06

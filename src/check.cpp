@@ -31,6 +31,16 @@ double part_mass(const Model& model, const Assembly::PartRange& part) {
   return mass;
 }
 
+/// The first part after `first` that isn't the same mesh of the same material: a track's sleepers are told once.
+std::size_t first_unlike(const scene::Scene& scene, std::size_t first) {
+  const scene::Part& one = scene.parts[first];
+  std::size_t next = first + 1;
+  while (next < scene.parts.size() && scene.parts[next].mesh == one.mesh && scene.parts[next].material == one.material &&
+         scene.parts[next].element_set == one.element_set)
+    ++next;
+  return next;
+}
+
 std::string indented(const std::string& text) {
   std::string result, line;
   std::istringstream lines(text);
@@ -50,13 +60,20 @@ void describe_step(const Model& model, std::ostream& out) {
 void describe_run(Model& model, std::ostream& out) {
   if (!model.scene.title.empty()) out << model.scene.title << '\n';
   out << "Parts\n";
-  for (const auto& part : model.assembly.parts) {
+  for (std::size_t p = 0; p < model.assembly.parts.size();) {
+    const auto& part = model.assembly.parts[p];
     const scene::Material& material = model.scene.materials[part.material];
-    out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", part.name, part.element_count, part.node_count,
+    const std::size_t next = first_unlike(model.scene, p);
+    const std::string name = next == p + 1 ? part.name
+                                           : fmt::format("{} to {}, {} alike, each", part.name, model.assembly.parts[next - 1].name, next - p);
+    out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", name, part.element_count, part.node_count,
                        part_mass(model, part), material.name);
     out << indented(describe(mesh_quality(mesh_of(model.assembly, part), material.dilatational_speed())));
+    p = next;
   }
   out << fmt::format("  in all: {} elements, {} nodes\n", model.element_count(), model.node_count());
+  if (!model.scene.connectors.empty())
+    out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,

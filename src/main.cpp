@@ -7,8 +7,10 @@
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
 #include "check.hpp"
+#include "output/model_file.hpp"
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
+#include "output/results_writer.hpp"
 #include "post/contact_command.hpp"
 #include "solve/time_loop.hpp"
 
@@ -22,6 +24,7 @@ struct Arguments {
   std::string case_file, topic;
   std::vector<std::string> overrides;
   ContactRequest contact;
+  std::string mesh_file = "mesh.h5";
   bool markdown = false, schema = false;
 };
 
@@ -53,6 +56,17 @@ int check_case(const Arguments& arguments) {
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
   describe_run(model, std::cout);
+  return done;
+}
+
+int write_mesh(const Arguments& arguments) {
+  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const Kokkos::ScopeGuard kokkos;
+  Model model;
+  build_model(scene, model);
+  write_model_file(model, arguments.mesh_file);
+  std::cout << arguments.mesh_file << " and " << xdmf_path(arguments.mesh_file) << ": " << model.element_count() << " elements of "
+            << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots\n";
   return done;
 }
 
@@ -95,6 +109,10 @@ int dispatch(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
   add_case(check_command);
   check_command->callback([&] { code = check_case(arguments); });
+  CLI::App* mesh = app.add_subcommand("mesh", "write a case's model for ParaView: parts, sets, stable steps, connectors");
+  add_case(mesh);
+  mesh->add_option("--out", arguments.mesh_file, "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default mesh.h5");
+  mesh->callback([&] { code = write_mesh(arguments); });
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
   add_contact_options(contact, arguments.contact);
   contact->callback([&] { code = contact_command(arguments.contact, std::cout); });

@@ -36,6 +36,9 @@ struct Written {
   std::string operator()(const Flags3&) const { return "[]"; }
   std::string operator()(const Texts&) const { return "[]"; }
   std::string operator()(const Pairs&) const { return "[]"; }
+  std::string operator()(const Numbers&) const { return "[]"; }
+  std::string operator()(const Integers2& pair) const { return fmt::format("[{}, {}]", pair[0], pair[1]); }
+  std::string operator()(const Corners& box) const { return fmt::format("[{}, {}]", written(box[0]), written(box[1])); }
 };
 
 }  // namespace
@@ -96,6 +99,12 @@ std::string expectation(const Key& key, bool with_unit) {
                                   : "a list of texts";
     case Kind::pairs:
       return "a list of pairs [[time, value], ...]";
+    case Kind::numbers:
+      return "a list of numbers" + unit;
+    case Kind::integer_pair:
+      return "two whole numbers";
+    case Kind::box:
+      return "a box [[x, y, z], [x, y, z]], lowest corner first" + unit;
   }
   return "";
 }

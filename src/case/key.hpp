@@ -47,6 +47,7 @@ enum Reference : unsigned {
   node_set = 1u << 6,     ///< `part.set`
   surface = 1u << 7,      ///< `part.set`
   element_set = 1u << 8,  ///< `part.set`
+  sleeper = 1u << 9,
   any_set = node_set | surface | element_set,
 };
 
@@ -123,6 +124,12 @@ template <>
 struct AsValue<Texts> : Same<Texts, Kind::texts> {};
 template <>
 struct AsValue<Pairs> : Same<Pairs, Kind::pairs> {};
+template <>
+struct AsValue<Numbers> : Same<Numbers, Kind::numbers> {};
+template <>
+struct AsValue<Integers2> : Same<Integers2, Kind::integer_pair> {};
+template <>
+struct AsValue<Corners> : Same<Corners, Kind::box> {};
 
 template <class T>
 struct AsValue<std::optional<T>> {

@@ -32,6 +32,10 @@ Section material_section();  // keys_bodies.cpp
 Section part_section();
 Section point_section();
 
+Section node_set_section();  // keys_track.cpp
+Section sleeper_section();
+Section track_section();
+
 Section curve_section();  // keys_actions.cpp
 Section load_section();
 Section connector_section();

@@ -10,7 +10,7 @@ Section connector_section() {
   using scene::Connector;
   auto section =
       named_section("connectors", "connector", &Scene::connectors,
-                    "Linear springs and dashpots side by side, between the mean motions of two node sets or points.");
+                    "Linear springs and dashpots side by side, between the mean motions of two node sets or points, or spread over an area.");
   section.keys = {
       key("from", &Connector::from, "one end").names(node_set | point | ground).needed(),
       key("to", &Connector::to, "the other end").names(node_set | point | ground).needed(),
@@ -18,6 +18,13 @@ Section connector_section() {
       key("damping", &Connector::damping, "dashpot coefficient along each of the axes").in("N s/m").within(at_least(0)),
       key("preload", &Connector::preload, "force on `to` when nothing has moved yet, along the axes").in("N"),
       key("axes", &Connector::axes, "the three directions, each a unit vector"),
+      key("spread", &Connector::spread,
+          "cells along the first and the second of the axes, over the area in which the ends face each other along the third; the ends "
+          "are surfaces then (or ground), stiffness, damping and preload are totals of which each cell has an equal share, between the "
+          "means over the cell of both surfaces' motions, so that rotations are resisted too")
+          .within(between(1, 1000))
+          .otherwise("one, between the mean motions by mass of the ends"),
+      key("area", &Connector::area, "bounds of that area").in("m").otherwise("where the ends overlap"),
   };
   section.rule = check_connector;
   return section;

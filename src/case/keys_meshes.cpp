@@ -1,4 +1,5 @@
 #include "case/keys.hpp"
+#include "case/keys_rail.hpp"
 #include "case/rules.hpp"
 
 // The meshes: each type has its own keys.
@@ -9,7 +10,6 @@ using scene::CrownedBlockMesh;
 using scene::CylinderMesh;
 using scene::FileMesh;
 using scene::MeshSource;
-using scene::RailMesh;
 using scene::RollerMesh;
 using scene::WheelMesh;
 
@@ -57,31 +57,6 @@ std::vector<Key> wheel_keys() {
       length("core_size", &Wheel::core_size, "largest element size below the tread, as an arc at the tread"),
       length("section_size", &Wheel::section_size, "largest element size across the tread"),
       any("web_columns", &Wheel::web_columns, "elements through the web's thickness").within(between(1, 9)),
-  };
-}
-
-std::vector<Key> rail_keys() {
-  using Rail = RailMesh;
-  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::rail, field, help); };
-  const auto position = [=](auto name, auto field, auto help) { return any(name, field, help).in("m"); };
-  const auto length = [=](auto name, auto field, auto help) { return position(name, field, help).within(above(0)); };
-  return {
-      any("section", &Rail::section, "rail section").one_of({"54E1", "60E1"}),
-      any("inclination", &Rail::inclination, "slope towards -y, the track's centre; 0.025 is 1:40")
-          .within(between(-0.2, 0.2)),
-      position("start", &Rail::start, "x of the rail's beginning"),
-      position("end", &Rail::end, "x of the rail's end"),
-      length("zone_size", &Rail::zone_size, "element size in the solution zone"),
-      position("zone_start", &Rail::zone_start, "x where the solution zone begins"),
-      position("zone_end", &Rail::zone_end, "x where the solution zone ends"),
-      position("zone_centre", &Rail::zone_centre, "y of the contact band's middle"),
-      length("zone_width", &Rail::zone_width, "width of the contact band"),
-      any("zone_layers", &Rail::zone_layers, "layers of zone_size below the running surface").within(between(1, 20)),
-      any("growth", &Rail::growth, "largest ratio of neighbouring element sizes").within(above_up_to(1, 3)),
-      length("coarse_size", &Rail::coarse_size, "largest element size along the head's surface, far from the zone"),
-      length("core_size", &Rail::core_size, "largest element size along the rail, below the head's surface"),
-      length("section_size", &Rail::section_size, "largest element size across the head's surface"),
-      any("web_columns", &Rail::web_columns, "elements through the web's thickness").within(between(1, 9)),
   };
 }
 
@@ -167,7 +142,7 @@ Section mesh_section() {
   section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder"}).needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys());
-  section.add_keys("rail", rail_keys());
+  section.add_keys("rail", rail_keys(&MeshSource::rail));
   section.add_keys("file", file_keys());
   section.add_keys("crowned_block", crowned_block_keys());
   section.add_keys("roller", roller_keys());

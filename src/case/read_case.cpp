@@ -4,6 +4,7 @@
 #include <set>
 
 #include "case/document.hpp"
+#include "case/expand_tracks.hpp"
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
 #include "case/read_entry.hpp"
@@ -96,6 +97,7 @@ void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
   for (const auto& section : sections()) {
     if (!section.required || !reading.complete || meant.count(section.name) != 0) continue;
     const auto* node = root.find(section.name);
+    if (section.name == "parts" && !scene.tracks.empty()) continue;
     if (node && (!section.named() || !node->children.empty())) continue;
     std::string needed;
     for (const auto& key : section.keys) {
@@ -119,6 +121,9 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   Reading reading{
       complaints, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
   read_sections(document.root, scene, reading);
+  // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
+  if (complaints.empty()) expand_tracks(scene, complaints);
+  else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
   if (document.complete) {
     check_references(reading.names, scene, reading.unsure, complaints);
     check_scene(scene, complaints);

@@ -42,6 +42,12 @@ class Reader {
         return texts(node);
       case Kind::pairs:
         return pairs(node);
+      case Kind::numbers:
+        return numbers(node);
+      case Kind::integer_pair:
+        return integer_pair(node);
+      case Kind::box:
+        return box(node);
     }
     return std::nullopt;
   }
@@ -59,7 +65,8 @@ class Reader {
 
   std::nullopt_t wrong(const Node& node) const {
     const bool short_list = node.type == Node::Type::list &&
-                            (key_.kind == Kind::vector || key_.kind == Kind::integer_vector || key_.kind == Kind::axes);
+                            (key_.kind == Kind::vector || key_.kind == Kind::integer_vector || key_.kind == Kind::axes ||
+                             key_.kind == Kind::integer_pair || key_.kind == Kind::box);
     const auto is = short_list
                         ? fmt::format("has {} value{}", node.children.size(), node.children.size() == 1 ? "" : "s")
                         : "is " + node.described();
@@ -150,6 +157,35 @@ class Reader {
       good = good && one;
     }
     return good ? std::optional<Value>(result) : std::nullopt;
+  }
+
+  std::optional<Value> integer_pair(const Node& node) const {
+    if (node.type != Node::Type::list || node.children.size() != 2) return wrong(node);
+    const auto first = integer(node.children[0], "the first"), second = integer(node.children[1], "the second");
+    return first && second ? std::optional<Value>(Integers2{*first, *second}) : std::nullopt;
+  }
+
+  std::optional<Value> box(const Node& node) const {
+    if (node.type != Node::Type::list || node.children.size() != 2) return wrong(node);
+    const auto low = components(node.children[0], "lowest "), high = components(node.children[1], "highest ");
+    if (!low || !high) return std::nullopt;
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((*low)[i] > (*high)[i])
+        return bad(node, fmt::format("begins at {} = {} and ends at {}; the first corner is the lowest in all directions",
+                                     "xyz"[i], (*low)[i], (*high)[i]));
+    return Corners{*low, *high};
+  }
+
+  std::optional<Value> numbers(const Node& node) const {
+    if (node.type != Node::Type::list) return wrong(node);
+    if (node.children.empty()) return bad(node, "is empty, must be " + expectation(key_));
+    Numbers result;
+    for (std::size_t i = 0; i < node.children.size(); ++i) {
+      const auto one = number(node.children[i], fmt::format("entry {}", i + 1));
+      if (!one) return std::nullopt;
+      result.push_back(*one);
+    }
+    return result;
   }
 
   std::optional<Value> axes(const Node& node) const {

@@ -72,11 +72,31 @@ end = 1e-3
 |---|---|---|---|
 | `box` | `x_min`, `x_max`, `y_min`, `y_max`, `z_min`, `z_max` | the same six | |
 | `wheel` | `bore`, `centre_section` | `tread`, `running_surface` | `zone` |
-| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `start_face`, `end_face` | `zone` |
+| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `start_face`, `end_face` | `zone` |
 
 `tread` and `head` are where bodies usually touch: the contact band over the solution zone, and a margin around it.
 `running_surface` goes all along the wheel or rail; `zone` is the solution zone; `centre_section` is the wheel's plane x = 0
-below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names.
+below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names. `[node_sets.NAME]` makes
+more of them, of the nodes in a box. A surface is a set of its nodes too.
+
+## A track
+
+`[tracks.NAME]` makes half a track on sleepers; what it makes has names, and the case goes on with them:
+
+```toml
+[tracks.track]
+start = -5                           # x of the rail's ends
+end = 5
+pair_position = 0                    # two timber sleepers 0.24 m apart, concrete ones every 0.6 m beside them
+
+[node_sets.struck]                   # a place of the rail, as track_rail.struck
+part = "track_rail"
+surface = "running_surface"
+box = [[-0.01, -0.02, 0], [0.01, 0.02, 1]]
+
+[output]
+history_sets = ["track_rail.struck", "track_sleeper_9.z_max"]
+```
 
 # Sections and keys
 

@@ -65,6 +65,12 @@ Members value_schema(const Key& key) {
       return list_of(text_schema(key), least, "");
     case Kind::pairs:
       return list_of(list_of({{"type", json::text("number")}}, "2", "2"), "1", "");
+    case Kind::numbers:
+      return list_of(ranged("number", key.range), "1", "");
+    case Kind::integer_pair:
+      return list_of(ranged("integer", key.range), "2", "2");
+    case Kind::box:
+      return list_of(numbers, "2", "2");
   }
   return {};
 }

@@ -46,6 +46,14 @@ std::string missing(const std::string& what, const std::string& section, const s
   return said + "; " + suggestion(name, candidates);
 }
 
+/// Those of the case, and those that are there without a section.
+std::vector<std::string> sleeper_names(const scene::Scene& scene) {
+  auto names = names_of(scene.sleepers);
+  for (const char* name : {"concrete", "timber"})
+    if (!has(names, name)) names.emplace_back(name);
+  return names;
+}
+
 class Names {
  public:
   explicit Names(const scene::Scene& scene)
@@ -53,7 +61,8 @@ class Names {
                   {mesh, "mesh", "meshes", names_of(scene.meshes)},
                   {curve, "curve", "curves", names_of(scene.curves)},
                   {whole_part, "part", "parts", names_of(scene.parts)},
-                  {point, "point mass", "points", names_of(scene.points)}},
+                  {point, "point mass", "points", names_of(scene.points)},
+                  {sleeper, "kind of sleeper", "sleepers", sleeper_names(scene)}},
         parts_(names_of(scene.parts)),
         points_(names_of(scene.points)) {}
 
@@ -124,6 +133,7 @@ std::string reference_text(unsigned refers_to) {
   if (refers_to & mesh) kinds.push_back("a mesh");
   if (refers_to & curve) kinds.push_back("a curve");
   if (refers_to & whole_part) kinds.push_back("a part");
+  if (refers_to & sleeper) kinds.push_back("a kind of sleeper");
   if (refers_to & any_set)
     kinds.push_back((refers_to & element_set ? "an " : "a ") + set_kind(refers_to) + " 'part.set'");
   if (refers_to & point) kinds.push_back("a point mass");
@@ -140,6 +150,9 @@ unsigned references_to(const std::string& section) {
   if (section == "curves") return curve;
   if (section == "parts") return whole_part | any_set;
   if (section == "points") return point;
+  if (section == "sleepers") return sleeper;
+  // Parts and their sets come from tracks too.
+  if (section == "tracks" || section == "node_sets") return whole_part | any_set;
   return refers_to_nothing;
 }
 

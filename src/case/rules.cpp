@@ -1,4 +1,5 @@
 #include "case/rules.hpp"
+#include "case/rules_rail.hpp"
 
 #include <fmt/format.h>
 
@@ -71,11 +72,17 @@ void check_wheel(const scene::WheelMesh& wheel, EntryCheck& check) {
   }
 }
 
+std::string part_of(const std::string& set) { return set.substr(0, set.find('.')); }
+
+}  // namespace
+
 void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
   ascending(check, {{"start", rail.start}, {"end", rail.end}});
   ascending(check, {{"zone_start", rail.zone_start}, {"zone_end", rail.zone_end}});
   at_most(check, {"zone_size", rail.zone_size}, {"zone_width", rail.zone_width});
   at_most(check, {"zone_size", rail.zone_size}, {"coarse_size", rail.coarse_size});
+  if (check.given("height_map_depth") && !check.given("height_map"))
+    check.complain("height_map_depth", "has no effect without height_map; give that too, or leave height_map_depth out");
   if (!check.sound({"start", "end"})) return;
   for (const auto& end : {Named{"zone_start", rail.zone_start}, Named{"zone_end", rail.zone_end}}) {
     if (!check.sound({end.key}) || (end.value >= rail.start && end.value <= rail.end)) continue;
@@ -83,10 +90,6 @@ void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
                                         rail.start, rail.end));
   }
 }
-
-std::string part_of(const std::string& set) { return set.substr(0, set.find('.')); }
-
-}  // namespace
 
 void check_material(void* entry, EntryCheck& check) {
   const auto& material = *static_cast<scene::Material*>(entry);
@@ -118,6 +121,8 @@ void check_part(void* entry, EntryCheck& check) {
 
 void check_connector(void* entry, EntryCheck& check) {
   const auto& connector = *static_cast<scene::Connector*>(entry);
+  if (check.given("area") && !check.given("spread"))
+    check.complain("area", "has no effect without spread; give that too, such as [3, 3], or leave area out");
   if (check.sound({"from", "to"}) && connector.from == connector.to) {
     check.complain("to", fmt::format("is '{}' like `from`; the two ends must differ", connector.to));
   }

@@ -12,6 +12,7 @@
 namespace railwave::scene {
 
 using Vec3 = std::array<double, 3>;
+using Box = std::array<Vec3, 2>;  ///< lowest and highest corner
 
 /// Where an entry stands, for errors found after reading.
 struct Place {
@@ -95,6 +96,8 @@ struct RailMesh {
   double section_size = 0.006;     ///< largest element size across the head's surface
   int zone_layers = 3;             ///< layers of zone_size below the running surface
   int web_columns = 3;             ///< elements through the web's thickness
+  std::string height_map;          ///< CSV of x, y, dz on the running surface, see mesh/height_map.hpp; empty: nominal
+  double height_map_depth = 0.015; ///< m below the surface at which nodes stay where they are
 };
 
 struct FileMesh {
@@ -181,6 +184,13 @@ struct Part : Place {
   }
 };
 
+/// Nodes of a part picked by where they are, as `part.NAME`.
+struct NodeSet : Place {
+  std::string part;
+  std::string surface;             ///< of the part; empty: any node
+  Box box{};                       ///< m, of the scene, before close_gap
+};
+
 enum class CurveType { constant, cosine_ramp, table };
 
 struct Curve : Place {
@@ -216,6 +226,8 @@ struct Connector : Place {
   Vec3 damping{0, 0, 0};           ///< N s/m
   Vec3 preload{0, 0, 0};           ///< force on `to` at zero relative displacement, N
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  std::array<int, 2> spread{0, 0}; ///< cells along axes[0] and axes[1] of an area shared by two facing surfaces; 0: not spread
+  std::optional<Box> area;         ///< m, bounds of that area; absent: where the ends overlap
 };
 
 struct Constraint : Place {
@@ -312,12 +324,46 @@ struct Output {
   double progress_interval = 5;    ///< wall seconds between progress lines
 };
 
+/// What is under the rail at one place: half a sleeper, its fastening and its ballast. Absent: as `base` has it.
+struct Sleeper : Place {
+  enum class Base { concrete, timber };
+  Base base = Base::concrete;
+  std::string material;                       ///< empty: that of the base
+  std::optional<double> half_length, width, height;  ///< m: across the track from its centre, along it, up
+  std::optional<std::array<int, 3>> divisions;       ///< elements along x, y, z
+  std::optional<double> pad_thickness, pad_length;   ///< m: gap between foot and sleeper, extent along the rail
+  std::optional<Vec3> fastening_stiffness, fastening_damping;  ///< N/m, N s/m along x, y, z
+  std::optional<double> ballast_stiffness, ballast_damping;    ///< vertical, N/m, N s/m
+  std::array<int, 2> fastening_spread{3, 3}, ballast_spread{2, 6};
+};
+
+/// Half a track, generated: see case/expand_tracks.hpp for what it becomes.
+struct Track : Place {
+  RailMesh rail;
+  std::string rail_material;                  ///< empty: elastic rail steel of its own
+  Vec3 position{0, 0, 0};
+  double rail_distance = 0.755;               ///< m, from the track's centre plane to the middle of the rail's foot
+  std::string sleeper = "concrete";
+  double pitch = 0.6;                         ///< m
+  std::optional<double> first_sleeper;        ///< x of the first regular one; absent: half a pitch from the rail's start
+  std::vector<double> positions;              ///< x of the regular ones instead
+  std::string other_sleeper = "timber";
+  std::vector<double> other_positions;
+  std::optional<double> pair_position;        ///< x of the middle of a pair of other sleepers
+  double pair_distance = 0.24;                ///< m
+  std::optional<double> gap_position;         ///< x of the middle of the gap between two rails
+  double gap = 0.006;                         ///< m
+};
+
 struct Scene {
   std::string title;
   std::string path;                ///< of the case file
   std::vector<Material> materials;
   std::vector<MeshSource> meshes;
   std::vector<Part> parts;
+  std::vector<NodeSet> node_sets;
+  std::vector<Sleeper> sleepers;
+  std::vector<Track> tracks;
   std::vector<Curve> curves;
   std::vector<PointMass> points;
   std::vector<Load> loads;

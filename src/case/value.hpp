@@ -10,9 +10,12 @@ namespace railwave::case_file {
 
 using Numbers3 = std::array<double, 3>;
 using Integers3 = std::array<int, 3>;
+using Integers2 = std::array<int, 2>;
+using Corners = std::array<Numbers3, 2>;
 using Axes = std::array<Numbers3, 3>;
 using Flags3 = std::array<bool, 3>;
 using Texts = std::vector<std::string>;
+using Numbers = std::vector<double>;
 using Pairs = std::vector<std::array<double, 2>>;
 
 /// A choice of an enum: its position in the key's list of choices.
@@ -33,10 +36,13 @@ enum class Kind {
   axes,
   directions,
   texts,
-  pairs
+  pairs,
+  numbers,
+  integer_pair,
+  box
 };
 
 using Value = std::variant<std::monostate, bool, int, double, std::string, Choice, Numbers3, Integers3, Axes, Flags3,
-                           Texts, Pairs>;
+                           Texts, Pairs, Numbers, Integers2, Corners>;
 
 }  // namespace railwave::case_file

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "case/error.hpp"
 #include "mesh/extrusion.hpp"
 #include "mesh/grading.hpp"
+#include "mesh/height_map.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/rail_section.hpp"
 
@@ -77,13 +79,20 @@ Mesh rail_mesh(const scene::MeshSource& source) {
     if (extrusion.station[n] == 0) start.push_back(n);
     if (extrusion.station[n] == last) end.push_back(n);
   }
-  auto& start_face = mesh.surfaces["start_face"];
+  const auto& foot = mesh.node_sets["foot"];
+  std::vector<char> on_foot(mesh.nodes.size(), 0);
+  for (int n : foot) on_foot[n] = 1;
+  const auto at_station = [&](int n, int station) { return extrusion.section_node[n] >= 0 && extrusion.station[n] == station; };
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
     for (int side = 0; side < 6; ++side) {
-      bool on = true;
-      for (int node : mesh.face_nodes({e, side})) on = on && extrusion.section_node[node] >= 0 && extrusion.station[node] == 0;
-      if (on) start_face.push_back({e, side});
+      const auto nodes = mesh.face_nodes({e, side});
+      const auto all = [&](const auto& holds) { return std::all_of(nodes.begin(), nodes.end(), holds); };
+      if (all([&](int n) { return at_station(n, 0); })) mesh.surfaces["start_face"].push_back({e, side});
+      if (all([&](int n) { return at_station(n, last); })) mesh.surfaces["end_face"].push_back({e, side});
+      if (all([&](int n) { return on_foot[n] != 0; })) mesh.surfaces["foot"].push_back({e, side});
     }
+  if (!r.height_map.empty())
+    apply_height_map(HeightMap(r.height_map), r.height_map_depth, mesh.surfaces["running_surface"], place_of(source), mesh);
   return std::move(extrusion.mesh);
 }
 

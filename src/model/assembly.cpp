@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "model/place_sets.hpp"
 
 namespace railwave {
 namespace {
@@ -191,6 +192,7 @@ Assembly assemble(const scene::Scene& scene) {
     assembly.node_sets[point.name] = {assembly.point_nodes.back()};
     assembly.nodes.push_back(point.position);
   }
+  add_node_sets(scene, assembly);
   for (const scene::Contact& contact : scene.contacts)
     if (contact.close_gap) close_gap(scene, contact, assembly);
   return assembly;

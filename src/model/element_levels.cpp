@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <limits>
 
 #include "model/build_steps.hpp"
@@ -19,6 +20,14 @@ constexpr double deadens_at_once = 2.4;
 /// Less is not worth smaller launches.
 constexpr double least_gain = 1.1;
 
+/// Each once: the connectors' step counts all of them together.
+std::set<int> pulled_nodes(const std::vector<ConnectorCell>& cells) {
+  std::set<int> nodes;
+  for (const ConnectorCell& cell : cells)
+    for (const WeightedNodes* end : {&cell.from, &cell.to}) nodes.insert(end->nodes.begin(), end->nodes.end());
+  return nodes;
+}
+
 /// By element, what its own stable step would be.
 class OwnSteps {
  public:
@@ -26,10 +35,7 @@ class OwnSteps {
     for (const ContactPair& pair : model.contacts) add_contact(pair);
     const double connector = model.stable_step.connector;
     if (connector > 0 && std::isfinite(connector))
-      for (const scene::Connector& c : model.scene.connectors)
-        for (const std::string& end : {c.from, c.to})
-          if (end != "ground")
-            for (int n : model.assembly.node_sets.at(end)) at_node_[n] += 4 / (connector * connector);
+      for (int n : pulled_nodes(model.connectors.cells)) at_node_[n] += 4 / (connector * connector);
   }
 
   /// The square of a sum's highest frequency is at most the sum of the squares.
@@ -105,6 +111,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   model.assembly = assembly;
   build_elements(model);
   build_contacts(model);
+  model.connectors.cells = connector_cells(scene, assembly, model.mass);
   build_stable_step(model);
 
   auto steps = OwnSteps(model).steps();

@@ -15,7 +15,8 @@ namespace {
 struct Collector {
   Model& model;
   std::vector<std::vector<int>> sets;
-  std::vector<std::string> set_names;
+  std::vector<std::vector<double>> set_weights;
+  std::vector<std::string> set_names;  ///< empty: weights of its own, which nobody else can mean
   std::vector<int> contribution_node;
   std::vector<Vec3> torque_axis;
   std::vector<int> torque_set;
@@ -32,8 +33,21 @@ struct Collector {
     if (name == "ground") return -1;
     const auto known = std::find(set_names.begin(), set_names.end(), name);
     if (known != set_names.end()) return static_cast<int>(known - set_names.begin());
-    sets.push_back(find_node_set(model.scene, model.assembly, entry, key, name));
-    set_names.push_back(name);
+    const auto& nodes = find_node_set(model.scene, model.assembly, entry, key, name);
+    return add({nodes, weights(nodes), name});
+  }
+
+  /// An end of a connector; -1: the ground.
+  int set(const WeightedNodes& end) {
+    if (end.ground()) return -1;
+    const auto known = std::find(set_names.begin(), set_names.end(), end.set);
+    return !end.set.empty() && known != set_names.end() ? static_cast<int>(known - set_names.begin()) : add(end);
+  }
+
+  int add(const WeightedNodes& end) {
+    sets.push_back(end.nodes);
+    set_weights.push_back(end.weight);
+    set_names.push_back(end.set);
     return static_cast<int>(sets.size()) - 1;
   }
 
@@ -100,44 +114,30 @@ void build_load(Collector& collector, const scene::Load& load) {
   model.loads.push_back(arrays);
 }
 
-Vec3 mean_place(const Collector& collector, int set) {
-  Vec3 mean{0, 0, 0};
-  if (set < 0) return mean;
-  const auto& nodes = collector.sets[set];
-  const auto weight = collector.weights(nodes);
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < 3; ++i) mean[i] += weight[k] * collector.model.assembly.nodes[nodes[k]][i];
-  return mean;
-}
-
 void build_connectors(Collector& collector) {
   Model& model = collector.model;
-  const auto& connectors = model.scene.connectors;
+  const auto& nodes = model.assembly.nodes;
   ConnectorStage& stage = model.connectors;
-  const int count = static_cast<int>(connectors.size());
+  stage.cells = connector_cells(model.scene, model.assembly, model.mass);
+  const int count = static_cast<int>(stage.cells.size());
   std::vector<std::array<int, 2>> ends;
   std::vector<Vec3> rest, stiffness, damping, preload;
-  std::vector<int> connector;
-  std::vector<double> share;
   stage.first = collector.contributions();
   for (int c = 0; c < count; ++c) {
-    const int from = collector.set(connectors[c], "from", connectors[c].from);
-    const int to = collector.set(connectors[c], "to", connectors[c].to);
-    ends.push_back({from, to});
-    const Vec3 a = mean_place(collector, from), b = mean_place(collector, to);
+    const ConnectorCell& cell = stage.cells[c];
+    const scene::Connector& connector = model.scene.connectors[cell.connector];
+    ends.push_back({collector.set(cell.from), collector.set(cell.to)});
+    const Vec3 a = mean_place(cell.from, nodes), b = mean_place(cell.to, nodes);
     rest.push_back({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
-    stiffness.push_back(connectors[c].stiffness);
-    damping.push_back(connectors[c].damping);
-    preload.push_back(connectors[c].preload);
-    for (const auto& [set, sign] : {std::pair{from, -1.0}, std::pair{to, 1.0}}) {
-      if (set < 0) continue;
-      const auto weight = collector.weights(collector.sets[set]);
-      for (std::size_t k = 0; k < weight.size(); ++k) {
-        collector.contribution_node.push_back(collector.sets[set][k]);
-        connector.push_back(c);
-        share.push_back(sign * weight[k]);
+    stiffness.push_back(scaled(cell.share, connector.stiffness));
+    damping.push_back(scaled(cell.share, connector.damping));
+    preload.push_back(scaled(cell.share, connector.preload));
+    for (const auto& [end, sign] : {std::pair{&cell.from, -1.0}, std::pair{&cell.to, 1.0}})
+      for (std::size_t k = 0; k < end->nodes.size(); ++k) {
+        collector.contribution_node.push_back(end->nodes[k]);
+        stage.cell.push_back(c);
+        stage.share.push_back(sign * end->weight[k]);
       }
-    }
   }
   ConnectorArrays& arrays = stage.arrays;
   arrays.count = count;
@@ -150,12 +150,10 @@ void build_connectors(Collector& collector) {
   const auto axes = Kokkos::create_mirror_view(arrays.axes);
   for (int c = 0; c < count; ++c)
     for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 3; ++i) axes(c, a, i) = connectors[c].axes[a][i];
+      for (int i = 0; i < 3; ++i) axes(c, a, i) = model.scene.connectors[stage.cells[c].connector].axes[a][i];
   Kokkos::deep_copy(arrays.axes, axes);
   arrays.force = Array<double* [3]>("connector force", count);
   arrays.energy = Array<double* [2]>("connector energy", count);
-  stage.connector = connector;
-  stage.share = share;
 }
 
 /// @param moving sets that connectors and torques need; histories need the rest
@@ -164,7 +162,7 @@ void build_sets(const Collector& collector, int moving) {
   std::vector<SetChunk> chunks;
   std::vector<double> weight;
   for (std::size_t s = 0; s < collector.sets.size(); ++s) {
-    const auto own = collector.weights(collector.sets[s]);
+    const auto& own = collector.set_weights[s];
     const int begin = first.back(), end = begin + static_cast<int>(own.size());
     nodes.insert(nodes.end(), collector.sets[s].begin(), collector.sets[s].end());
     weight.insert(weight.end(), own.begin(), own.end());
@@ -200,13 +198,13 @@ std::vector<RowShare> contribution_shares(const Collector& collector) {
   const Model& model = collector.model;
   std::vector<RowShare> shares(collector.contribution_node.size());
   for (std::size_t c = 0; c < shares.size(); ++c) shares[c] = {static_cast<int>(c), RowShare::given, 1};
-  for (std::size_t i = 0; i < model.connectors.connector.size(); ++i) {
-    shares[model.connectors.first + i].law = model.connectors.connector[i];
+  for (std::size_t i = 0; i < model.connectors.cell.size(); ++i) {
+    shares[model.connectors.first + i].law = model.connectors.cell[i];
     shares[model.connectors.first + i].weight = model.connectors.share[i];
   }
   for (const LoadArrays& load : model.loads) {
     if (load.torque < 0) continue;
-    const auto weight = collector.weights(collector.sets[load.set]);
+    const auto& weight = collector.set_weights[load.set];
     for (int k = 0; k < load.count; ++k) {
       shares[load.first + k].law = model.connectors.arrays.count + load.torque;
       shares[load.first + k].weight = weight[k];
@@ -290,7 +288,7 @@ void build_extra(const Collector& collector) {
 }  // namespace
 
 void build_loads(Model& model) {
-  Collector collector{model, {}, {}, {}, {}, {}};
+  Collector collector{model, {}, {}, {}, {}, {}, {}};
   for (const scene::Load& load : model.scene.loads) build_load(collector, load);
   build_connectors(collector);
   const int moving = static_cast<int>(collector.sets.size());

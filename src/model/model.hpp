@@ -17,6 +17,7 @@
 #include "kernels/set_loads.hpp"
 #include "kernels/tie.hpp"
 #include "model/assembly.hpp"
+#include "model/connector_cells.hpp"
 #include "model/patches.hpp"
 #include "model/subcycling.hpp"
 
@@ -95,9 +96,10 @@ struct LoadArrays {
 
 /// Connectors of a scene, with the contributions by which their ends feel them.
 struct ConnectorStage {
+  std::vector<ConnectorCell> cells;     ///< one for each of the arrays' entries
   ConnectorArrays arrays;
   int first = 0;                        ///< contribution
-  std::vector<int> connector;           ///< of each contribution
+  std::vector<int> cell;                ///< of each contribution
   std::vector<double> share;            ///< weight, negative at `from`
 };
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <tuple>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/connector_step.hpp"
 #include "model/contact_springs.hpp"
 #include "model/element_frequency.hpp"
 #include "model/global_step.hpp"
@@ -129,37 +129,6 @@ double damped_step(double stiffness, double damping, const StepAt& step_at) {
   return step;
 }
 
-/// Mass of a connector's end, infinite for the ground. The end's nodes move together only in the mean, but the lightest
-/// pattern that stretches the connector is theirs alone, so the elements beyond are not counted.
-double end_mass(const Model& model, const std::string& end) {
-  if (end == "ground") return std::numeric_limits<double>::infinity();
-  double mass = 0;
-  for (int n : model.assembly.node_sets.at(end)) mass += model.mass[n];
-  return mass;
-}
-
-/// 2/step of the connectors alone, 1/s. Springs k and dashpots c on the reduced masses m of their ends make omega^2 = k/m
-/// and omega zeta = c/2m, and a stable step 2/omega (sqrt(1 + zeta^2) - zeta); connectors that share an end add up.
-double connector_frequency(const Model& model) {
-  struct Sum {
-    double squared = 0, half_rate = 0;
-  };
-  std::map<std::string, Sum> at_end;
-  for (const scene::Connector& connector : model.scene.connectors) {
-    const double inverse = 1 / end_mass(model, connector.from) + 1 / end_mass(model, connector.to);
-    for (const std::string& end : {connector.from, connector.to}) {
-      Sum& sum = at_end[end];
-      sum.squared += inverse * *std::max_element(connector.stiffness.begin(), connector.stiffness.end());
-      sum.half_rate += 0.5 * inverse * *std::max_element(connector.damping.begin(), connector.damping.end());
-    }
-  }
-  double largest = 0;
-  for (const auto& [end, sum] : at_end)
-    if (end != "ground")
-      largest = std::fmax(largest, std::sqrt(sum.squared + sum.half_rate * sum.half_rate) + sum.half_rate);
-  return largest;
-}
-
 /// @param step_at stable step of springs of a stiffness on a node
 template <class StepAt>
 double contacts_step(const ContactOnNodes& contact, const StepAt& step_at) {
@@ -200,7 +169,7 @@ void estimate_by_elements(Model& model) {
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
   if (!model.scene.connectors.empty()) {
-    const double frequency = connector_frequency(model);
+    const double frequency = connector_frequency(model.scene, model.connectors.cells, model.mass);
     stable.connector = frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
     stable.by_elements = together(stable.by_elements, frequency);
     stable.by_eigenvalues = together(stable.by_eigenvalues, frequency);

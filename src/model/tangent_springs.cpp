@@ -13,25 +13,21 @@ void SpringCollector::close(const Vec3& direction, double stiffness, double damp
   damping_.push_back(damping);
 }
 
-void SpringCollector::add_end(const std::string& end, double sign) {
-  if (end == "ground") return;
-  const auto& nodes = model_.assembly.node_sets.at(end);
-  double total = 0;
-  for (int n : nodes) total += model_.mass[n];
-  for (int n : nodes) {
-    node_.push_back(n);
-    weight_.push_back(sign * model_.mass[n] / total);
-  }
+void SpringCollector::add_end(const WeightedNodes& end, double sign) {
+  node_.insert(node_.end(), end.nodes.begin(), end.nodes.end());
+  for (double weight : end.weight) weight_.push_back(sign * weight);
 }
 
 void SpringCollector::add_connectors() {
-  for (const scene::Connector& connector : model_.scene.connectors)
+  for (const ConnectorCell& cell : model_.connectors.cells) {
+    const scene::Connector& connector = model_.scene.connectors[cell.connector];
     for (int a = 0; a < 3; ++a) {
       if (connector.stiffness[a] == 0 && connector.damping[a] == 0) continue;
-      add_end(connector.from, -1);
-      add_end(connector.to, 1);
-      close(connector.axes[a], connector.stiffness[a], connector.damping[a]);
+      add_end(cell.from, -1);
+      add_end(cell.to, 1);
+      close(connector.axes[a], cell.share * connector.stiffness[a], cell.share * connector.damping[a]);
     }
+  }
 }
 
 void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, bool friction) {

@@ -21,7 +21,7 @@ class SpringCollector {
   TangentSprings on_device() const;
 
  private:
-  void add_end(const std::string& end, double sign);
+  void add_end(const WeightedNodes& end, double sign);
   void close(const Vec3& direction, double stiffness, double damping);
 
   const Model& model_;

@@ -47,12 +47,13 @@ std::vector<double> relaxation_masses(const Model& model) {
     const double crowd = std::max(1.0, static_cast<double>(pair.slave_nodes.size()) / pair.master_nodes.size());
     for (int n : pair.master_nodes) mass[n] += spring_share * stiffest * crowd;
   }
-  const auto& connector = model.connectors.connector;
+  const auto& cell = model.connectors.cell;
   const auto& share = model.connectors.share;
   const auto contribution_node = to_host(model.extra.contribution_node);
-  for (std::size_t i = 0; i < connector.size(); ++i) {
-    const Vec3& k = model.scene.connectors[connector[i]].stiffness;
-    mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share[i]) * (k[0] + k[1] + k[2]);
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const ConnectorCell& own = model.connectors.cells[cell[i]];
+    const Vec3& k = model.scene.connectors[own.connector].stiffness;
+    mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share[i]) * own.share * (k[0] + k[1] + k[2]);
   }
   for (int n : assembly.point_nodes) mass[n] = 1e300;  // held
   mass = masses_with_ties(model, std::move(mass));

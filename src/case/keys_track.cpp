@@ -1,0 +1,93 @@
+#include "case/keys.hpp"
+#include "case/keys_rail.hpp"
+#include "case/rules.hpp"
+
+// What a track is made of: sets by place, sleepers with their fastening and ballast, and the track itself.
+namespace railwave::case_file {
+
+using scene::Scene;
+
+Section node_set_section() {
+  using scene::NodeSet;
+  auto section = named_section("node_sets", "node set", &Scene::node_sets,
+                               "Nodes of a part picked by where they are; the set is `part.NAME`, with the part given here.");
+  section.keys = {
+      key("part", &NodeSet::part, "whose nodes").names(whole_part).needed(),
+      key("box", &NodeSet::box, "where they are, in the scene's axes with the part at its `position`, before any `close_gap`; the sides count as inside").in("m").needed(),
+      key("surface", &NodeSet::surface,
+          "only nodes of this surface of the part, such as z_max; its faces with all four nodes in the box are a surface of the set's "
+          "name too")
+          .otherwise("nodes inside count too"),
+  };
+  return section;
+}
+
+Section sleeper_section() {
+  using scene::Sleeper;
+  auto section = named_section(
+      "sleepers", "kind of sleeper", &Scene::sleepers,
+      "Kinds of sleepers for tracks, each with its fastening and ballast. The kinds `concrete` and `timber` are there without a section, "
+      "as below; materials, stiffness and damping are those of the thesis's table 4.1, dimensions and longitudinal values are not in it and are ours. "
+      "A sleeper is half of one, from the track's centre plane outwards.");
+  const auto length = [](auto name, auto field, auto help) { return key(name, field, help).in("m").within(above(0)); };
+  section.keys = {
+      key("base", &Sleeper::base, "what all that isn't given here is taken from").one_of({"concrete", "timber"}).otherwise("concrete; of the kind timber, timber"),
+      key("material", &Sleeper::material, "its material").names(material).otherwise(
+          "concrete: E 38.4 GPa, nu 0.2, 2520 kg/m3; timber: E 20 GPa, nu 0.3, 1300 kg/m3"),
+      length("half_length", &Sleeper::half_length, "from the track's centre plane outwards").otherwise("concrete 1.26, timber 1.3"),
+      length("width", &Sleeper::width, "along the track").otherwise("0.25"),
+      length("height", &Sleeper::height, "from underside to top").otherwise("concrete 0.18, timber 0.15"),
+      key("divisions", &Sleeper::divisions, "elements along x, y, z").within(between(1, 1000)).otherwise("[3, 14, 2]"),
+      length("pad_thickness", &Sleeper::pad_thickness, "from the sleeper's top to the middle of the rail's foot").otherwise("0.007"),
+      length("pad_length", &Sleeper::pad_length, "of the fastening's area along the rail; across it is as wide as the foot").otherwise("0.16"),
+      key("fastening_stiffness", &Sleeper::fastening_stiffness, "between foot and sleeper, along x, y, z, in all")
+          .in("N/m")
+          .within(at_least(0))
+          .otherwise("concrete [100e6, 100e6, 195e6], timber [150e6, 150e6, 86.7e6]"),
+      key("fastening_damping", &Sleeper::fastening_damping, "the same of dashpots")
+          .in("N s/m")
+          .within(at_least(0))
+          .otherwise("concrete [40e3, 40e3, 67.5e3], timber [40e3, 40e3, 45e3]"),
+      key("fastening_spread", &Sleeper::fastening_spread, "cells along and across the rail over which it is spread").within(between(1, 100)),
+      key("ballast_stiffness", &Sleeper::ballast_stiffness, "vertical, under the half sleeper in all").in("N/m").within(above(0)).otherwise("45e6"),
+      key("ballast_damping", &Sleeper::ballast_damping, "the same of dashpots").in("N s/m").within(at_least(0)).otherwise("32e3"),
+      key("ballast_spread", &Sleeper::ballast_spread, "cells along and across the track over which it is spread").within(between(1, 100)),
+  };
+  section.rule = check_sleeper;
+  return section;
+}
+
+Section track_section() {
+  using scene::Track;
+  auto section = named_section(
+      "tracks", "track", &Scene::tracks,
+      "Half a track: a rail on sleepers, symmetric about the track's centre plane. It becomes parts `NAME_rail` (and `NAME_rail_2` behind a gap), "
+      "`NAME_sleeper_1`, `NAME_sleeper_2` and so on along x, connectors `NAME_fastening_1` ... between rail and sleeper and `NAME_ballast_1` ... between ground "
+      "and sleeper, and constraints: undersides held along x, the centre plane along y; thus the sleeper bends as a whole one. Sets are those of meshes `rail` and `box`.");
+  section.keys = {
+      key("rail_material", &Track::rail_material, "the rail's material").names(material).otherwise("elastic: E 210 GPa, nu 0.3, 7800 kg/m3"),
+      key("position", &Track::position, "where the track's own origin is put: z = 0 is the middle of the rail's foot").in("m"),
+      key("rail_distance", &Track::rail_distance,
+          "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y unless the inclination is negative")
+          .in("m")
+          .within(above(0)),
+      key("sleeper", &Track::sleeper, "kind of the regular sleepers").names(sleeper),
+      key("pitch", &Track::pitch, "distance of regular sleepers").in("m").within(above(0)),
+      key("first_sleeper", &Track::first_sleeper, "x of the first of them").in("m").otherwise("half a pitch from the rail's start"),
+      key("positions", &Track::positions, "x of each of them, instead of pitch and first_sleeper").in("m").otherwise("by pitch"),
+      key("other_sleeper", &Track::other_sleeper, "kind of the other sleepers: at a joint").names(sleeper),
+      key("other_positions", &Track::other_positions, "x of each of them").in("m").otherwise("none"),
+      key("pair_position", &Track::pair_position, "x of the middle of a pair of other sleepers; the regular ones go on by pitch from both").in("m").otherwise("no pair"),
+      key("pair_distance", &Track::pair_distance, "distance of the two").in("m").within(above(0)),
+      key("gap_position", &Track::gap_position, "x of the middle of a gap, at which one rail ends and another begins, both free").in("m").otherwise("one rail"),
+      key("gap", &Track::gap, "its width").in("m").within(above(0)),
+  };
+  for (auto& one : rail_keys(&Track::rail)) {
+    const bool length = one.name == "start" || one.name == "end";
+    section.keys.push_back(length ? std::move(one).needed() : std::move(one));
+  }
+  section.rule = check_track;
+  return section;
+}
+
+}  // namespace railwave::case_file

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/expand_tracks.hpp"
+#include "case/rules.hpp"
+#include "case/rules_rail.hpp"
+
+namespace railwave::case_file {
+
+void check_sleeper(void* entry, EntryCheck& check) {
+  auto& kind = *static_cast<scene::Sleeper*>(entry);
+  // A section that changes the timber sleeper is not based on the concrete one.
+  if (!check.given("base") && kind.name == "timber") kind.base = scene::Sleeper::Base::timber;
+  if (!check.sound({"width", "pad_length"}) || !kind.width || !kind.pad_length || *kind.pad_length <= *kind.width) return;
+  check.complain("pad_length", fmt::format("is {}, must be at most width ({})", *kind.pad_length, *kind.width));
+}
+
+namespace {
+
+void check_sleepers_of(const scene::Track& track, EntryCheck& check) {
+  for (const char* key : {"pitch", "first_sleeper"})
+    if (check.given(key) && check.given("positions")) check.complain(key, "has no effect beside positions; leave one of them out");
+  if (!check.given("pair_position")) {
+    if (check.given("pair_distance")) check.complain("pair_distance", "has no effect without pair_position; give that too, or leave pair_distance out");
+  } else if (check.given("first_sleeper")) {
+    check.complain("first_sleeper", "has no effect beside pair_position, from which the regular sleepers go on; leave one of them out");
+  } else if (check.given("positions")) {
+    check.complain("pair_position", "has no place among given positions; give other_positions instead");
+  }
+  if (!check.sound({"start", "end", "positions", "other_positions", "pair_position", "pitch"})) return;
+  for (const auto* places : {&track.positions, &track.other_positions})
+    for (double x : *places)
+      if (x < track.rail.start || x > track.rail.end)
+        check.complain(places == &track.positions ? "positions" : "other_positions",
+                       fmt::format("has {}, must be under the rail, from start = {} to end = {}", x, track.rail.start, track.rail.end));
+  constexpr double least_distance = 0.2;
+  const auto places = sleeper_places(track);
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    if (places[k].x - places[k - 1].x >= least_distance) continue;
+    check.complain(check.given("other_positions") ? "other_positions" : check.given("positions") ? "positions" : "pitch",
+                   fmt::format("puts sleepers at x = {:.6g} and {:.6g}, which are less than {} m apart", places[k - 1].x, places[k].x, least_distance));
+    return;
+  }
+}
+
+void check_gap(const scene::Track& track, EntryCheck& check) {
+  if (!check.given("gap_position")) {
+    if (check.given("gap")) check.complain("gap", "has no effect without gap_position; give that too, or leave gap out");
+    return;
+  }
+  if (!check.sound({"gap", "gap_position", "zone_start", "zone_end", "zone_size"})) return;
+  const double first = *track.gap_position - 0.5 * track.gap, last = *track.gap_position + 0.5 * track.gap;
+  if (!(track.rail.zone_start + track.rail.zone_size <= first && track.rail.zone_end - track.rail.zone_size >= last))
+    check.complain("gap_position", fmt::format("makes a gap from {} to {}, which must lie within the solution zone, from zone_start = {} to zone_end = {}",
+                                               first, last, track.rail.zone_start, track.rail.zone_end));
+}
+
+}  // namespace
+
+void check_track(void* entry, EntryCheck& check) {
+  const auto& track = *static_cast<scene::Track*>(entry);
+  check_rail(track.rail, check);
+  check_sleepers_of(track, check);
+  check_gap(track, check);
+}
+
+}  // namespace railwave::case_file

@@ -1,0 +1,204 @@
+#include "output/model_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "model/stable_step.hpp"
+#include "output/atomic_file.hpp"
+#include "output/hdf5.hpp"
+#include "output/results_writer.hpp"
+
+namespace railwave {
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
+  return result;
+}
+
+/// A grid's name for ParaView.
+std::string shown(const std::string& parent, const std::string& name) {
+  return parent.empty() || parent == "/parts" ? name : parent.substr(1) + " " + name;
+}
+
+/// One grid: a group of the HDF5 file and the XDMF text that names its arrays.
+class GridWriter {
+ public:
+  /// @param corners of a cell; 1: points
+  GridWriter(const hdf5::Group& parent, const std::string& parent_path, const std::string& name, const std::string& file, int corners)
+      : group_(parent.create_group(name)), path_(file + ":" + escaped(parent_path + "/" + name) + "/"), corners_(corners) {
+    text_ = fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(shown(parent_path, name)));
+  }
+
+  void cells(const std::vector<Vec3>& nodes, std::vector<int> connectivity) {
+    std::vector<double> flat;
+    for (const Vec3& x : nodes) flat.insert(flat.end(), x.begin(), x.end());
+    group_.write("coordinates", flat, {nodes.size(), 3});
+    count_ = connectivity.size() / corners_;
+    group_.write("connectivity", connectivity, {count_, static_cast<hsize_t>(corners_)});
+    const char* type = corners_ == 8 ? "Hexahedron" : corners_ == 4 ? "Quadrilateral" : corners_ == 2 ? "Polyline" : "Polyvertex";
+    text_ += fmt::format("    <Topology TopologyType=\"{}\" NodesPerElement=\"{}\" NumberOfElements=\"{}\">\n", type, corners_, count_) +
+             item("connectivity", fmt::format("{} {}", count_, corners_), "Int", 4) + "    </Topology>\n    <Geometry GeometryType=\"XYZ\">\n" +
+             item("coordinates", fmt::format("{} 3", nodes.size()), "Float", 8) + "    </Geometry>\n";
+  }
+
+  template <class Number>
+  void values(const std::string& name, const std::vector<Number>& by_cell) {
+    group_.write(name, by_cell, {by_cell.size()});
+    const bool whole = std::is_same_v<Number, int>;
+    text_ += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">\n", name) +
+             item(name, fmt::format("{}", by_cell.size()), whole ? "Int" : "Float", whole ? 4 : 8) + "    </Attribute>\n";
+  }
+
+  std::string text() const { return text_ + "   </Grid>\n"; }
+
+ private:
+  std::string item(const std::string& name, const std::string& shape, const char* number, int bytes) const {
+    return fmt::format("     <DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"{}\" Dimensions=\"{}\">{}{}</DataItem>\n", number, bytes, shape,
+                       path_, name);
+  }
+
+  hdf5::Group group_;
+  std::string path_;
+  int corners_;
+  hsize_t count_ = 0;
+  std::string text_;
+};
+
+/// Cells that use some of the model's nodes, with a numbering of their own.
+struct Piece {
+  std::vector<Vec3> nodes;
+  std::vector<int> connectivity;
+
+  Piece(const std::vector<Vec3>& all, const std::vector<int>& corners) {
+    std::vector<int> used = corners;
+    std::sort(used.begin(), used.end());
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (int n : used) nodes.push_back(all[n]);
+    for (int n : corners) connectivity.push_back(static_cast<int>(std::lower_bound(used.begin(), used.end(), n) - used.begin()));
+  }
+};
+
+class ModelFileWriter {
+ public:
+  ModelFileWriter(const Model& model, const std::string& path)
+      : model_(model), file_(hdf5::File::create(path)), name_(escaped(std::filesystem::path(path).filename().string())) {
+    write_parts();
+    write_sets();
+    write_connectors();
+    write_names();
+    file_.close();
+  }
+
+  const std::string& grids() const { return grids_; }
+
+ private:
+  void write_parts() {
+    const hdf5::Group group = file_.root().create_group("parts");
+    const auto steps = own_steps(model_);
+    const double least = steps.empty() ? 1 : *std::min_element(steps.begin(), steps.end());
+    for (std::size_t p = 0; p < model_.assembly.parts.size(); ++p) {
+      const auto& part = model_.assembly.parts[p];
+      std::vector<int> corners;
+      std::vector<double> step, ratio;
+      for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
+        corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
+        step.push_back(steps[e]);
+        ratio.push_back(steps[e] / least);
+      }
+      const Piece piece(model_.assembly.nodes, corners);
+      GridWriter grid(group, "/parts", part.name, name_, 8);
+      grid.cells(piece.nodes, piece.connectivity);
+      grid.values("part", std::vector<int>(step.size(), static_cast<int>(p)));
+      grid.values("material", std::vector<int>(step.size(), part.material));
+      grid.values("stable_step", step);
+      grid.values("step_ratio", ratio);
+      grids_ += grid.text();
+    }
+  }
+
+  void write_sets() {
+    const hdf5::Group surfaces = file_.root().create_group("surfaces"), sets = file_.root().create_group("node_sets");
+    for (const auto& [name, faces] : model_.assembly.surfaces) {
+      std::vector<int> corners;
+      for (const Face& face : faces)
+        for (int n : model_.assembly.face_nodes(face)) corners.push_back(n);
+      if (!corners.empty()) write_piece(surfaces, "/surfaces", name, corners, 4);
+    }
+    for (const auto& [name, nodes] : model_.assembly.node_sets) {
+      const bool whole = name.find('.') == std::string::npos;
+      if (!whole && !nodes.empty() && model_.assembly.surfaces.count(name) == 0) write_piece(sets, "/node_sets", name, nodes, 1);
+    }
+  }
+
+  void write_piece(const hdf5::Group& group, const std::string& path, const std::string& name, const std::vector<int>& corners, int count) {
+    const Piece piece(model_.assembly.nodes, corners);
+    GridWriter grid(group, path, name, name_, count);
+    grid.cells(piece.nodes, piece.connectivity);
+    grids_ += grid.text();
+  }
+
+  void write_connectors() {
+    const auto& cells = model_.connectors.cells;
+    if (cells.empty()) return;
+    std::vector<Vec3> places;
+    std::vector<int> lines, number;
+    std::vector<double> stiffness, damping;
+    for (const ConnectorCell& cell : cells) {
+      const scene::Connector& connector = model_.scene.connectors[cell.connector];
+      Vec3 from = mean_place(cell.from, model_.assembly.nodes), to = mean_place(cell.to, model_.assembly.nodes);
+      const auto stiffest = std::max_element(connector.stiffness.begin(), connector.stiffness.end()) - connector.stiffness.begin();
+      constexpr double length = 0.1;
+      for (int i = 0; i < 3; ++i) {
+        if (cell.from.ground()) from[i] = to[i] - length * connector.axes[stiffest][i];
+        if (cell.to.ground()) to[i] = from[i] - length * connector.axes[stiffest][i];
+      }
+      for (const Vec3& place : {from, to}) {
+        lines.push_back(static_cast<int>(places.size()));
+        places.push_back(place);
+      }
+      number.push_back(cell.connector);
+      stiffness.push_back(cell.share * *std::max_element(connector.stiffness.begin(), connector.stiffness.end()));
+      damping.push_back(cell.share * *std::max_element(connector.damping.begin(), connector.damping.end()));
+    }
+    GridWriter grid(file_.root(), "", "connectors", name_, 2);
+    grid.cells(places, lines);
+    grid.values("connector", number);
+    grid.values("stiffness", stiffness);
+    grid.values("damping", damping);
+    grids_ += grid.text();
+  }
+
+  void write_names() {
+    const hdf5::Group root = file_.root();
+    const auto names = [](const auto& entries) {
+      std::vector<std::string> result;
+      for (const auto& entry : entries) result.push_back(entry.name);
+      return result;
+    };
+    root.set_attribute("title", model_.scene.title);
+    root.set_attribute("part_names", names(model_.scene.parts));
+    root.set_attribute("material_names", names(model_.scene.materials));
+    if (!model_.scene.connectors.empty()) root.set_attribute("connector_names", names(model_.scene.connectors));
+  }
+
+  const Model& model_;
+  hdf5::File file_;
+  std::string name_, grids_;
+};
+
+}  // namespace
+
+void write_model_file(const Model& model, const std::string& path) {
+  check_results_place(path);
+  const ModelFileWriter writer(model, path);
+  write_whole_file(xdmf_path(path), "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n <Domain>\n"
+                                    "  <Grid Name=\"model\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
+                                        writer.grids() + "  </Grid>\n </Domain>\n</Xdmf>\n");
+}
+
+}  // namespace railwave

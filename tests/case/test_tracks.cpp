@@ -1,0 +1,112 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <cmath>
+
+#include "case/expand_tracks.hpp"
+#include "tests/case/temporary_case.hpp"
+
+using namespace railwave;
+using namespace railwave::test;
+using Catch::Matchers::WithinAbs;
+
+namespace {
+
+std::string track_case(const std::string& keys) {
+  return "[tracks.track]\nstart = -3\nend = 3\n" + keys + "\n[time]\nend = 1e-3\n";
+}
+
+template <class Entry>
+const Entry& named(const std::vector<Entry>& entries, const std::string& name) {
+  for (const auto& entry : entries)
+    if (entry.name == name) return entry;
+  throw std::runtime_error("there is no " + name);
+}
+
+std::vector<double> places_of(const std::string& keys) {
+  TemporaryCase file(track_case(keys));
+  const auto scene = read_case(file.path());
+  std::vector<double> places;
+  for (const auto& part : scene.parts)
+    if (part.name.find("_sleeper_") != std::string::npos) places.push_back(part.position[0]);
+  return places;
+}
+
+void check_places(const std::vector<double>& places, const std::vector<double>& expected) {
+  REQUIRE(places.size() == expected.size());
+  for (std::size_t k = 0; k < places.size(); ++k) CHECK_THAT(places[k], WithinAbs(expected[k], 1e-12));
+}
+
+}  // namespace
+
+TEST_CASE("a track is a rail on concrete sleepers of table 4.1, half a pitch from its ends", "[case]") {
+  TemporaryCase file(track_case(""));
+  const auto scene = read_case(file.path());
+  REQUIRE(scene.parts.size() == 11);
+  CHECK(scene.parts[0].name == "track_rail");
+  check_places(places_of(""), {-2.7, -2.1, -1.5, -0.9, -0.3, 0.3, 0.9, 1.5, 2.1, 2.7});
+  const auto& concrete = named(scene.materials, "track_concrete");
+  CHECK(concrete.youngs_modulus == 38.4e9);
+  CHECK(concrete.poissons_ratio == 0.2);
+  CHECK(concrete.density == 2520);
+  CHECK(named(scene.materials, "track_steel").youngs_modulus == 210e9);
+  const auto& box = named(scene.meshes, "track_concrete").box;
+  CHECK_THAT(box.origin[1], WithinAbs(-0.755, 1e-12));
+  CHECK_THAT(box.origin[2] + box.size[2], WithinAbs(-0.007, 1e-12));
+  REQUIRE(scene.connectors.size() == 20);
+  const auto& fastening = named(scene.connectors, "track_fastening_10");
+  CHECK(fastening.from == "track_sleeper_10.z_max");
+  CHECK(fastening.to == "track_rail.foot");
+  CHECK(fastening.stiffness == scene::Vec3{100e6, 100e6, 195e6});
+  CHECK(fastening.damping == scene::Vec3{40e3, 40e3, 67.5e3});
+  CHECK_THAT((*fastening.area)[0][0], WithinAbs(2.7 - 0.08, 1e-12));
+  const auto& ballast = named(scene.connectors, "track_ballast_1");
+  CHECK(ballast.from == "ground");
+  CHECK(ballast.stiffness == scene::Vec3{0, 0, 45e6});
+  CHECK(ballast.damping == scene::Vec3{0, 0, 32e3});
+  CHECK(named(scene.constraints, "track_centre_3").target == "track_sleeper_3.y_min");
+}
+
+TEST_CASE("two timber sleepers stand 0.24 m apart at a joint, and regular ones go on from them", "[case]") {
+  const std::string joint = "pair_position = 0.06\ngap_position = 0.06\nzone_end = 0.2\n";
+  check_places(places_of(joint), {-2.46, -1.86, -1.26, -0.66, -0.06, 0.18, 0.78, 1.38, 1.98, 2.58});
+  TemporaryCase file(track_case(joint));
+  const auto scene = read_case(file.path());
+  CHECK(named(scene.parts, "track_sleeper_5").mesh == "track_timber");
+  CHECK(named(scene.parts, "track_sleeper_6").material == "track_timber");
+  CHECK(named(scene.parts, "track_sleeper_7").material == "track_concrete");
+  CHECK(named(scene.materials, "track_timber").density == 1300);
+  CHECK(named(scene.connectors, "track_fastening_5").to == "track_rail.foot");
+  CHECK(named(scene.connectors, "track_fastening_6").to == "track_rail_2.foot");
+  CHECK(named(scene.connectors, "track_fastening_6").stiffness == scene::Vec3{150e6, 150e6, 86.7e6});
+  CHECK_THAT(named(scene.meshes, "track_rail").rail.end, WithinAbs(0.057, 1e-12));
+  CHECK_THAT(named(scene.meshes, "track_rail").rail.zone_end, WithinAbs(0.057, 1e-12));
+  CHECK_THAT(named(scene.meshes, "track_rail_2").rail.start, WithinAbs(0.063, 1e-12));
+  CHECK(named(scene.meshes, "track_rail_2").rail.zone_end == 0.2);
+}
+
+TEST_CASE("sleepers stand where the case puts them, of the kinds that it names", "[case]") {
+  TemporaryCase file("[sleepers.twin]\nbase = \"concrete\"\nhalf_length = 0.84\nballast_stiffness = 30e6\nmaterial = \"hard\"\n"
+                     "[materials.hard]\nyoungs_modulus = 40e9\npoissons_ratio = 0.2\ndensity = 2400\n" +
+                     track_case("sleeper = \"twin\"\npositions = [1.2, -1, 0.1]\nother_positions = [2]\ninclination = -0.025\nposition = [10, 0, 0]"));
+  const auto scene = read_case(file.path());
+  CHECK_THAT(named(scene.parts, "track_sleeper_1").position[0], WithinAbs(9, 1e-12));
+  CHECK(named(scene.parts, "track_sleeper_3").material == "hard");
+  CHECK(named(scene.parts, "track_sleeper_4").material == "track_timber");
+  CHECK(named(scene.connectors, "track_ballast_1").stiffness[2] == 30e6);
+  CHECK(named(scene.connectors, "track_ballast_4").stiffness[2] == 45e6);
+  // The rail leans towards +y: there is the track's centre.
+  CHECK_THAT(named(scene.meshes, "track_twin").box.origin[1], WithinAbs(0.755 - 0.84, 1e-12));
+  CHECK(named(scene.constraints, "track_centre_1").target == "track_sleeper_1.y_max");
+  CHECK_THAT((*named(scene.connectors, "track_fastening_1").area)[1][0], WithinAbs(9.08, 1e-12));
+}
+
+TEST_CASE("names that a track makes can be used, and may not be taken", "[case]") {
+  const std::string load = "[loads.weight]\ntype = \"nodal_force\"\ntarget = \"track_rail.end\"\nforce = [0, 0, -1]\n"
+                           "[node_sets.seat]\npart = \"track_sleeper_2\"\nsurface = \"z_max\"\nbox = [[-9, -0.1, -9], [9, 0.1, 9]]\n";
+  TemporaryCase good(load + track_case(""));
+  CHECK(mistakes_of(good.path()).empty());
+  TemporaryCase taken("[parts.track_sleeper_2]\nmesh = \"track_concrete\"\nmaterial = \"track_concrete\"\n" + track_case(""));
+  CHECK(mistakes_of(taken.path()).find("[tracks.track]: makes [parts.track_sleeper_2], which is there already (line 1); rename one") != std::string::npos);
+  TemporaryCase lost(track_case("first_sleeper = 20"));
+  CHECK(mistakes_of(lost.path()).find("[tracks.track]: has no sleeper under its rail") != std::string::npos);
+}

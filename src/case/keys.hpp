@@ -32,6 +32,8 @@ Section material_section();  // keys_bodies.cpp
 Section part_section();
 Section point_section();
 
+Section beam_section();  // keys_beams.cpp
+
 Section curve_section();  // keys_actions.cpp
 Section load_section();
 Section connector_section();

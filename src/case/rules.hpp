@@ -23,6 +23,8 @@ class EntryCheck {
 void check_material(void* entry, EntryCheck& check);
 void check_mesh(void* entry, EntryCheck& check);
 void check_part(void* entry, EntryCheck& check);
+void check_beam(void* entry, EntryCheck& check);
+void check_constraint(void* entry, EntryCheck& check);
 void check_connector(void* entry, EntryCheck& check);
 void check_contact(void* entry, EntryCheck& check);
 void check_curve(void* entry, EntryCheck& check);

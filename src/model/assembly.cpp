@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "model/beams.hpp"
 
 namespace railwave {
 namespace {
@@ -193,6 +194,7 @@ Assembly assemble(const scene::Scene& scene) {
   }
   for (const scene::Contact& contact : scene.contacts)
     if (contact.close_gap) close_gap(scene, contact, assembly);
+  lay_beams(scene, assembly);
   return assembly;
 }
 

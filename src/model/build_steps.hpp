@@ -10,6 +10,7 @@ void check_elements(const Model& model);  ///< element_groups.cpp: InputError fo
 void build_elements(Model& model);     ///< element_groups.cpp: patches, hourglass scales, lengths, masses
 void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
 void build_carried_nodes(Model& model);  ///< carriers.cpp: nodes in single precision
+void build_beams(Model& model);        ///< beams.cpp: sections, masses, rotations
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
 void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
 void build_contacts(Model& model);     ///< contact_pairs.cpp

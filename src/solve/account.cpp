@@ -10,6 +10,7 @@
 #include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
+#include "solve/beams.hpp"
 
 namespace railwave {
 namespace {
@@ -199,6 +200,7 @@ EnergyAccount account_energies(const Model& model, double step) {
     block_sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), sum, model.sum_space);
     energy.external_work += sum[0];
   }
+  if (model.beams) add_beam_energies(model, step, energy);
   const auto connectors = to_host(model.connectors.arrays.energy);
   for (int c = 0; c < model.connectors.arrays.count; ++c) {
     energy.connector += connectors(c, 0);
@@ -274,6 +276,7 @@ HistorySample take_sample(const Model& model, double step) {
   for (const ContactPair& pair : model.contacts)
     if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
+  if (model.beams) sample.beams = beam_resultants(model);
   return sample;
 }
 

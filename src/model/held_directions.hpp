@@ -1,0 +1,21 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "kernels/spaces.hpp"
+
+namespace railwave {
+
+/// Directions in which a node is held, orthonormal.
+using HeldDirections = std::vector<scene::Vec3>;
+
+/// Adds a direction, unless it lies in the span of those there are.
+void add_direction(HeldDirections& directions, scene::Vec3 direction);
+
+/// A projection I - sum d d^T for each different set of directions, and which one each node has.
+/// @param row_of_node set for the nodes in `held`, left as it is for others
+Array<double* [3][3]> projections(const std::map<int, HeldDirections>& held, std::vector<int>& row_of_node);
+
+}  // namespace railwave

@@ -72,7 +72,7 @@ TEST_CASE("a torque about a beam twists it by M L / (G J), a pull stretches it b
     Model model;
     settle_cantilever(scene, torque_on("tip", 500, axes[0]), model);
     CHECK_THAT(dot(rotation(model, "tip"), axes[0]), WithinRel(500 * length / twist, 1e-5));
-    CHECK_THAT(norm(displacement(model, "tip")), WithinAbs(0, 1e-12));
+    CHECK_THAT(norm(displacement(model, "tip")), WithinAbs(0, 1e-9 * length));
   }
   scene::Scene scene = beam_scene(length * axes[0], radius, 10, 1e-3);
   Model model;
@@ -81,7 +81,7 @@ TEST_CASE("a torque about a beam twists it by M L / (G J), a pull stretches it b
 }
 
 TEST_CASE("a rectangle bends along its height and across it, each with its own stiffness") {
-  const double width = 0.02, height = 0.05, force = 500;
+  const double width = 0.02, height = 0.05, force = 20;
   for (int direction : {1, 2}) {
     scene::Scene scene = beam_scene({length, 0, 0}, 0, 10, 1e-3);
     scene::Beam& beam = scene.beams.front();

@@ -36,6 +36,8 @@ Section node_set_section();  // keys_track.cpp
 Section sleeper_section();
 Section track_section();
 
+Section beam_section();  // keys_beams.cpp
+
 Section curve_section();  // keys_actions.cpp
 Section load_section();
 Section connector_section();

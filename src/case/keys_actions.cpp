@@ -33,12 +33,14 @@ Section connector_section() {
 Section constraint_section() {
   using scene::Constraint;
   auto section = named_section("constraints", "constraint", &Scene::constraints,
-                               "Directions in which the nodes of a set don't move.");
+                               "Directions in which the nodes of a set don't move or turn.");
   section.keys = {
       key("target", &Constraint::target, "what is held").names(node_set | point).needed(),
-      key("fixed", &Constraint::fixed, "held directions: along the first, second, third of the axes").needed(),
+      key("fixed", &Constraint::fixed, "held directions: along the first, second, third of the axes").otherwise("none"),
+      key("fixed_rotation", &Constraint::fixed_rotation, "axes about which nodes where beams end do not turn").otherwise("none"),
       key("axes", &Constraint::axes, "what x, y and z mean here: three unit vectors"),
   };
+  section.rule = check_constraint;
   return section;
 }
 
@@ -114,7 +116,7 @@ Section load_section() {
       key("type", &Load::type, "what acts").one_of({"nodal_force", "pressure", "traction", "torque"}).needed(),
       key("target", &Load::target, "what it acts on").names(node_set | point).needed().only({"nodal_force"}),
       key("target", &Load::target, "what it acts on").names(surface).needed().only({"pressure", "traction"}),
-      key("target", &Load::target, "what it acts on").names(node_set).needed().only({"torque"}),
+      key("target", &Load::target, "what it acts on").names(node_set | point).needed().only({"torque"}),
       key("force", &Load::force, "total force, shared among the nodes by their mass")
           .in("N")
           .needed()
@@ -128,7 +130,7 @@ Section load_section() {
           .needed()
           .only({"traction"}),
       key("moment", &Load::moment, "torque about the axis").in("N m").needed().only({"torque"}),
-      key("axis", &Load::axis, "its direction, through the set's moving centre of mass").direction().only({"torque"}),
+      key("axis", &Load::axis, "its direction, through the set's moving centre of mass; of a point where beams end: the axis about which that is turned").direction().only({"torque"}),
       key("curve", &Load::curve, "factor that changes with time").names(curve).otherwise("constant 1"),
   };
   return section;

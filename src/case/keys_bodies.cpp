@@ -72,7 +72,7 @@ Section point_section() {
   auto section =
       named_section("points", "point mass", &Scene::points, "Point masses, moved by connectors, loads and gravity.");
   section.keys = {
-      key("mass", &PointMass::mass, "mass").in("kg").within(above(0)).needed(),
+      key("mass", &PointMass::mass, "mass; may be 0 where beams end, which give it theirs").in("kg").within(at_least(0)).needed(),
       key("position", &PointMass::position, "where it is at the beginning").in("m"),
   };
   return section;

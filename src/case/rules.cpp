@@ -119,6 +119,26 @@ void check_part(void* entry, EntryCheck& check) {
   part.hourglass_coefficient = part.hourglass == scene::HourglassType::stiffness ? 0.05 : 0.1;
 }
 
+void check_beam(void* entry, EntryCheck& check) {
+  const auto& beam = *static_cast<scene::Beam*>(entry);
+  if (check.sound({"from", "to"}) && beam.from == beam.to) {
+    check.complain("to", fmt::format("is '{}' like `from`; the two ends must differ", beam.to));
+  }
+  if (!check.sound({"section"})) return;
+  const bool circle = beam.section == scene::BeamSection::circle;
+  const char* name = circle ? "circle" : "rectangle";
+  for (const char* key : {"radius", "width", "height"}) {
+    const bool belongs = circle == (key[0] == 'r');
+    if (belongs && !check.given(key)) check.complain(key, fmt::format("is missing; section = \"{}\" needs it", name));
+    if (!belongs && check.given(key)) check.complain(key, fmt::format("does not belong to section = \"{}\"; leave it out", name));
+  }
+}
+
+void check_constraint(void* /*entry*/, EntryCheck& check) {
+  if (check.given("fixed") || check.given("fixed_rotation")) return;
+  check.complain("fixed", "is missing; must be a list of 'x', 'y' and 'z', unless fixed_rotation is given");
+}
+
 void check_connector(void* entry, EntryCheck& check) {
   const auto& connector = *static_cast<scene::Connector*>(entry);
   if (check.given("area") && !check.given("spread"))

@@ -25,6 +25,8 @@ void check_mesh(void* entry, EntryCheck& check);
 void check_part(void* entry, EntryCheck& check);
 void check_sleeper(void* entry, EntryCheck& check);  // rules_track.cpp
 void check_track(void* entry, EntryCheck& check);
+void check_beam(void* entry, EntryCheck& check);
+void check_constraint(void* entry, EntryCheck& check);
 void check_connector(void* entry, EntryCheck& check);
 void check_contact(void* entry, EntryCheck& check);
 void check_curve(void* entry, EntryCheck& check);

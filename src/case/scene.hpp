@@ -201,7 +201,7 @@ struct Curve : Place {
 };
 
 struct PointMass : Place {
-  double mass = 0;                 ///< kg
+  double mass = 0;                 ///< kg; 0 only where beams end, which give it mass
   Vec3 position{0, 0, 0};
 };
 
@@ -209,7 +209,7 @@ enum class LoadType { nodal_force, pressure, traction, torque };
 
 struct Load : Place {
   LoadType type = LoadType::nodal_force;
-  std::string target;              ///< `part.node_set` or a point mass (nodal_force), `part.node_set` (torque), `part.surface` (pressure, traction)
+  std::string target;              ///< `part.node_set` or a point mass (nodal_force), `part.node_set` or a point where beams end (torque), `part.surface` (pressure, traction)
   Vec3 force{0, 0, 0};             ///< nodal_force: total, shared by mass over the set, N
   double pressure = 0;             ///< Pa, positive pushes into the body, follows the surface
   Vec3 traction{0, 0, 0};          ///< Pa, fixed direction and reference area
@@ -230,9 +230,27 @@ struct Connector : Place {
   std::optional<Box> area;         ///< m, bounds of that area; absent: where the ends overlap
 };
 
+enum class BeamSection { circle, rectangle };
+
+/// Straight elastic beams from one node to one or several others.
+struct Beam : Place {
+  std::string from;                ///< a point mass or a `part.node_set` of one node
+  std::string to;                  ///< a point mass or a `part.node_set`
+  std::string material;
+  BeamSection section = BeamSection::circle;
+  double radius = 0;               ///< m, circle
+  double width = 0;                ///< m, rectangle, across orientation
+  double height = 0;               ///< m, rectangle, along orientation
+  std::optional<Vec3> orientation; ///< normal of the plane in which beams are spread; absent: the global axis most across the beam
+  std::optional<int> count;        ///< beams, spread evenly around `from`; absent: one to each node of `to`
+  int divisions = 1;               ///< elements of each beam
+  std::optional<double> pretension;  ///< N, axial force in equilibrium; absent: the beam is stress-free as it lies
+};
+
 struct Constraint : Place {
   std::string target;              ///< `part.node_set` or a point mass
   std::array<bool, 3> fixed{false, false, false};  ///< along axes[0], axes[1], axes[2]
+  std::array<bool, 3> fixed_rotation{false, false, false};  ///< about them, where beams end
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
@@ -368,6 +386,7 @@ struct Scene {
   std::vector<PointMass> points;
   std::vector<Load> loads;
   std::vector<Connector> connectors;
+  std::vector<Beam> beams;
   std::vector<Constraint> constraints;
   std::vector<Contact> contacts;
   std::vector<InitialMotion> initial_motions;

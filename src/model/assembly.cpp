@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "model/beams.hpp"
 #include "model/place_sets.hpp"
 
 namespace railwave {
@@ -195,6 +196,7 @@ Assembly assemble(const scene::Scene& scene) {
   add_node_sets(scene, assembly);
   for (const scene::Contact& contact : scene.contacts)
     if (contact.close_gap) close_gap(scene, contact, assembly);
+  lay_beams(scene, assembly);
   return assembly;
 }
 

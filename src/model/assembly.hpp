@@ -11,7 +11,8 @@
 namespace railwave {
 
 /// All parts of a scene put together on the host: one numbering of nodes and elements, sets under the names that a case
-/// file uses (`part.set`; a part's own name means all of it). Point masses are nodes after those of the meshes.
+/// file uses (`part.set`; a part's own name means all of it). Point masses are nodes after those of the meshes, then come the
+/// nodes inside beams.
 struct Assembly {
   struct PartRange {
     std::string name;
@@ -20,10 +21,18 @@ struct Assembly {
     int material = 0;  ///< position in scene.materials
   };
 
+  /// A beam's nodes, from end to end.
+  struct BeamChain {
+    int beam = 0;      ///< position in scene.beams
+    std::vector<int> nodes;
+  };
+
   std::vector<Vec3> nodes;                       ///< as placed, undeformed, m
   std::vector<std::array<int, 8>> elements;
   std::vector<PartRange> parts;
   std::vector<int> point_nodes;                  ///< node of each of scene.points
+  std::vector<BeamChain> beam_chains;
+  std::vector<std::array<int, 2>> beam_nodes;    ///< by scene.beams: first, and how many, of the nodes inside its chains
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> element_sets;
   std::map<std::string, std::vector<Face>> surfaces;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <map>
-
 #include "model/model.hpp"
 
 /// The steps of build_model, each in a file of its own.
@@ -12,12 +10,11 @@ void check_elements(const Model& model);  ///< element_groups.cpp: InputError fo
 void build_elements(Model& model);     ///< element_groups.cpp: patches, hourglass scales, lengths, masses
 void build_node_arrays(Model& model);  ///< node_arrays.cpp: state, gather lists, constraints
 void build_carried_nodes(Model& model);  ///< carriers.cpp: nodes in single precision
+void build_beams(Model& model);        ///< beams.cpp: sections, masses, rotations
 void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node sets, extra forces
 void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
 void build_ties(Model& model);         ///< ties.cpp: places of slave nodes on their masters' faces
 void build_non_reflecting(Model& model);  ///< non_reflecting.cpp: dashpots of the ends
-/// node_arrays.cpp: orthonormal directions in which constraints and prescribed motions hold nodes
-std::map<int, std::vector<Vec3>> held_directions(const scene::Scene& scene, const Assembly& assembly);
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void build_stable_step(Model& model);  ///< stable_step.cpp
 void build_subcycling(Model& model);   ///< subcycling.cpp: paces of nodes; whole rounds of steps

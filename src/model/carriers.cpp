@@ -108,6 +108,8 @@ void build_carried_nodes(Model& model) {
   CarriedNodes& carried = model.carried;
   for (const auto& part : model.assembly.parts) carried.range.push_back({part.first_node, part.node_count});
   for (int n : model.assembly.point_nodes) carried.range.push_back({n, 1});
+  for (const auto& [first, count] : model.assembly.beam_nodes)
+    if (count > 0) carried.range.push_back({first, count});
   carried.node = unset_array<CarriedNode*>("carried nodes", model.nodes.count);
   carried.listed_arm = unset_array<CarriedArm*>("arms of listed nodes", model.listed_nodes.extent(0));
   carried.motion = unset_array<CarrierMotion*>("carriers", carried.range.size());

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "model/beams.hpp"
 #include "model/stable_step.hpp"
 
 namespace railwave {
@@ -12,10 +13,11 @@ std::string near(const Model& model, int element) {
 }
 
 /// What one estimate allows, in all and in parts.
-std::string line(const char* by, double all, double elements, const std::string& place, double contact, double connector) {
+std::string line(const char* by, double all, double elements, const std::string& place, const StableStep& stable, double contact) {
   std::string text = fmt::format("{}: {:.4g} s; elements {:.4g} s{}", by, all, elements, place);
   if (contact > 0) text += fmt::format(", contact springs {:.4g} s", contact);
-  if (connector > 0) text += fmt::format(", connectors {:.4g} s", connector);
+  if (stable.beam > 0) text += fmt::format(", beams {:.4g} s", stable.beam);
+  if (stable.connector > 0) text += fmt::format(", connectors {:.4g} s", stable.connector);
   return text;
 }
 
@@ -25,10 +27,10 @@ std::vector<std::string> describe_stable_step(const Model& model) {
   const StableStep& stable = model.stable_step;
   const scene::StepEstimate choice = model.scene.solver.step_estimate;
   std::vector<std::string> lines{
-      line("stable by element heights", stable.by_elements, stable.elements, near(model, stable.element), stable.contact,
-           stable.connector),
+      line("stable by element heights", stable.by_elements, stable.elements, near(model, stable.element), stable,
+           stable.contact),
       line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue, near(model, stable.eigenvalue_element),
-           stable.eigenvalue_contact, stable.connector)};
+           stable, stable.eigenvalue_contact)};
   if (choice == scene::StepEstimate::global)
     lines.push_back(fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
                                 stable.global,
@@ -39,6 +41,7 @@ std::vector<std::string> describe_stable_step(const Model& model) {
                       ? fmt::format("set by time.step = {:.4g} s", model.scene.time.step)
                       : fmt::format("set by solver.step_estimate = {}, times time.step_scale = {:.4g}",
                                     names[static_cast<int>(choice)], model.scene.time.step_scale));
+  if (const std::string inertia = describe_beam_inertia(model); !inertia.empty()) lines.push_back(inertia);
   return lines;
 }
 

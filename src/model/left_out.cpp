@@ -34,6 +34,7 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   note(scene.gravity == Vec3{0, 0, 0}, "gravity");
   note(scene.loads.empty(), "loads");
   note(scene.connectors.empty(), "springs and dashpots");
+  note(scene.beams.empty(), "beams, and rotations of nodes");
   note(scene.constraints.empty(), "constraints");
   note(scene.prescribed_motions.empty(), "prescribed motion");
   note(scene.non_reflecting.empty(), "non-reflecting ends");

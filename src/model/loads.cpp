@@ -5,6 +5,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
 
@@ -81,13 +82,23 @@ std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {
   return amplitude;
 }
 
+bool is_one_node(const Collector& collector, const scene::Load& load) {
+  return find_node_set(collector.model.scene, collector.model.assembly, load, "target", load.target).size() == 1;
+}
+
 void build_load(Collector& collector, const scene::Load& load) {
   Model& model = collector.model;
   LoadArrays arrays;
   arrays.load = &load;
   arrays.curve = curve_of(model.scene, load.curve);
   arrays.first = collector.contributions();
-  if (load.type == scene::LoadType::torque) {
+  if (load.type == scene::LoadType::torque && is_one_node(collector, load)) {
+    arrays.beam_node = beam_node_of(model, find_node_set(model.scene, model.assembly, load, "target", load.target));
+    if (arrays.beam_node < 0)
+      throw InputError(fmt::format("{}:{}: [loads.{}] target: '{}' is one node, which has a rotation only where beams end; add a section "
+                                   "[beams.NAME] from there, or name a set of several nodes",
+                                   model.scene.path, load.line, load.name, load.target));
+  } else if (load.type == scene::LoadType::torque) {
     arrays.set = collector.set(load, "target", load.target);
     arrays.torque = static_cast<int>(collector.torque_set.size());
     const Vec3& a = load.axis;
@@ -154,6 +165,19 @@ void build_connectors(Collector& collector) {
   Kokkos::deep_copy(arrays.axes, axes);
   arrays.force = Array<double* [3]>("connector force", count);
   arrays.energy = Array<double* [2]>("connector energy", count);
+}
+
+/// Both ends of each beam's elements, and moments on them.
+void build_beam_forces(Collector& collector) {
+  Model& model = collector.model;
+  if (!model.beams) return;
+  BeamArrays& beams = model.beams->arrays;
+  beams.first = collector.contributions();
+  const auto end = to_host(beams.end);
+  const auto node = to_host(beams.node);
+  for (int e = 0; e < beams.count; ++e)
+    for (int side : {0, 1}) collector.contribution_node.push_back(node(end(e, side)));
+  add_moments(model);
 }
 
 /// @param moving sets that connectors and torques need; histories need the rest
@@ -291,6 +315,7 @@ void build_loads(Model& model) {
   Collector collector{model, {}, {}, {}, {}, {}, {}};
   for (const scene::Load& load : model.scene.loads) build_load(collector, load);
   build_connectors(collector);
+  build_beam_forces(collector);
   const int moving = static_cast<int>(collector.sets.size());
   for (const std::string& name : model.scene.output.history_sets)
     model.history_sets.push_back(collector.set({"history_sets", 0}, "output", name));

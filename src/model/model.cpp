@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/block_sum.hpp"
+#include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
 #include "model/non_reflecting.hpp"
@@ -28,6 +29,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   check_elements(model);
   model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   build_elements(model);
+  build_beams(model);
   build_contacts(model);
   build_ties(model);
   build_non_reflecting(model);
@@ -75,6 +77,7 @@ void reset_to_start(Model& model) {
   }
   zero(model.connectors.arrays.energy);
   hold_ends(model, {});
+  reset_beams(model);
   for (const PrescribedSet& set : model.prescribed) zero(set.work);
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
@@ -115,7 +118,8 @@ std::size_t device_bytes(const Model& model) {
                             model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, model.subcycling.paces.level,
                             x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
                             x.contribution_node, x.work, model.sum_space, model.sets.first, model.sets.nodes, model.sets.weight,
-                            model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums);
+                            model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums) +
+                      beam_bytes(model);
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,

@@ -92,6 +92,7 @@ struct LoadArrays {
   Array<int* [4]> facets;               ///< pressure
   int set = -1;                         ///< torque
   int torque = -1;                      ///< its number among the torques
+  int beam_node = -1;                   ///< of a torque on a node where beams end: its number among those
 };
 
 /// Connectors of a scene, with the contributions by which their ends feel them.
@@ -159,6 +160,7 @@ struct StableStep {
   int element = -1;                    ///< the element that sets it
   double contact = 0;                  ///< of the contact springs with the elements under them; 0: no contact
   double connector = 0;                ///< of springs and dashpots on the masses of their ends; 0: none
+  double beam = 0;                     ///< of the beams with the mass that is theirs; 0: none
   double by_elements = 0;              ///< these together
 
   double eigenvalue = 0;               ///< of the element with the highest eigenvalue, hourglass control included
@@ -174,6 +176,7 @@ struct StableStep {
 };
 
 class GlobalEstimate;
+struct BeamStage;
 
 /// Everything on the device, and the host data that describe it.
 struct Model {
@@ -205,6 +208,7 @@ struct Model {
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;
   TorqueArrays torques;
+  std::shared_ptr<BeamStage> beams;    ///< null in a scene without beams
   std::vector<PrescribedSet> prescribed;
   NonReflectingEnds ends;
   Ties ties;

@@ -1,33 +1,13 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <map>
-
 #include "case/error.hpp"
 #include "model/build_steps.hpp"
+#include "model/held_directions.hpp"
 #include "model/host_copy.hpp"
 #include "model/ties.hpp"
 
 namespace railwave {
 namespace {
-
-using Directions = std::vector<Vec3>;
-
-/// Adds a direction to an orthonormal set, unless it lies in its span.
-void add_direction(Directions& directions, Vec3 d) {
-  for (const Vec3& known : directions) {
-    const double along = d[0] * known[0] + d[1] * known[1] + d[2] * known[2];
-    for (int i = 0; i < 3; ++i) d[i] -= along * known[i];
-  }
-  const double size = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-  if (size < 1e-9) return;
-  for (double& component : d) component /= size;
-  directions.push_back(d);
-}
-
-void hold(Directions& directions) {
-  for (int i = 0; i < 3; ++i) add_direction(directions, {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0});
-}
 
 /// Constraint row of each node, and the projections.
 void build_constraints(Model& model, std::vector<int>& row_of_node) {
@@ -35,23 +15,7 @@ void build_constraints(Model& model, std::vector<int>& row_of_node) {
   // A tied node goes where its master does: forces of its own must not move it.
   for (const TiedPlace& tied : model.ties.places) hold(constrained[tied.slave]);
 
-  std::map<Directions, int> rows;
-  for (const auto& [node, directions] : constrained) {
-    const auto inserted = rows.try_emplace(directions, static_cast<int>(rows.size()));
-    row_of_node[node] = inserted.first->second;
-  }
-  model.constraints = unset_array<double* [3][3]>("constraints", rows.size());
-  const auto host = Kokkos::create_mirror_view(model.constraints);
-  for (const auto& [directions, row_number] : rows)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        // Three independent directions leave nothing; written out so that no rounding remains.
-        double p = directions.size() == 3 ? 0.0 : i == j ? 1.0 : 0.0;
-        if (directions.size() < 3)
-          for (const Vec3& d : directions) p -= d[i] * d[j];
-        host(row_number, i, j) = p;
-      }
-  Kokkos::deep_copy(model.constraints, host);
+  model.constraints = projections(constrained, row_of_node);
 }
 
 /// For each node the rows of the partial forces that are its own, in the order of patches.
@@ -105,17 +69,6 @@ void share_out_nodes(Model& model) {
 }
 
 }  // namespace
-
-std::map<int, Directions> held_directions(const scene::Scene& scene, const Assembly& assembly) {
-  std::map<int, Directions> held;
-  for (const scene::Constraint& constraint : scene.constraints)
-    for (int n : find_node_set(scene, assembly, constraint, "target", constraint.target))
-      for (int a = 0; a < 3; ++a)
-        if (constraint.fixed[a]) add_direction(held[n], constraint.axes[a]);
-  for (const scene::PrescribedMotion& motion : scene.prescribed_motions)
-    for (int n : find_node_set(scene, assembly, motion, "target", motion.target)) hold(held[n]);
-  return held;
-}
 
 void build_node_arrays(Model& model) {
   const Assembly& assembly = model.assembly;

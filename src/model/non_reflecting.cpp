@@ -10,6 +10,7 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
+#include "model/held_directions.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {

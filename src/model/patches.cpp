@@ -53,7 +53,9 @@ std::vector<int> node_order(const Assembly& assembly, const std::vector<int>& el
     for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
       if (number[n] < 0) number[n] = next++;  // of no element; refused later, with its place
   }
-  for (int n : assembly.point_nodes) number[n] = n;
+  // Points and nodes inside beams come after those of the parts.
+  for (std::size_t n = 0; n < number.size(); ++n)
+    if (number[n] == -1) number[n] = static_cast<int>(n);
   return number;
 }
 
@@ -67,6 +69,8 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
   for (std::size_t k = 0; k < elements.size(); ++k)
     for (int N = 0; N < 8; ++N) corners[k][N] = node_number[assembly.elements[elements[k]][N]];
   assembly.elements = std::move(corners);
+  for (auto& chain : assembly.beam_chains)
+    for (int& n : chain.nodes) n = node_number[n];
   for (auto& [name, set] : assembly.node_sets)
     for (int& n : set) n = node_number[n];
   for (auto& [name, set] : assembly.element_sets)

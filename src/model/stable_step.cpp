@@ -7,6 +7,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/connector_step.hpp"
 #include "model/contact_springs.hpp"
@@ -168,6 +169,12 @@ void estimate_by_elements(Model& model) {
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
+  // Beams' elements have masses of their own like those of solids, so that the highest frequency of any is an upper bound.
+  if (model.beams) {
+    stable.beam = model.beams->step;
+    stable.by_elements = std::fmin(stable.by_elements, stable.beam);
+    stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.beam);
+  }
   if (!model.scene.connectors.empty()) {
     const double frequency = connector_frequency(model.scene, model.connectors.cells, model.mass);
     stable.connector = frequency > 0 ? 2 / frequency : std::numeric_limits<double>::infinity();
@@ -204,6 +211,8 @@ void renew_global_step(Model& model) {
   // A scene of point masses on dashpots alone has no elements to begin from.
   const double first_guess = std::isfinite(stable.by_elements) ? stable.by_elements : model.scene.time.end;
   GlobalStep found = (*model.global_estimate)(model, horizon, stable.global > 0 ? 0.99 * stable.global : first_guess);
+  // It knows beams by their mass only.
+  if (model.beams) found.step = together(found.step, 2 / stable.beam);
   stable.global = stable.limit = found.step;
   stable.springs = found.springs;
   stable.seen = std::move(found.seen);

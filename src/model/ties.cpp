@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "kernels/contact_projection.hpp"
 #include "model/build_steps.hpp"
+#include "model/held_directions.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {

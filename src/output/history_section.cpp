@@ -10,7 +10,8 @@ namespace {
 
 constexpr hdf5::Storage blocks{1024, false};
 
-void push(std::vector<double>& values, const Vec3& vector) { values.insert(values.end(), vector.begin(), vector.end()); }
+template <class Numbers>
+void push(std::vector<double>& values, const Numbers& vector) { values.insert(values.end(), vector.begin(), vector.end()); }
 
 }  // namespace
 
@@ -21,7 +22,7 @@ void HistorySection::Column<T>::write(hsize_t rows) {
 }
 
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
-                               const std::vector<std::string>& sets) {
+                               const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams) {
   const hdf5::Group history = root.create_group("history");
   times_.dataset = history.create_growing<double>("time", {}, blocks);
   steps_.dataset = history.create_growing<long>("step", {}, blocks);
@@ -45,11 +46,18 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
     const hdf5::Group group = set_groups.create_group(name);
     sets_.push_back({{vector_in(group, "displacement"), {}}, {vector_in(group, "velocity"), {}}, {vector_in(group, "acceleration"), {}}});
   }
+  if (beams.empty()) return;
+  const hdf5::Group beam_groups = history.create_group("beam");
+  for (const auto& [name, elements] : beams) {
+    const hdf5::Group group = beam_groups.create_group(name);
+    const hdf5::Shape row{static_cast<hsize_t>(elements), 3};
+    beams_.push_back({{group.create_growing<double>("force", row, blocks), {}}, {group.create_growing<double>("moment", row, blocks), {}}});
+  }
 }
 
 void HistorySection::add(const HistorySample& sample) {
-  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size())
-    throw std::logic_error("a history sample has other contacts or sets than the results file was made for");
+  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size())
+    throw std::logic_error("a history sample has other contacts, sets or beams than the results file was made for");
   times_.values.push_back(sample.time);
   steps_.values.push_back(sample.step);
   for (std::size_t i = 0; i < std::size(energy_terms); ++i) energies_[i].values.push_back(sample.energy.*energy_terms[i].value);
@@ -64,6 +72,10 @@ void HistorySection::add(const HistorySample& sample) {
     push(sets_[i].displacement.values, sample.sets[i].displacement);
     push(sets_[i].velocity.values, sample.sets[i].velocity);
     push(sets_[i].acceleration.values, sample.sets[i].acceleration);
+  }
+  for (std::size_t i = 0; i < beams_.size(); ++i) {
+    push(beams_[i].force.values, sample.beams[i].force);
+    push(beams_[i].moment.values, sample.beams[i].moment);
   }
 }
 
@@ -81,6 +93,10 @@ void HistorySection::write_values() {
     set.displacement.write(rows);
     set.velocity.write(rows);
     set.acceleration.write(rows);
+  }
+  for (auto& beam : beams_) {
+    beam.force.write(rows);
+    beam.moment.write(rows);
   }
   steps_.write(rows);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "output/hdf5.hpp"
@@ -8,11 +9,13 @@
 
 namespace railwave {
 
-/// Group /history of a results file: energies, contact forces and mean motions against time. Samples are kept in memory
+/// Group /history of a results file: energies, contact forces, mean motions and section forces of beams against time. Samples are kept in memory
 /// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
 class HistorySection {
  public:
-  HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets);
+  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements.
+  HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
+                 const std::vector<std::pair<std::string, int>>& beams = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
@@ -34,11 +37,16 @@ class HistorySection {
     Column<double> displacement, velocity, acceleration;
   };
 
+  struct BeamColumns {
+    Column<double> force, moment;
+  };
+
   Column<double> times_;
   Column<long> steps_;
   std::vector<Column<double>> energies_;
   std::vector<ContactColumns> contacts_;
   std::vector<MotionColumns> sets_;
+  std::vector<BeamColumns> beams_;
 };
 
 }  // namespace railwave

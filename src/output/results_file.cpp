@@ -40,6 +40,8 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.element_count = static_cast<long>(assembly.elements.size());
   for (const auto& contact : scene.contacts) description_.contacts.push_back({contact.name, contact.slave, contact.master});
   description_.history_sets = scene.output.history_sets;
+  for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
+  for (const auto& chain : assembly.beam_chains) description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
   check_results_place(path_);

@@ -10,6 +10,7 @@
 #include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
+#include "solve/beams.hpp"
 
 namespace railwave {
 namespace {
@@ -204,6 +205,7 @@ EnergyAccount account_energies(const Model& model, double step) {
     energy.damping += sum[0];
     energy.external_work += sum[1];
   }
+  if (model.beams) add_beam_energies(model, step, energy);
   const auto connectors = to_host(model.connectors.arrays.energy);
   for (int c = 0; c < model.connectors.arrays.count; ++c) {
     energy.connector += connectors(c, 0);
@@ -299,6 +301,7 @@ HistorySample take_sample(const Model& model, double step) {
   for (const ContactPair& pair : model.contacts)
     if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
+  if (model.beams) sample.beams = beam_resultants(model);
   return sample;
 }
 

@@ -1,8 +1,28 @@
 #include "model/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
+#include "solve/beams.hpp"
 #include "solve/settle.hpp"
 
 namespace railwave {
+namespace {
+
+/// Nodes inside beams move and turn as their ends do.
+void move_beams_along(const Model& model, const Array<double* [3]>::HostMirror& velocity, std::vector<Vec3>& spin) {
+  std::vector<Vec3> moved(spin.size());
+  for (std::size_t n = 0; n < moved.size(); ++n) moved[n] = {velocity(n, 0), velocity(n, 1), velocity(n, 2)};
+  interpolate_inside_beams(model, [&](int n) -> Vec3& { return moved[n]; });
+  interpolate_inside_beams(model, [&](int n) -> Vec3& { return spin[n]; });
+  for (const auto& [first, count] : model.assembly.beam_nodes)
+    for (int n = first; n < first + count; ++n)
+      for (int i = 0; i < 3; ++i) velocity(n, i) = moved[n][i];
+  const auto of_beams = Kokkos::create_mirror_view(model.beams->arrays.spin);
+  for (std::size_t n = 0; n < spin.size(); ++n)
+    if (const int b = model.beams->number[n]; b >= 0)
+      for (int i = 0; i < 3; ++i) of_beams(b, i) = spin[n][i];
+  Kokkos::deep_copy(model.beams->arrays.spin, of_beams);
+}
+
+}  // namespace
 
 Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position) {
@@ -17,13 +37,17 @@ void set_initial_motion(Model& model) {
   if (model.scene.initial_motions.empty()) return;
   const auto position = to_host(model.nodes.position);
   const auto velocity = to_host(model.nodes.velocity);
+  std::vector<Vec3> spin(model.beams ? model.assembly.nodes.size() : 0, Vec3{0, 0, 0});
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
     for (const std::string& name : motion.parts) {
       const Vec3 centre = rotation_centre(model, motion, name, model.nodes.position);
-      // A point mass is moved along, not turned.
-      const bool turns = model.assembly.node_sets.at(name).size() > 1;
+      // A point mass is moved along, not turned, unless beams end on it.
+      const auto& nodes = model.assembly.node_sets.at(name);
+      const bool turns = nodes.size() > 1 || beam_node_of(model, nodes) >= 0;
       const Vec3 w = turns ? motion.angular_velocity : Vec3{0, 0, 0};
-      for (int n : model.assembly.node_sets.at(name)) {
+      for (int n : nodes) {
+        if (model.beams && model.beams->number[n] >= 0)
+          for (int i = 0; i < 3; ++i) spin[n][i] += w[i];
         const double r[3] = {position(n, 0) - centre[0], position(n, 1) - centre[1], position(n, 2) - centre[2]};
         for (int i = 0; i < 3; ++i) {
           const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -31,6 +55,7 @@ void set_initial_motion(Model& model) {
         }
       }
     }
+  if (model.beams) move_beams_along(model, velocity, spin);
   Kokkos::deep_copy(model.nodes.velocity, velocity);
 }
 

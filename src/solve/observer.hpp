@@ -14,7 +14,7 @@ struct SettleReport;
 /// the time integration failed to account for.
 struct EnergyAccount {
   double kinetic = 0;
-  double internal = 0;       ///< elastic
+  double internal = 0;       ///< elastic, of solids and beams
   double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
   double contact = 0;        ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
   double friction = 0;       ///< dissipated
@@ -41,12 +41,20 @@ struct MeanMotion {
   Vec3 acceleration{};
 };
 
+/// Section forces and moments of the elements of one of scene.beams, in the middle of each, in its own axes (the first along
+/// it): three values for each element, chain by chain.
+struct BeamResultants {
+  std::vector<double> force;   ///< N: axial (tension positive), shear along the second and third axis
+  std::vector<double> moment;  ///< N m: torsion, bending about the second and third axis
+};
+
 struct HistorySample {
   double time = 0;
   long step = 0;
   EnergyAccount energy;
   std::vector<ContactTotals> contacts;   ///< one for each contact of the scene
   std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets
+  std::vector<BeamResultants> beams;     ///< one for each of the scene's beams
 };
 
 /// How a run ended.

@@ -10,6 +10,7 @@
 #include "model/host_copy.hpp"
 #include "model/non_reflecting.hpp"
 #include "model/ties.hpp"
+#include "solve/beams.hpp"
 #include "solve/stages.hpp"
 
 namespace railwave {
@@ -55,7 +56,10 @@ std::vector<double> relaxation_masses(const Model& model) {
     const Vec3& k = model.scene.connectors[own.connector].stiffness;
     mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share[i]) * own.share * (k[0] + k[1] + k[2]);
   }
-  for (int n : assembly.point_nodes) mass[n] = 1e300;  // held
+  if (model.beams)
+    for (std::size_t n = 0; n < mass.size(); ++n) mass[n] += model.beams->relaxation_mass[n];
+  for (int n : assembly.point_nodes)
+    if (!model.beams || model.beams->number[n] < 0) mass[n] = 1e300;  // held
   mass = masses_with_ties(model, std::move(mass));
   for (int n : model.ends.nodes) mass[n] = 1e300;
   return mass;
@@ -80,6 +84,7 @@ std::vector<Vec3> centrifugal_field(const Model& model) {
       }
     }
   }
+  if (model.beams) interpolate_inside_beams(model, [&](int n) -> Vec3& { return field[n]; });
   return field;
 }
 
@@ -138,6 +143,7 @@ void forget_history(Model& model) {
   }
   for (ElementGroup& group : model.elements) Kokkos::deep_copy(group.patches.hourglass_energy, 0.0);
   Kokkos::deep_copy(model.connectors.arrays.energy, 0.0);
+  beams_have_settled(model);
   model.step = 0;
   model.time = 0;
 }
@@ -160,11 +166,14 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     for (const Stage& stage : stages) stage.run(instant);
     Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
     if (model.ties.arrays.active()) follow_ties(model, instant.step, false);
+    if (model.beams) relax_rotations(model, local_damping);
     if (report.steps % steps_between_peaks == 0) {
       double energy = 0;
       block_sum(RelaxationEnergy{update}, model.nodes.count, &energy);
+      if (model.beams) energy += relaxation_state(model).energy;
       if (energy < energy_before) {
         Kokkos::deep_copy(model.nodes.velocity, 0.0);
+        if (model.beams) stop_rotations(model);
         energy = 0;
       }
       energy_before = energy;
@@ -172,6 +181,11 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     if (report.steps % steps_between_checks != 0 || report.steps == 0) continue;
     double sum[2];
     block_sum(Unbalance{update}, model.nodes.count, sum);
+    if (model.beams) {
+      const BeamRelaxationState beams = relaxation_state(model);
+      sum[0] += beams.unbalanced;
+      sum[1] += beams.applied;
+    }
     report.unbalance = sum[1] > 0 ? sum[0] / sum[1] : sum[0];
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;

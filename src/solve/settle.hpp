@@ -17,7 +17,7 @@ struct SettleReport {
 /// Static equilibrium under the loads of t = 0 by dynamic relaxation with kinetic damping (velocities are reset at every
 /// peak of the kinetic energy) and a little local damping: the state from which the run starts. Bodies that
 /// will rotate (initial_motion) are loaded by the centrifugal field of that rotation, so that the start of rolling does
-/// not ring. Point masses stay where they are: preload their connectors. Velocities are zero afterwards.
+/// not ring. Point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
 /// @param go_on told every few steps how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 

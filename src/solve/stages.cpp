@@ -7,6 +7,7 @@
 #include "model/contact_law.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
+#include "solve/beams.hpp"
 #include "solve/contact_multiplier.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
@@ -184,7 +185,8 @@ std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages;
   if (model.carried.active()) stages.push_back(carrier_stage(model));
   for (const LoadArrays& load : model.loads)
-    if (load.torque < 0) stages.push_back(load_stage(model, load));
+    if (load.torque < 0 && load.beam_node < 0) stages.push_back(load_stage(model, load));
+  if (model.beams) stages.push_back(beam_stage(model));
   if (model.extra.loaded_count > 0) stages.push_back(set_load_stage(model));
   if (!model.contacts.empty()) stages.push_back(contact_clearing_stage(model));
   for (ContactPair& pair : model.contacts)
@@ -207,6 +209,7 @@ void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
   for (const PrescribedSet& set : model.prescribed)
     Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))), prescribed_motion(model, set, step));
+  if (model.beams) advance_rotations(model, step);
   if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
   else if (model.carried.active()) advance_carried(model, step);
   else if (model.patches_have_advanced)

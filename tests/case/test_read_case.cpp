@@ -103,6 +103,28 @@ hourglass = "stiffness"
 mass = 1000
 position = [1, 2, 3]
 
+[points.axle]
+mass = 0
+position = [0, 0, 0.46]
+
+[beams.spokes]
+from = "axle"
+to = "wheel.bore"
+material = "steel"
+section = "rectangle"
+width = 0.03
+height = 0.04
+orientation = [0, 2, 0]
+count = 4
+divisions = 3
+pretension = 12500
+
+[beams.shaft]
+from = "axle"
+to = "body"
+material = "steel"
+radius = 0.09
+
 [connectors.suspension]
 from = "body"
 to = "wheel.bore"
@@ -118,6 +140,7 @@ to = "rail.start"
 [constraints.foot]
 target = "rail.foot"
 fixed = ["z", "x"]
+fixed_rotation = ["y"]
 axes = [[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]]
 
 [contacts.tread]
@@ -296,10 +319,30 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.parts[0].hourglass == scene::HourglassType::stiffness);
   CHECK(scene.parts[0].hourglass_coefficient == 0.07);
 
-  REQUIRE(scene.points.size() == 1);
+  REQUIRE(scene.points.size() == 2);
   CHECK(scene.points[0].name == "body");
   CHECK(scene.points[0].mass == 1000);
   CHECK(scene.points[0].position == Vec3{1, 2, 3});
+  CHECK(scene.points[1].mass == 0);
+
+  REQUIRE(scene.beams.size() == 2);
+  CHECK(scene.beams[0].name == "spokes");
+  CHECK(scene.beams[0].from == "axle");
+  CHECK(scene.beams[0].to == "wheel.bore");
+  CHECK(scene.beams[0].material == "steel");
+  CHECK(scene.beams[0].section == scene::BeamSection::rectangle);
+  CHECK(scene.beams[0].width == 0.03);
+  CHECK(scene.beams[0].height == 0.04);
+  REQUIRE(scene.beams[0].orientation);
+  CHECK(*scene.beams[0].orientation == Vec3{0, 1, 0});
+  CHECK(scene.beams[0].count == 4);
+  CHECK(scene.beams[0].divisions == 3);
+  CHECK(scene.beams[0].pretension == 12500);
+  CHECK(scene.beams[1].section == scene::BeamSection::circle);
+  CHECK(scene.beams[1].radius == 0.09);
+  CHECK(!scene.beams[1].orientation);
+  CHECK(!scene.beams[1].count);
+  CHECK(!scene.beams[1].pretension);
 
   REQUIRE(scene.connectors.size() == 2);
   CHECK(scene.connectors[0].from == "body");
@@ -314,6 +357,7 @@ TEST_CASE("every key reaches its field", "[case]") {
   REQUIRE(scene.constraints.size() == 1);
   CHECK(scene.constraints[0].target == "rail.foot");
   CHECK(scene.constraints[0].fixed == std::array<bool, 3>{true, false, true});
+  CHECK(scene.constraints[0].fixed_rotation == std::array<bool, 3>{false, true, false});
   CHECK(scene.constraints[0].axes[1] == Vec3{-0.8, 0.6, 0});
 
   REQUIRE(scene.contacts.size() == 1);

@@ -199,3 +199,22 @@ TEST_CASE("arrays that do not fit are refused") {
   sample.contacts.clear();
   CHECK_THROWS_AS(writer.history(sample), std::logic_error);
 }
+
+TEST_CASE("section forces of beams are in the histories, element by element") {
+  const made_up::TemporaryFolder folder;
+  RunDescription description = made_up::description();
+  description.beams = {{"spokes", 2}};
+  {
+    ResultsWriter writer(folder / "run.h5", description);
+    HistorySample sample = made_up::sample(0);
+    CHECK_THROWS_AS(writer.history(sample), std::logic_error);
+    sample.beams = {{{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}}};
+    writer.history(sample);
+    writer.history(sample);
+    writer.end(made_up::summary());
+  }
+  const hdf5::File file = hdf5::File::open(folder / "run.h5");
+  const hdf5::Group beam = file.root().group("history").group("beam").group("spokes");
+  CHECK(beam.dataset("force").shape() == hdf5::Shape{2, 2, 3});
+  CHECK(beam.dataset("moment").read<double>()[6 + 4] == 11);
+}

@@ -12,6 +12,7 @@
 #include "solve/contributions.hpp"
 #include "solve/element_damping.hpp"
 #include "solve/element_forces.hpp"
+#include "solve/settle_parts.hpp"
 
 namespace railwave {
 
@@ -154,7 +155,7 @@ void advance_carried(const Model& model, double step) {
 
 }  // namespace
 
-std::vector<Stage> force_stages(Model& model) {
+std::vector<Stage> force_stages_without_multipliers(Model& model) {
   std::vector<Stage> stages;
   if (model.carried.active()) stages.push_back(carrier_stage(model));
   for (const LoadArrays& load : model.loads)
@@ -170,6 +171,11 @@ std::vector<Stage> force_stages(Model& model) {
   // No patch moves nodes of damped elements by itself.
   for (const ElementGroup& group : model.elements)
     if (group.damping.active()) stages.push_back(damping_stage(model, group));
+  return stages;
+}
+
+std::vector<Stage> force_stages(Model& model) {
+  std::vector<Stage> stages = force_stages_without_multipliers(model);
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
     stages.push_back(multiplier_stage(model));
   return stages;

@@ -21,32 +21,20 @@ struct ToDisplacement {
   }
 };
 
-/// Forces K u + C u / tau of the elements of one part on their corners, element by element (Lame's constants with the share
-/// of damping in proportion to stiffness; not that in proportion to mass); linear elastic about the
-/// present configuration, stresses' own (geometric) stiffness left out: it is of the order of stress over modulus.
-struct ElementTangent {
-  int first;               ///< element
+/// Stiffness of an element (Lame's constants with the share of damping in proportion to stiffness; not that in proportion to
+/// mass): linear elastic about the present configuration, stresses' own (geometric) stiffness left out: it is
+/// of the order of stress over modulus.
+struct ElementStiffness {
   double lambda, mu;       ///< Pa
   double hourglass;        ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
   bool viscous;            ///< scale goes with V^(2/3), else V^(1/3)
   double bulk;             ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
-  Array<const int* [8]> corners;
-  Array<const double* [3]> position;
-  NodeVector displacement;
-  Array<double* [24]> force;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i_element) const {
-    const int e = first + i_element;
-    double x[3][7], u[3][7], B[3][6], L[3][3];
-    for (int i = 0; i < 3; ++i) {
-      double place[8], moved[8];
-      for (int N = 0; N < 8; ++N) {
-        place[N] = position(corners(e, N), i);
-        moved[N] = displacement(corners(e, N), i);
-      }
-      modes_of(place, x[i]);
-      modes_of(moved, u[i]);
-    }
+  /// @param x modes of the coordinates, m
+  /// @param u modes of the displacements, m
+  /// @param force by direction and corner, N
+  KOKKOS_INLINE_FUNCTION void operator()(const double (&x)[3][7], const double (&u)[3][7], double (&force)[3][8]) const {
+    double B[3][6], L[3][3];
     mean_gradient<double>(x, B);
     const double volume = along(x[0], B[0]), inverse = 1 / volume, root = std::cbrt(volume);
     for (int i = 0; i < 3; ++i)
@@ -54,7 +42,7 @@ struct ElementTangent {
     const double scale = hourglass * (viscous ? root * root : root);
     const double trace = (lambda + bulk * root) * (L[0][0] + L[1][1] + L[2][2]);
     for (int i = 0; i < 3; ++i) {
-      double q[4], T[3], modes[7], at_corner[8];
+      double q[4], T[3], modes[7];
       for (int M = 0; M < 4; ++M) q[M] = scale * hourglass_content(u[i], L[i], x, M);
       for (int j = 0; j < 3; ++j) {
         T[j] = mu * (L[i][j] + L[j][i]) + (i == j ? trace : 0.0);
@@ -64,9 +52,35 @@ struct ElementTangent {
         modes[k] = k < 3 ? 0.0 : q[k - 3];
         if (k < 6) modes[k] += T[0] * B[0][k] + T[1] * B[1][k] + T[2] * B[2][k];
       }
-      corners_of(modes, at_corner);
-      for (int N = 0; N < 8; ++N) force(e, 3 * N + i) = at_corner[N];
+      corners_of(modes, force[i]);
     }
+  }
+};
+
+/// Forces K u + C u / tau of the elements of one part on their corners, element by element.
+struct ElementTangent {
+  int first;               ///< element
+  ElementStiffness stiffness;
+  Array<const int* [8]> corners;
+  Array<const double* [3]> position;
+  NodeVector displacement;
+  Array<double* [24]> force;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i_element) const {
+    const int e = first + i_element;
+    double x[3][7], u[3][7], at_corner[3][8];
+    for (int i = 0; i < 3; ++i) {
+      double place[8], moved[8];
+      for (int N = 0; N < 8; ++N) {
+        place[N] = position(corners(e, N), i);
+        moved[N] = displacement(corners(e, N), i);
+      }
+      modes_of(place, x[i]);
+      modes_of(moved, u[i]);
+    }
+    stiffness(x, u, at_corner);
+    for (int i = 0; i < 3; ++i)
+      for (int N = 0; N < 8; ++N) force(e, 3 * N + i) = at_corner[i][N];
   }
 };
 

@@ -11,6 +11,7 @@
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
 #include "output/results_writer.hpp"
+#include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
 #include "solve/time_loop.hpp"
 
@@ -44,7 +45,8 @@ int run_case(const Arguments& arguments) {
   Progress progress(std::cout);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const RunSummary summary = run(model, {&results, &progress});
+  SettledFiles settled(RAILWAVE_VERSION);
+  const RunSummary summary = run(model, {&results, &progress}, &settled);
   if (summary.completed) return done;
   return signalled != 0 ? interrupted : run_ended_early;
 }

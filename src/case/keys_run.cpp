@@ -18,20 +18,26 @@ Section settle_section() {
   using scene::Settle;
   auto section =
       single_section("settle", &Scene::settle,
-                     "With this section the scene comes to rest under its static loads before the run, by dynamic "
-                     "relaxation; without it the run starts from the undeformed meshes.");
+                     "With this section the scene comes to rest under its static loads before the run; without it the run "
+                     "starts from the undeformed meshes.");
   section.open = [](Scene& scene, const scene::Place&) -> void* {
     scene.settle.active = true;
     return &scene.settle;
   };
   section.keys = {
       key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
+      key("method", &Settle::method,
+          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held")
+          .one_of({"newton", "relaxation"}),
       key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
-      key("max_steps", &Settle::max_steps, "give up after so many steps").within(at_least(1)),
+      key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),
       key("friction", &Settle::friction,
           "`false`: contacts are frictionless while the scene settles, and the run begins without shear. With friction, which a slope "
           "needs, some of what shear the way into equilibrium happened to bring about stays"),
+      key("cache", &Settle::cache,
+          "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads begins with it"),
+      key("cache_folder", &Settle::cache_folder, "where that file lies").otherwise("beside the results"),
   };
   return section;
 }

@@ -8,6 +8,7 @@
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
 #include "case/read_entry.hpp"
+#include "case/static_text.hpp"
 #include "case/suggest.hpp"
 
 namespace railwave {
@@ -118,6 +119,7 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   scene::Scene scene;
   scene.path = path;
   apply_overrides(overrides, document.root, complaints);
+  scene.static_text = static_text(document.root);
   Reading reading{
       complaints, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
   read_sections(document.root, scene, reading);

@@ -304,12 +304,17 @@ struct Tie : Place {
   std::optional<double> max_distance;  ///< m from the master's faces; absent: a tenth of the face's shorter diagonal
 };
 
-/// Static equilibrium by dynamic relaxation before the run; absent: the run starts from the undeformed mesh.
+enum class SettleMethod { newton, relaxation };
+
+/// Static equilibrium before the run; absent: the run starts from the undeformed mesh.
 struct Settle {
   bool active = false;
+  SettleMethod method = SettleMethod::relaxation;
   double tolerance = 1e-3;         ///< residual force over applied force at which it counts as settled
   int max_steps = 20000;
   bool friction = true;            ///< false: contacts are frictionless while the scene settles
+  bool cache = true;               ///< keep the settled state in a file, and take it from there
+  std::string cache_folder;        ///< where that lies; empty: beside the results
 };
 
 struct Time {
@@ -376,6 +381,7 @@ struct Track : Place {
 struct Scene {
   std::string title;
   std::string path;                ///< of the case file
+  std::string static_text;         ///< what of the case the static state can depend on, key by key; empty where there is no file
   std::vector<Material> materials;
   std::vector<MeshSource> meshes;
   std::vector<Part> parts;

@@ -13,9 +13,6 @@
 namespace railwave {
 namespace {
 
-/// Stiffness hourglass control of a set whose own control is viscous, while it settles.
-constexpr double settling_coefficient = 0.05;
-
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
 /// (the inner nodes of MacNeal & Harder's patch have one), and `railwave check` reports it.
 void check_element(const Model& model, const Assembly::PartRange& part, int element, const HexahedronCorners& corners) {
@@ -64,7 +61,7 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
   const Assembly& assembly = model.assembly;
   const scene::Material& material = model.scene.materials[range.material];
   const double own = part.hourglass_coefficient;
-  const double while_settling = part.hourglass == scene::HourglassType::viscous ? settling_coefficient : own;
+  const double while_settling = settling_hourglass_coefficient(part);
   for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
     const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[e]);
     const auto integrals = hexahedron_shape_integrals(x);

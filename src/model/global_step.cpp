@@ -124,8 +124,8 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
     const double bulk = (part.linear_bulk_viscosity * material.dilatational_speed() +
                          part.quadratic_bulk_viscosity * largest_initial_speed(model.scene)) * material.density * inverse_time;
     Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
-                         ElementTangent{range.first_element, damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous,
-                                        bulk,
+                         ElementTangent{range.first_element,
+                                        {damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk},
                                         corners_, model.nodes.position, displacement_, corner_force_});
   }
   Kokkos::parallel_for("tangent_gather", Range(0, nodes), GatherTangent{first_corner_, corner_, corner_force_, image_});

@@ -13,6 +13,12 @@ inline double hourglass_factor(scene::HourglassType type, double coefficient, co
                                                : coefficient * material.dilatational_modulus() / 16;
 }
 
+/// Coefficient of the stiffness hourglass control that a part has while it settles; of one whose own control is viscous:
+inline constexpr double settling_coefficient = 0.05;
+inline double settling_hourglass_coefficient(const scene::Part& part) {
+  return part.hourglass == scene::HourglassType::viscous ? settling_coefficient : part.hourglass_coefficient;
+}
+
 inline double hourglass_scale(scene::HourglassType type, double coefficient, const scene::Material& material, double volume) {
   const double root = std::cbrt(volume);
   return hourglass_factor(type, coefficient, material) * (type == scene::HourglassType::viscous ? root * root : root);

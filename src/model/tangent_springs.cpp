@@ -48,6 +48,13 @@ void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, boo
     }
 }
 
+void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction,
+                                 double stiffness) {
+  node_.insert(node_.end(), nodes.begin(), nodes.end());
+  weight_.insert(weight_.end(), weights.begin(), weights.end());
+  close(direction, stiffness, 0);
+}
+
 TangentSprings SpringCollector::on_device() const {
   TangentSprings springs;
   springs.count = static_cast<int>(direction_.size());

@@ -17,6 +17,16 @@ class SpringCollector {
   /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);
 
+  /// One spring between nodes: stretch = sum of weight times displacement along the direction.
+  void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction, double stiffness);
+
+  /// What has been collected: spring s has the nodes first()[s] ... first()[s + 1] - 1 of node() and weight().
+  const std::vector<int>& first() const { return first_; }
+  const std::vector<int>& node() const { return node_; }
+  const std::vector<double>& weight() const { return weight_; }
+  const std::vector<Vec3>& direction() const { return direction_; }
+  const std::vector<double>& stiffness() const { return stiffness_; }
+
   /// Everything collected, on the device.
   TangentSprings on_device() const;
 

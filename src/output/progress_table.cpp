@@ -140,6 +140,7 @@ void ProgressTable::end(const RunSummary& summary) {
     out_ << fmt::format("  steps between {:.4g} and {:.4g} us, the stable step renewed {} times\n", 1e6 * summary.smallest_step,
                         1e6 * summary.largest_step, summary.step_renewals);
   for (const std::string& line : summary.warnings) out_ << "  warning: " << line << '\n';
+  for (const std::string& line : summary.swings) out_ << "  " << line << '\n';
   for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';
   for (const std::string& line : summary.subcycling) out_ << "  subcycling: " << line << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n", duration_text(summary.wall_seconds),

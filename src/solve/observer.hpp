@@ -70,6 +70,7 @@ struct RunSummary {
   std::vector<std::string> subcycling;   ///< how many elements go at which pace, and what that saves; none without it
   double wall_seconds = 0;
   double element_steps_per_second = 0;   ///< of the element updates that were made
+  std::vector<std::string> swings;       ///< where the run began unsettled: how its contact forces oscillated
   std::vector<std::string> warnings;     ///< what may have cost accuracy
   std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute
 };

@@ -1,17 +1,19 @@
 #include "solve/settle.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "kernels/block_sum.hpp"
 #include "kernels/relaxation.hpp"
 #include "mesh/hexahedron.hpp"
-#include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
 #include "model/non_reflecting.hpp"
 #include "model/ties.hpp"
 #include "solve/beams.hpp"
-#include "solve/stages.hpp"
+#include "solve/settle_parts.hpp"
+#include "solve/static_newton.hpp"
+#include "solve/static_state.hpp"
 
 namespace railwave {
 namespace {
@@ -65,29 +67,6 @@ std::vector<double> relaxation_masses(const Model& model) {
   return mass;
 }
 
-/// - omega x (omega x (X - c)) on the bodies that will rotate.
-std::vector<Vec3> centrifugal_field(const Model& model) {
-  std::vector<Vec3> field(model.assembly.nodes.size(), Vec3{0, 0, 0});
-  for (const scene::InitialMotion& motion : model.scene.initial_motions) {
-    const Vec3& w = motion.angular_velocity;
-    for (const std::string& name : motion.parts) {
-      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
-      for (int n : model.assembly.node_sets.at(name)) {
-        Vec3 r{};
-        double along = 0, squared = 0;
-        for (int i = 0; i < 3; ++i) {
-          r[i] = model.assembly.nodes[n][i] - centre[i];
-          along += w[i] * r[i];
-          squared += w[i] * w[i];
-        }
-        for (int i = 0; i < 3; ++i) field[n][i] += squared * r[i] - along * w[i];
-      }
-    }
-  }
-  if (model.beams) interpolate_inside_beams(model, [&](int n) -> Vec3& { return field[n]; });
-  return field;
-}
-
 /// Twice the kinetic energy of the relaxation's masses.
 struct RelaxationEnergy {
   static constexpr int values = 1;
@@ -131,25 +110,7 @@ class SettlingFriction {
   std::vector<double> own_;
 };
 
-/// The run's account begins at zero after settling.
-void forget_history(Model& model) {
-  Kokkos::deep_copy(model.nodes.velocity, 0.0);
-  Kokkos::deep_copy(model.extra.work, 0.0);
-  for (ContactPair& pair : model.contacts) {
-    Kokkos::deep_copy(pair.arrays.friction_energy, 0.0);
-    Kokkos::deep_copy(pair.multipliers.impact_energy, 0.0);
-    reset_contact_law(pair.law, pair.arrays.friction);
-    pair.next_look = -1;
-  }
-  for (ElementGroup& group : model.elements) Kokkos::deep_copy(group.patches.hourglass_energy, 0.0);
-  Kokkos::deep_copy(model.connectors.arrays.energy, 0.0);
-  beams_have_settled(model);
-  model.step = 0;
-  model.time = 0;
-}
-
-SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
-  const SettlingFriction friction(model, model.scene.settle.friction);
+SettleReport settle_by_relaxation(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   SettleReport report;
   const auto stages = force_stages(model);
   const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
@@ -191,15 +152,49 @@ SettleReport relax(Model& model, const std::function<bool(const SettleReport&)>&
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
   hold_ends(model, update.unbalanced);
+  beams_have_settled(model);
   return report;
 }
 
 }  // namespace
 
+std::vector<Vec3> centrifugal_field(const Model& model) {
+  std::vector<Vec3> field(model.assembly.nodes.size(), Vec3{0, 0, 0});
+  // A point mass goes along with its body's velocity, but nothing leads it round.
+  std::vector<int> points = model.assembly.point_nodes;
+  std::sort(points.begin(), points.end());
+  for (const scene::InitialMotion& motion : model.scene.initial_motions) {
+    const Vec3& w = motion.angular_velocity;
+    for (const std::string& name : motion.parts) {
+      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
+      for (int n : model.assembly.node_sets.at(name)) {
+        const bool beam_ends = model.beams && model.beams->number[n] >= 0;
+        if (!beam_ends && std::binary_search(points.begin(), points.end(), n)) continue;
+        Vec3 r{};
+        double along = 0, squared = 0;
+        for (int i = 0; i < 3; ++i) {
+          r[i] = model.assembly.nodes[n][i] - centre[i];
+          along += w[i] * r[i];
+          squared += w[i] * w[i];
+        }
+        for (int i = 0; i < 3; ++i) field[n][i] += squared * r[i] - along * w[i];
+      }
+    }
+  }
+  if (model.beams) interpolate_inside_beams(model, [&](int n) -> Vec3& { return field[n]; });
+  return field;
+}
+
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   const auto began = std::chrono::steady_clock::now();
-  SettleReport report = relax(model, go_on);
-  forget_history(model);
+  SettleReport report;
+  {
+    const SettlingFriction friction(model, model.scene.settle.friction);
+    const bool newton = model.scene.settle.method == scene::SettleMethod::newton;
+    report = newton ? settle_by_newton(model, go_on) : settle_by_relaxation(model, go_on);
+  }
+  // The run starts from what a file of the state would hold, and from nothing else.
+  lay_static_state(model, take_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return report;
 }

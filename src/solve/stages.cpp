@@ -13,6 +13,7 @@
 #include "solve/contributions.hpp"
 #include "solve/element_damping.hpp"
 #include "solve/element_forces.hpp"
+#include "solve/settle_parts.hpp"
 
 namespace railwave {
 
@@ -181,7 +182,7 @@ void follow_ties(const Model& model, double step, bool carried) {
   else Kokkos::parallel_for("ties", slaves, follow);
 }
 
-std::vector<Stage> force_stages(Model& model) {
+std::vector<Stage> force_stages_without_multipliers(Model& model) {
   std::vector<Stage> stages;
   if (model.carried.active()) stages.push_back(carrier_stage(model));
   for (const LoadArrays& load : model.loads)
@@ -198,6 +199,11 @@ std::vector<Stage> force_stages(Model& model) {
   // No patch moves nodes of damped elements by itself.
   for (const ElementGroup& group : model.elements)
     if (group.damping.active()) stages.push_back(damping_stage(model, group));
+  return stages;
+}
+
+std::vector<Stage> force_stages(Model& model) {
+  std::vector<Stage> stages = force_stages_without_multipliers(model);
   if (model.ties.arrays.active()) stages.push_back(tie_stage(model));
   if (model.ends.arrays.count > 0) stages.push_back(non_reflecting_stage(model));
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))

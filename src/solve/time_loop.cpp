@@ -9,8 +9,9 @@
 #include "model/stable_step.hpp"
 #include "solve/account.hpp"
 #include "solve/contact_window.hpp"
-#include "solve/settle.hpp"
+#include "solve/force_swing.hpp"
 #include "solve/stages.hpp"
+#include "solve/static_start.hpp"
 #include "solve/step_control.hpp"
 
 namespace railwave {
@@ -59,28 +60,33 @@ std::string fault_in(const HistorySample& sample) {
   return {};
 }
 
-void prepare(Model& model, const std::vector<RunObserver*>& observers) {
+/// @return whether the run begins in equilibrium
+bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
+  bool in_equilibrium = false;
   if (model.scene.settle.active) {
-    const SettleReport report = settle(model, [&](const SettleReport& so_far) {
+    const SettleReport report = come_to_rest(model, settled, [&](const SettleReport& so_far) {
       for (RunObserver* observer : observers) observer->settling(model, so_far);
       return stop_requested == 0;
     });
     for (RunObserver* observer : observers) observer->settled(model, report);
+    in_equilibrium = report.settled;
   }
   set_initial_motion(model);
+  return in_equilibrium;
 }
 
 }  // namespace
 
 void request_stop() { stop_requested = 1; }
 
-RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
+RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
   for (RunObserver* observer : observers) observer->begin(model);
-  prepare(model, observers);
+  const bool in_equilibrium = prepare(model, observers, settled);
 
   StepControl control(model);
   Schedule due(model);
   const auto stages = force_stages(model);
+  std::vector<ForceSwing> swings(in_equilibrium ? 0 : model.scene.contacts.size());
   RunSummary summary;
   summary.left_out = model.left_out;
   double total_at_start = 0;
@@ -102,6 +108,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
       if (model.step == 0) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
       summary.reason = fault_in(sample);
+      for (std::size_t c = 0; c < swings.size(); ++c) swings[c].add(sample.time, sample.contacts[c].normal_force);
       for (RunObserver* observer : observers) {
         if (due.history() || stopping) observer->history(model, sample);
         if (summary.reason.empty() && (due.fields() || stopping)) observer->fields(model, sample);
@@ -125,6 +132,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers) {
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
   summary.warnings = late_contacts(model);
+  for (std::size_t c = 0; c < swings.size(); ++c)
+    if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty()) summary.swings.push_back(told);
   summary.completed = summary.reason.empty();
   summary.time = model.time;
   summary.steps = model.step;

@@ -1,0 +1,181 @@
+#pragma once
+
+#include "kernels/tangent.hpp"
+
+/// What finding a static equilibrium does with vectors of three components a node.
+namespace railwave {
+
+/// A symmetric tensor of a node: xx, yy, zz, xy, yz, zx.
+using NodeBlocks = Array<double* [6]>;
+
+KOKKOS_INLINE_FUNCTION Vector3 block_product(const NodeBlocks& blocks, int n, const Vector3& v) {
+  return {{blocks(n, 0) * v[0] + blocks(n, 3) * v[1] + blocks(n, 5) * v[2],
+           blocks(n, 3) * v[0] + blocks(n, 1) * v[1] + blocks(n, 4) * v[2],
+           blocks(n, 5) * v[0] + blocks(n, 4) * v[1] + blocks(n, 2) * v[2]}};
+}
+
+/// I - sum d d^T over a node's directions d along which it cannot move while the scene settles.
+struct StaticHolds {
+  Array<const int*> row_of_node;               ///< -1: free
+  Array<const double* [3][3]> table;
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n, const Vector3& a) const {
+    const int c = row_of_node(n);
+    if (c < 0) return a;
+    Vector3 free;
+    for (int i = 0; i < 3; ++i) free[i] = table(c, i, 0) * a[0] + table(c, i, 1) * a[1] + table(c, i, 2) * a[2];
+    return free;
+  }
+};
+
+/// Unbalanced force of each node, N, held directions taken out.
+struct StaticResidual {
+  NodalAcceleration acceleration;              ///< its gravity is used
+  StaticHolds holds;
+  Array<const double* [3]> body_acceleration;  ///< m/s2, see RelaxationUpdate
+  NodeVector residual;
+
+  KOKKOS_INLINE_FUNCTION Vector3 body_force(int n) const {
+    return acceleration.force.nodes.mass(n) * (acceleration.gravity + row(body_acceleration, n));
+  }
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const Vector3 force = holds(n, acceleration.force(n) + body_force(n));
+    for (int i = 0; i < 3; ++i) residual(n, i) = force[i];
+  }
+};
+
+/// Sums of |unbalanced force|, of |applied and contact force|, and of unbalanced force times a direction.
+struct StaticUnbalance {
+  static constexpr int values = 3;
+  StaticResidual residual;
+  NodeVector direction;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
+    const Vector3 r = row(residual.residual, n);
+    sum[0] += norm(r);
+    sum[1] += norm(residual.body_force(n)) + norm(residual.acceleration.force.extra_force(n));
+    sum[2] += dot(r, row(direction, n));
+  }
+};
+
+/// x = origin + share * way
+struct GoAlong {
+  NodeVector x, origin, way;
+  double share;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) x(n, i) = origin(n, i) + share * way(n, i);
+  }
+};
+
+/// The diagonal blocks of the elements' stiffness, node by node.
+struct ElementBlocks {
+  Array<const int*> first_corner, corner;  ///< see GatherTangent
+  Array<const int* [8]> corners;
+  Array<const double* [3]> position;
+  Array<const ElementStiffness*> stiffness;
+  Array<const int*> stiffness_of_element;
+  NodeBlocks blocks;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    double sum[6] = {0, 0, 0, 0, 0, 0};
+    for (int k = first_corner(n); k < first_corner(n + 1); ++k) add(corner(k) / 8, corner(k) % 8, sum);
+    for (int c = 0; c < 6; ++c) blocks(n, c) = sum[c];
+  }
+
+  KOKKOS_INLINE_FUNCTION void add(int e, int own, double (&sum)[6]) const {
+    double x[3][7];
+    for (int i = 0; i < 3; ++i) {
+      double place[8];
+      for (int N = 0; N < 8; ++N) place[N] = position(corners(e, N), i);
+      modes_of(place, x[i]);
+    }
+    const ElementStiffness of_element = stiffness(stiffness_of_element(e));
+    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int j = 0; j < 3; ++j) {
+      double u[3][7] = {}, force[3][8];
+      for (int mode = 0; mode < 7; ++mode) u[j][mode] = mode_sign(mode, own);
+      of_element(x, u, force);
+      for (int i = 0; i <= j; ++i) sum[voigt[i][j]] += force[i][own];
+    }
+  }
+};
+
+/// Adds a shift of the diagonal; takes held directions out.
+struct ShiftAndHold {
+  NodeVector u, f;
+  Array<const double*> diagonal;
+  double shift;
+  StaticHolds holds;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double s = shift * diagonal(n);
+    const Vector3 a = holds(n, row(f, n) + s * row(u, n));
+    for (int i = 0; i < 3; ++i) f(n, i) = a[i];
+  }
+};
+
+/// Coarse coordinates: for each aggregate of nodes as many as a rigid body has, u = sum_m mode_m y_m at its nodes.
+struct CoarseModes {
+  static constexpr int of_aggregate = 6;
+  Array<int*> first;              ///< by aggregate, and one more: its nodes
+  Array<int*> node;
+  Array<int*> aggregate;          ///< by node
+  Array<double* [18]> mode;       ///< by node: mode_m along i is entry 3 m + i; zero along held directions
+};
+
+/// y = Z^T r
+struct CoarseRestrict {
+  CoarseModes modes;
+  NodeVector r;
+  Array<double*> y;
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    const int a = k / CoarseModes::of_aggregate, m = k % CoarseModes::of_aggregate;
+    double sum = 0;
+    for (int p = modes.first(a); p < modes.first(a + 1); ++p) {
+      const int n = modes.node(p);
+      for (int i = 0; i < 3; ++i) sum += modes.mode(n, 3 * m + i) * r(n, i);
+    }
+    y(k) = sum;
+  }
+};
+
+/// z = B^-1 r + Z y, with B^-1 given node by node.
+struct CoarseAndFine {
+  CoarseModes modes;
+  Array<const double*> y;
+  NodeBlocks inverse;
+  NodeVector r, z;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    Vector3 sum = block_product(inverse, n, row(r, n));
+    const int first = modes.aggregate(n) * CoarseModes::of_aggregate;
+    for (int m = 0; m < CoarseModes::of_aggregate; ++m)
+      for (int i = 0; i < 3; ++i) sum[i] += modes.mode(n, 3 * m + i) * y(first + m);
+    for (int i = 0; i < 3; ++i) z(n, i) = sum[i];
+  }
+};
+
+struct InnerProduct {
+  static constexpr int values = 1;
+  NodeVector a, b;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
+};
+
+/// d += alpha p, r -= alpha q
+struct ConjugateStep {
+  NodeVector d, r, p, q;
+  double alpha;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) {
+      d(n, i) += alpha * p(n, i);
+      r(n, i) -= alpha * q(n, i);
+    }
+  }
+};
+
+/// p = z + beta p
+struct ConjugateTurn {
+  NodeVector p, z;
+  double beta;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) p(n, i) = z(n, i) + beta * p(n, i);
+  }
+};
+
+}  // namespace railwave

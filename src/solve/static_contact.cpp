@@ -1,0 +1,169 @@
+#include "solve/static_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/static_contact.hpp"
+#include "model/host_copy.hpp"
+#include "solve/contact_window.hpp"
+#include "solve/contributions.hpp"
+
+namespace railwave {
+namespace {
+
+/// Stiffness of augmented Lagrange over that of penalty springs: more makes the gaps vanish sooner, and the equations stiffer.
+constexpr double stiffening = 4;
+/// Tangential stiffness of a node that slips, over that of one that sticks: none would do, but for bodies held by friction alone.
+constexpr double slipping_share = 0.1;
+
+template <class View>
+void copy(const View& to, const View& from) {
+  if (from.span() > 0) Kokkos::deep_copy(to, from);
+}
+
+template <class View>
+View like(const View& view) {
+  View copied = Kokkos::create_mirror(MemorySpace(), view);
+  return copied;
+}
+
+ContactArrays state_like(const ContactArrays& contact) {
+  ContactArrays result;
+  result.tracked = like(contact.tracked);
+  result.place = like(contact.place);
+  result.status = like(contact.status);
+  result.gap = like(contact.gap);
+  result.normal_force = like(contact.normal_force);
+  result.tangential_force = like(contact.tangential_force);
+  return result;
+}
+
+void copy_state(const ContactArrays& to, const ContactArrays& from) {
+  copy(to.tracked, from.tracked);
+  copy(to.place, from.place);
+  copy(to.status, from.status);
+  copy(to.gap, from.gap);
+  copy(to.normal_force, from.normal_force);
+  copy(to.tangential_force, from.tangential_force);
+}
+
+double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+/// N, of each slave node.
+std::vector<double> pressing_forces(const ContactPair& pair) {
+  const auto normal = to_host(pair.arrays.normal_force);
+  const auto status = to_host(pair.arrays.status);
+  std::vector<double> pressing(pair.slave_nodes.size(), 0);
+  for (std::size_t s = 0; s < pressing.size(); ++s)
+    if (status(s) != status_apart) pressing[s] = length({normal(s, 0), normal(s, 1), normal(s, 2)});
+  return pressing;
+}
+
+template <bool Friction, class Normals>
+void press_with(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
+  Kokkos::parallel_for("augmented_contact", ContactRange(0, pair.window.count),
+                       AugmentedContact<Friction, Normals>{contact_force<Friction, Normals>(model, pair), multiplier, stiffening});
+}
+
+template <class Normals>
+void press_pair(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
+  if (pair.arrays.friction > 0) press_with<true, Normals>(model, pair, multiplier);
+  else press_with<false, Normals>(model, pair, multiplier);
+}
+
+}  // namespace
+
+StaticContact::StaticContact(Model& model) : model_(model) {
+  for (const ContactPair& pair : model.contacts) {
+    Kept& kept = kept_.emplace_back(Kept{state_like(pair.arrays), like(pair.law.friction_now), {}});
+    if (!pair.has_springs()) {
+      augmented_ = true;
+      kept.multiplier = to_device("multipliers", pressing_forces(pair));
+    }
+    for (const auto& segment : pair.master_segments)
+      for (int k : {0, 1}) {
+        const Vec3 &a = model.assembly.nodes[pair.master_nodes[segment[k]]], &b = model.assembly.nodes[pair.master_nodes[segment[k + 2]]];
+        smallest_segment_ = std::min(smallest_segment_, length({a[0] - b[0], a[1] - b[1], a[2] - b[2]}));
+      }
+  }
+  for (const ElementGroup& group : model.elements) plastic_.push_back(like(group.plastic.history));
+}
+
+void StaticContact::keep() {
+  for (std::size_t p = 0; p < kept_.size(); ++p) {
+    copy_state(kept_[p].contact, model_.contacts[p].arrays);
+    copy(kept_[p].friction_now, model_.contacts[p].law.friction_now);
+  }
+  for (std::size_t g = 0; g < plastic_.size(); ++g) copy(plastic_[g], model_.elements[g].plastic.history);
+}
+
+void StaticContact::restore() {
+  for (std::size_t p = 0; p < kept_.size(); ++p) {
+    ContactPair& pair = model_.contacts[p];
+    copy_state(pair.arrays, kept_[p].contact);
+    copy(pair.law.friction_now, kept_[p].friction_now);
+    pair.next_look = pair.next_near_look = -1;
+    pair.slaves_at_layout = {};
+  }
+  for (std::size_t g = 0; g < plastic_.size(); ++g) copy(model_.elements[g].plastic.history, plastic_[g]);
+}
+
+void StaticContact::press() {
+  Instant instant;
+  instant.settling = true;
+  instant.step = 1;
+  for (std::size_t p = 0; p < kept_.size(); ++p) {
+    ContactPair& pair = model_.contacts[p];
+    if (pair.has_springs()) continue;
+    keep_window(model_, pair, instant);
+    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, kept_[p].multiplier);
+    else press_pair<FacetNormals>(model_, pair, kept_[p].multiplier);
+  }
+}
+
+void StaticContact::add_springs(SpringCollector& springs) const {
+  constexpr Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (const ContactPair& pair : model_.contacts) {
+    const auto status = to_host(pair.arrays.status), tracked = to_host(pair.arrays.tracked);
+    const auto place = to_host(pair.arrays.place);
+    const auto normal_force = to_host(pair.arrays.normal_force);
+    const auto gap = to_host(pair.arrays.gap);
+    for (std::size_t s = 0; s < pair.slave_nodes.size(); ++s) {
+      if (status(s) == status_apart || tracked(s) < 0) continue;
+      const auto& segment = pair.master_segments[tracked(s)];
+      std::vector<int> nodes{pair.slave_nodes[s]};
+      std::vector<double> weights{1};
+      for (int k = 0; k < 4; ++k) {
+        nodes.push_back(pair.master_nodes[segment[k]]);
+        weights.push_back(-segment_shape(k, place(s, 0), place(s, 1)));
+      }
+      Vec3 normal{normal_force(s, 0), normal_force(s, 1), normal_force(s, 2)};
+      const double pressing = length(normal);
+      if (!(pressing > 0)) continue;
+      for (double& n : normal) n /= pressing;
+      const double spring = (pair.has_springs() ? 1 : stiffening) * pair.segment_stiffness[tracked(s)];
+      // Of a spring whose stiffness grows straight from its start.
+      const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0 ? std::max(spring, -2 * pressing / gap(s) - spring) : spring;
+      const double across = !(pair.arrays.friction > 0) ? 0 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
+      springs.add_spring(nodes, weights, normal, stiffness - across);
+      if (across > 0)
+        for (const Vec3& axis : axes) springs.add_spring(nodes, weights, axis, across);
+    }
+  }
+}
+
+double StaticContact::renew_multipliers() {
+  double change = 0, largest = 0;
+  for (std::size_t p = 0; p < kept_.size(); ++p) {
+    if (model_.contacts[p].has_springs()) continue;
+    const auto before = to_vector(kept_[p].multiplier), now = pressing_forces(model_.contacts[p]);
+    for (std::size_t s = 0; s < now.size(); ++s) {
+      change = std::max(change, std::fabs(now[s] - before[s]));
+      largest = std::max(largest, now[s]);
+    }
+    kept_[p].multiplier = to_device("multipliers", now);
+  }
+  return largest > 0 ? change / largest : 0;
+}
+
+}  // namespace railwave

@@ -1,0 +1,263 @@
+#include "solve/static_newton.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "case/error.hpp"
+#include "kernels/block_sum.hpp"
+#include "model/host_copy.hpp"
+#include "solve/settle_parts.hpp"
+#include "solve/static_coarse.hpp"
+#include "solve/static_contact.hpp"
+#include "solve/static_tangent.hpp"
+
+namespace railwave {
+namespace {
+
+/// Conjugate gradients stop at this share of the residual they began with, between these bounds.
+constexpr double loosest = 0.1, tightest = 1e-3;
+constexpr int most_iterations = 600;
+constexpr int iterations_between_looks = 20;
+/// A step is taken when the force along it has come down to this share of what it was, either way.
+constexpr double taken_share = 0.7;
+constexpr int most_trials = 20;
+/// Share of the diagonal that is added to the stiffness: much where contact has still to close, and a body that nothing holds
+/// would turn by angles that strain it; raised where a step went too far to be taken whole or made things worse, and lowered
+/// where it didn't; to no less than a floor that rises while nothing improves, for bodies that slide away without friction.
+constexpr double least_shift = 1e-12, most_shift = 1e-5, shift_up = 100, shift_down = 10, worse = 2;
+constexpr int idle_steps_of_floor = 3;
+/// Newton steps without a better residual after which it is given up.
+constexpr int most_idle_steps = 25;
+/// Multipliers are renewed when the unbalance is below that many tolerances.
+constexpr double renewal_unbalance = 30;
+/// Change of a multiplier, over the largest one, at which they count as found: what is left of the gaps would take as much
+/// off the penalty springs.
+constexpr double multiplier_tolerance = 1e-3;
+
+struct Measure {
+  double unbalance = 0;  ///< sum of |unbalanced force| over sum of |applied and contact force|
+  double along = 0;      ///< J, unbalanced force times the step
+  double applied = 0;    ///< N
+};
+
+class Newton {
+ public:
+  Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
+      : model_(model), go_on_(go_on), contact_(model), stages_(force_stages_without_multipliers(model)),
+        tangent_(model), coarse_(model, tangent_),
+        residual_{model.acceleration(), tangent_.holds(), to_device("centrifugal field", centrifugal_field(model)), vector("residual")},
+        origin_(vector("origin")), step_(vector("static step")), left_(vector("left residual")), z_(vector("preconditioned")),
+        way_(vector("search direction")), image_(vector("image")) {}
+
+  SettleReport run() {
+    const scene::Settle& wish = model_.scene.settle;
+    contact_.keep();
+    Measure now = evaluate();
+    if (contact_.any()) shift_ = most_shift;
+    refuse_drifting_points(now);
+    double best = 1e300;
+    int idle = 0;
+    for (;; ++report_.iterations) {
+      double change = 0;
+      if (contact_.augmented()) {
+        change = 1;
+        if (now.unbalance < renewal_unbalance * wish.tolerance) change = contact_.renew_multipliers();
+      }
+      report_.unbalance = now.unbalance;
+      report_.settled = now.unbalance < wish.tolerance && change < std::min(multiplier_tolerance, wish.tolerance);
+      if (!report_.settled && contact_.augmented() && change < 1) {
+        // The multipliers press in the springs' place, and these press on until the gaps are gone.
+        contact_.keep();
+        contact_.restore();
+        now = evaluate();
+      }
+      if (report_.settled || !std::isfinite(now.unbalance) || !go_on_(report_)) break;
+      idle = now.unbalance < 0.95 * best ? 0 : idle + 1;
+      best = std::min(best, now.unbalance);
+      if (idle > 0 && idle % idle_steps_of_floor == 0) floor_ = std::min(most_shift, shift_up * floor_);
+      if (idle > most_idle_steps || report_.steps >= wish.max_steps) break;
+      contact_.keep();
+      if (!find_step(now)) break;
+      now = go(now.unbalance);
+    }
+    if (!report_.settled) report_.adrift = what_drifts(now);
+    return report_;
+  }
+
+ private:
+  NodeVector vector(const char* name) const { return NodeVector(std::string(name), model_.nodes.count); }
+  Range all() const { return Range(0, model_.nodes.count); }
+
+  double inner(const NodeVector& a, const NodeVector& b) const {
+    double sum = 0;
+    block_sum(InnerProduct{a, b}, model_.nodes.count, &sum, model_.sum_space);
+    return sum;
+  }
+
+  /// Forces at the present places, from the kept contact.
+  Measure evaluate() {
+    ++report_.steps;
+    Instant instant;
+    instant.settling = true;
+    instant.step = 1;
+    for (const Stage& stage : stages_) stage.run(instant);
+    contact_.press();
+    Kokkos::parallel_for("static_residual", all(), residual_);
+    double sum[3];
+    block_sum(StaticUnbalance{residual_, step_}, model_.nodes.count, sum, model_.sum_space);
+    return {sum[1] > 0 ? sum[0] / sum[1] : sum[0], sum[2], sum[1]};
+  }
+
+  Measure evaluate_at(double share) {
+    contact_.restore();
+    Kokkos::parallel_for("go_along", all(), GoAlong{model_.nodes.position, origin_, step_, share});
+    return evaluate();
+  }
+
+  /// Solves K step = residual. @return false when told to stop
+  bool find_step(const Measure& now) {
+    SpringCollector springs(model_);
+    springs.add_connectors();
+    contact_.add_springs(springs);
+    tangent_.set_springs(springs, shift_);
+    coarse_.factor(springs);
+    Kokkos::deep_copy(step_, 0.0);
+    Kokkos::deep_copy(left_, residual_.residual);
+    coarse_.precondition(left_, z_);
+    Kokkos::deep_copy(way_, z_);
+    double square = inner(left_, z_);
+    const double wanted = std::max(tightest, std::min(loosest, 0.2 * model_.scene.settle.tolerance / now.unbalance));
+    const double enough = wanted * wanted * square;
+    for (int k = 1; k <= most_iterations && square > enough; ++k) {
+      tangent_.apply(way_, image_);
+      ++report_.steps;
+      const double curvature = inner(way_, image_);
+      if (!(curvature > 0)) break;
+      Kokkos::parallel_for("conjugate_step", all(), ConjugateStep{step_, left_, way_, image_, square / curvature});
+      coarse_.precondition(left_, z_);
+      const double before = square;
+      square = inner(left_, z_);
+      Kokkos::parallel_for("conjugate_turn", all(), ConjugateTurn{way_, z_, square / before});
+      if (k % iterations_between_looks == 0 && !go_on_(report_)) return false;
+    }
+    return true;
+  }
+
+  /// Largest share of the step that moves no node of a contact surface farther than a segment: none passes through another.
+  double largest_share() const {
+    if (!contact_.any()) return 1;
+    const auto step = to_host(step_);
+    double farthest = 0;
+    const auto look = [&](int n) { farthest = std::max(farthest, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2))); };
+    for (const ContactPair& pair : model_.contacts) {
+      for (int n : pair.slave_nodes) look(n);
+      for (int n : pair.master_nodes) look(n);
+    }
+    return farthest > 0 ? std::min(1.0, contact_.smallest_segment() / farthest) : 1.0;
+  }
+
+  /// Goes along the step until the force along it has come down. Regula falsi of the Illinois kind between two places at
+  /// which that force has different signs.
+  Measure go(double unbalance_before) {
+    Kokkos::deep_copy(origin_, model_.nodes.position);
+    const double first = inner(residual_.residual, step_);
+    double low = 0, at_low = first, high = 0, at_high = 0, share = largest_share();
+    const bool whole = share == 1;
+    Measure now{};
+    for (int trial = 0; trial < most_trials; ++trial) {
+      now = evaluate_at(share);
+      const bool too_far = !std::isfinite(now.unbalance) || !std::isfinite(now.along);
+      // Still pulled on: beyond the step's end nothing is known.
+      if (!too_far && now.along >= 0 && high == 0) break;
+      if (!too_far && std::fabs(now.along) <= taken_share * first) break;
+      if (too_far || now.along < 0) {
+        if (high > 0 && !too_far) at_low *= 0.5;
+        high = share;
+        at_high = too_far ? -1e3 * first : now.along;
+      } else {
+        at_high *= 0.5;
+        low = share;
+        at_low = now.along;
+      }
+      share = low + (high - low) * std::max(1e-3, std::min(0.9, at_low / (at_low - at_high)));
+    }
+    const bool well = whole && now.unbalance < worse * unbalance_before;
+    shift_ = well ? std::max(floor_, shift_ / shift_down) : std::min(most_shift, shift_up * shift_);
+    return now;
+  }
+
+  /// A point mass has no shape to lean on: springs and constraints must hold it against its load.
+  void refuse_drifting_points(const Measure& now) const {
+    const auto residual = to_host(residual_.residual);
+    SpringCollector springs(model_);
+    springs.add_connectors();
+    for (std::size_t k = 0; k < model_.assembly.point_nodes.size(); ++k) {
+      const int n = model_.assembly.point_nodes[k];
+      Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
+      for (std::size_t s = 0; s < springs.direction().size(); ++s)
+        for (int j = springs.first()[s]; j < springs.first()[s + 1]; ++j)
+          if (springs.node()[j] == n) {
+            const Eigen::Vector3d d(springs.direction()[s].data());
+            held += springs.stiffness()[s] * d * d.transpose();
+          }
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
+      for (int m = 0; m < 3; ++m) {
+        const Eigen::Vector3d direction = eigen.eigenvectors().col(m);
+        const double force = direction.dot(Eigen::Vector3d(residual(n, 0), residual(n, 1), residual(n, 2)));
+        if (eigen.eigenvalues()[m] > 1e-9 * eigen.eigenvalues()[2]) continue;
+        if (std::fabs(force) <= model_.scene.settle.tolerance * now.applied) continue;
+        const scene::PointMass& point = model_.scene.points[k];
+        throw InputError(fmt::format(
+            "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), where no "
+            "connector is stiff; give one a stiffness there, preload it by that force, or constrain the point",
+            model_.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
+      }
+    }
+  }
+
+  /// The part on which the largest force is left, if that is more than rounding leaves of deformation.
+  std::string what_drifts(const Measure& now) const {
+    const auto residual = to_host(residual_.residual);
+    std::string worst;
+    double largest = model_.scene.settle.tolerance * now.applied;
+    for (const auto& part : model_.assembly.parts) {
+      Vec3 sum{};
+      for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
+        for (int i = 0; i < 3; ++i) sum[i] += residual(n, i);
+      const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+      if (!(size > largest)) continue;
+      largest = size;
+      worst = fmt::format("part '{}' is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not "
+                          "met what will", part.name, sum[0], sum[1], sum[2]);
+    }
+    return worst;
+  }
+
+  Model& model_;
+  const std::function<bool(const SettleReport&)>& go_on_;
+  SettleReport report_;
+  StaticContact contact_;
+  std::vector<Stage> stages_;
+  StaticTangent tangent_;
+  StaticCoarse coarse_;
+  double shift_ = least_shift, floor_ = least_shift;
+  StaticResidual residual_;
+  NodeVector origin_, step_, left_, z_, way_, image_;
+};
+
+}  // namespace
+
+SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+  model.step = 0;
+  SettleReport report = Newton(model, go_on).run();
+  for (ContactPair& pair : model.contacts) {
+    Kokkos::deep_copy(pair.missed, 0);
+    if (!pair.has_springs()) Kokkos::deep_copy(pair.multipliers.way_since_stuck, 0.0);
+  }
+  return report;
+}
+
+}  // namespace railwave

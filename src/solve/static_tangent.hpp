@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/static_solve.hpp"
+#include "model/model.hpp"
+#include "model/tangent_springs.hpp"
+
+namespace railwave {
+
+/// The scene's stiffness about its present place, as an operator on displacements: elements (linear elastic, with the
+/// stiffness hourglass control that they have while settling), connectors and the contact springs that press. Always in
+/// double. A small multiple of the diagonal is added, so that what nothing holds has an answer all the same.
+class StaticTangent {
+ public:
+  explicit StaticTangent(const Model& model);
+
+  /// Connectors and contact springs as they are now; lays out the preconditioner's blocks.
+  /// @param shift share of the diagonal that is added
+  void set_springs(const SpringCollector& springs, double shift);
+
+  /// f = (P K P + shift D) u, for u without parts along held directions.
+  void apply(const NodeVector& u, const NodeVector& f) const;
+
+  double shift() const { return shift_; }
+  /// N/m, by node: a mean of its own block.
+  const std::vector<double>& diagonal() const { return diagonal_; }
+  /// Inverses of the diagonal blocks, held directions taken out.
+  const NodeBlocks& inverse_blocks() const { return inverse_; }
+
+  const ElementStiffness& stiffness_of(int element) const { return stiffness_[stiffness_of_element_[element]]; }
+  const StaticHolds& holds() const { return holds_; }
+  /// I - sum d d^T of a node's held directions, by rows; null: free.
+  const double* projection(int node) const;
+
+ private:
+  void lay_holds();
+
+  const Model& model_;
+  StaticHolds holds_;
+  double shift_ = 0;
+  std::vector<ElementStiffness> stiffness_;  ///< by part
+  std::vector<int> stiffness_of_element_, hold_;
+  std::vector<std::array<double, 9>> projections_;
+  std::vector<std::array<double, 6>> element_blocks_;
+  std::vector<double> diagonal_;
+  Array<int* [8]> corners_;
+  Array<int*> first_corner_, corner_;
+  Array<double* [24]> corner_force_;
+  Array<double*> device_diagonal_;
+  NodeBlocks inverse_;
+  TangentSprings springs_;
+};
+
+}  // namespace railwave

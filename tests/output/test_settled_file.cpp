@@ -1,0 +1,189 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <cstring>
+
+#include "output/settled_file.hpp"
+#include "solve/static_start.hpp"
+#include "solve/time_loop.hpp"
+#include "tests/case/temporary_case.hpp"
+
+using namespace railwave;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+/// A small block on a larger one under its weight, with friction.
+std::string two_blocks(const std::string& algorithm, const std::string& method) {
+  return R"([materials.steel]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+[meshes.upper]
+type = "box"
+size = [0.04, 0.04, 0.01]
+divisions = [5, 7, 2]
+[meshes.lower]
+type = "box"
+size = [0.08, 0.08, 0.02]
+divisions = [8, 8, 3]
+[parts.upper]
+mesh = "upper"
+material = "steel"
+hourglass = "stiffness"
+position = [-0.02, -0.02, 0]
+[parts.lower]
+mesh = "lower"
+material = "steel"
+hourglass = "stiffness"
+position = [-0.04, -0.04, -0.02]
+[constraints.ground]
+target = "lower.z_min"
+fixed = ["x", "y", "z"]
+[contacts.touch]
+slave = "upper.z_min"
+master = "lower.z_max"
+friction = 0.3
+algorithm = ")" + algorithm + R"("
+[gravity]
+acceleration = [0, 0, -1e5]
+[initial_motion.slide]
+parts = ["upper"]
+velocity = [1, 0, 0]
+[settle]
+method = ")" + method + R"("
+tolerance = 1e-4
+[time]
+end = 2e-5
+step_scale = 0.6
+)";
+}
+
+struct Recorder : RunObserver {
+  std::vector<HistorySample> samples;
+  SettleReport report;
+  void settled(const Model&, const SettleReport& told) override { report = told; }
+  void history(const Model&, const HistorySample& sample) override { samples.push_back(sample); }
+};
+
+/// A run of a case with its states kept beside it.
+Recorder run_case(const test::TemporaryCase& file, std::vector<std::string> overrides = {}) {
+  overrides.push_back("output.file=" + (file.folder() / "results.h5").string());
+  const scene::Scene scene = read_case(file.path(), overrides);
+  Model model;
+  build_model(scene, model);
+  Recorder recorder;
+  SettledFiles settled("test");
+  run(model, {&recorder}, &settled);
+  return recorder;
+}
+
+bool bitwise_equal(const Recorder& a, const Recorder& b) {
+  if (a.samples.size() != b.samples.size()) return false;
+  for (std::size_t k = 0; k < a.samples.size(); ++k) {
+    if (std::memcmp(&a.samples[k].energy, &b.samples[k].energy, sizeof(EnergyAccount)) != 0) return false;
+    for (std::size_t c = 0; c < a.samples[k].contacts.size(); ++c) {
+      const ContactTotals &one = a.samples[k].contacts[c], &other = b.samples[k].contacts[c];
+      if (one.normal_force != other.normal_force || one.tangential_force != other.tangential_force ||
+          one.nodes_in_contact != other.nodes_in_contact || one.nodes_slipping != other.nodes_slipping)
+        return false;
+    }
+  }
+  return true;
+}
+
+std::filesystem::path kept_file(const test::TemporaryCase& file) {
+  for (const auto& entry : std::filesystem::directory_iterator(file.folder()))
+    if (entry.path().filename().string().rfind("settled-", 0) == 0) return entry.path();
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a run from the kept state is bitwise the run that settled itself") {
+  for (const char* algorithm : {"penalty", "multiplier"})
+    for (const char* method : {"newton", "relaxation"}) {
+      INFO(algorithm << ", " << method);
+      const test::TemporaryCase file(two_blocks(algorithm, method));
+      const Recorder first = run_case(file), second = run_case(file), without = run_case(file, {"settle.cache=false"});
+      REQUIRE(first.report.settled);
+      CHECK(first.report.taken_from.empty());
+      CHECK(first.report.steps > 0);
+      CHECK(second.report.settled);
+      CHECK(second.report.taken_from == kept_file(file).string());
+      CHECK(second.report.steps == 0);
+      CHECK(without.report.taken_from.empty());
+      CHECK(first.samples.size() > 10);
+      CHECK(bitwise_equal(first, second));
+      CHECK(bitwise_equal(first, without));
+    }
+}
+
+TEST_CASE("the kept state holds for other times and velocities, for no other loads, meshes or precision") {
+  const test::TemporaryCase file(two_blocks("penalty", "newton"));
+  run_case(file);
+  CHECK(run_case(file, {"time.end=1e-5", "title=other", "initial_motion.slide.velocity=[2, 0, 0]", "output.history_interval=1e-6"}).report.taken_from !=
+        "");
+  for (const char* change : {"gravity.acceleration=[0, 0, -1.1e5]", "solver.precision=mixed", "meshes.upper.divisions=[5, 6, 2]",
+                             "contacts.touch.friction=0.2", "settle.tolerance=2e-4"}) {
+    INFO(change);
+    CHECK(run_case(file, {change}).report.taken_from.empty());
+  }
+}
+
+TEST_CASE("a damaged state is told and settled anew") {
+  const test::TemporaryCase file(two_blocks("penalty", "newton"));
+  const Recorder first = run_case(file);
+  const auto kept = kept_file(file);
+  const std::string sound = test::text_of(kept);
+  for (int kind = 0; kind < 3; ++kind) {
+    std::string damaged = sound;
+    if (kind == 0) damaged.resize(damaged.size() / 2);
+    if (kind == 1) damaged = "not HDF5 at all";
+    if (kind == 2) {
+      // A bit of a place, where it lies in the file: 0.04 is a corner's coordinate of the lower block.
+      const double corner = -0.04;
+      char bytes[sizeof corner];
+      std::memcpy(bytes, &corner, sizeof corner);
+      const auto at = damaged.find(std::string(bytes, sizeof corner));
+      REQUIRE(at != std::string::npos);
+      damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    }
+    file.write(kept.filename().string(), damaged);
+    const Recorder again = run_case(file);
+    REQUIRE(again.report.remarks.size() == 1);
+    CHECK_THAT(again.report.remarks[0], ContainsSubstring(kept.string()) && ContainsSubstring("cannot be used") && ContainsSubstring("settles anew"));
+    if (kind == 2) CHECK_THAT(again.report.remarks[0], ContainsSubstring("checksum"));
+    CHECK(again.report.taken_from.empty());
+    CHECK(bitwise_equal(first, again));
+    CHECK(test::text_of(kept).size() == sound.size());  // and the file is sound again
+  }
+}
+
+TEST_CASE("settling that was stopped goes on from its last state") {
+  for (const char* method : {"newton", "relaxation"}) {
+    INFO(method);
+    const test::TemporaryCase file(two_blocks("penalty", method));
+    const scene::Scene scene = read_case(file.path(), {"output.file=" + (file.folder() / "results.h5").string()});
+    SettledFiles settled("test");
+    int whole = 0, done = 0;
+    {
+      Model model;
+      build_model(scene, model);
+      whole = settle(model, [](const auto&) { return true; }).steps;
+    }
+    {
+      Model model;
+      build_model(scene, model);
+      const SettleReport report = come_to_rest(model, &settled, [&](const SettleReport& so_far) { return so_far.steps < whole / 2; });
+      CHECK_FALSE(report.settled);
+      done = report.steps;
+    }
+    CHECK(done > 0);
+    Model model;
+    build_model(scene, model);
+    const SettleReport report = come_to_rest(model, &settled, [](const auto&) { return true; });
+    CHECK(report.settled);
+    CHECK(report.begun_from == kept_file(file).string());
+    CHECK(report.steps < whole);
+  }
+}

@@ -83,7 +83,7 @@ def draw_model(path):
     """The whole by part and by stable step, and the surroundings of the shortest step. Returns a figure."""
     surface = Surface(path)
     figure = plt.figure(figsize=(10, 8))
-    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1], hspace=0.05, wspace=0.02, left=0.02, right=0.98, top=0.93, bottom=0.02)
+    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1], hspace=0.05, wspace=0.02, left=0.02, right=0.98, top=0.93, bottom=0.1)
     whole, near, far = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, 1]), figure.add_subplot(grid[1, 0])
     figure.suptitle(f"{surface.title}\nshortest stable step {1e9 * surface.least:.3g} ns, {surface.short} elements within a tenth of it", fontsize=10)
 
@@ -93,7 +93,7 @@ def draw_model(path):
     surface.draw(whole, palette[[kinds.index(family[p]) for p in surface.part]], edges=0.1)
     handles = [plt.Line2D([], [], marker="s", linestyle="", color=colour) for colour in palette]
     handles.append(plt.Line2D([], [], color="crimson"))
-    whole.legend(handles, kinds + ["springs and dashpots"], fontsize=8, loc="upper right", frameon=False)
+    whole.legend(handles, kinds + ["springs and dashpots"], fontsize=8, loc="upper left", frameon=False)
 
     scale = plt.Normalize(0, np.log10(max(surface.step.max() / surface.least, 1.01)))
     colours = plt.get_cmap("viridis")(scale(np.log10(surface.step / surface.least)))
@@ -102,6 +102,7 @@ def draw_model(path):
     spot = surface.place @ surface.axes
     for axes in (far, near):
         axes.plot(*spot, marker="o", markersize=9, markerfacecolor="none", markeredgecolor="red")
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), ax=[far, near], orientation="horizontal", fraction=0.05, pad=0.02)
+    bar = figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), cax=figure.add_axes([0.25, 0.075, 0.5, 0.018]), orientation="horizontal")
+    bar.ax.tick_params(labelsize=8)
     bar.set_label("stable step over the shortest (in the ring), powers of ten", fontsize=8)
     return figure

@@ -127,9 +127,10 @@ void check_beam(void* entry, EntryCheck& check) {
   if (!check.sound({"section"})) return;
   const bool circle = beam.section == scene::BeamSection::circle;
   const char* name = circle ? "circle" : "rectangle";
-  for (const char* key : {"radius", "width", "height"}) {
+  for (const auto& [key, value] : {Named{"radius", beam.radius}, Named{"width", beam.width}, Named{"height", beam.height}}) {
     const bool belongs = circle == (key[0] == 'r');
     if (belongs && !check.given(key)) check.complain(key, fmt::format("is missing; section = \"{}\" needs it", name));
+    if (belongs && check.given(key) && check.sound({key}) && value == 0) check.complain(key, "is 0, must be above 0 m");
     if (!belongs && check.given(key)) check.complain(key, fmt::format("does not belong to section = \"{}\"; leave it out", name));
   }
 }

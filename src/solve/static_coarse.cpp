@@ -9,8 +9,9 @@
 namespace railwave {
 namespace {
 
-/// Elements of an aggregate, at least; more where there would be more aggregates than that.
-constexpr int least_elements = 16, most_aggregates = 1500;
+/// Elements of an aggregate, at least; more where there would be more aggregates than that: of a compact body E fills up, and its
+/// factors take the square of their number.
+constexpr int least_elements = 16, most_aggregates = 600;
 /// A motion counts if its size is that share of the aggregate's largest, squared.
 constexpr double least_motion = 1e-8;
 

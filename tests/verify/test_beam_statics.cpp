@@ -16,7 +16,9 @@ constexpr double radius = 0.03, length = 1.2;
 void settle_cantilever(scene::Scene& scene, const scene::Load& load, Model& model) {
   clamp(scene, "root");
   scene.loads.push_back(load);
-  scene.settle = {true, 1e-7, 400000};
+  scene.settle.active = true;
+  scene.settle.tolerance = 1e-7;
+  scene.settle.max_steps = 400000;
   build_model(scene, model);
   REQUIRE(settle_whole(model).settled);
 }

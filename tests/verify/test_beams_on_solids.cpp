@@ -121,7 +121,9 @@ TEST_CASE("a ring that rolls with its spokes feels no more in them than rotation
   roll.angular_velocity = {0, 60, 0};
   roll.centre = Vec3{0, 0, 0};
   scene.initial_motions.push_back(roll);
-  scene.settle = {true, 1e-4, 100000};
+  scene.settle.active = true;
+  scene.settle.tolerance = 1e-4;
+  scene.settle.max_steps = 100000;
   Model model;
   build_model(scene, model);
   REQUIRE(settle_whole(model).settled);
@@ -144,7 +146,9 @@ TEST_CASE("a ring that rolls with its spokes feels no more in them than rotation
 
 TEST_CASE("a bolt has its pretension when all has settled, and a millisecond later still") {
   scene::Scene scene = bolted_cube(12500, 1e-3);
-  scene.settle = {true, 1e-5, 100000};
+  scene.settle.active = true;
+  scene.settle.tolerance = 1e-5;
+  scene.settle.max_steps = 100000;
   Model model;
   build_model(scene, model);
   Recorder recorder;

@@ -145,22 +145,26 @@ TEST_CASE("a ring that rolls with its spokes feels no more in them than rotation
 }
 
 TEST_CASE("a bolt has its pretension when all has settled, and a millisecond later still") {
-  scene::Scene scene = bolted_cube(12500, 1e-3);
-  scene.settle.active = true;
-  scene.settle.tolerance = 1e-5;
-  scene.settle.max_steps = 100000;
-  Model model;
-  build_model(scene, model);
-  Recorder recorder;
-  REQUIRE(run(model, {&recorder}).completed);
-  double largest = 0;
-  for (const HistorySample& sample : recorder.samples)
-    for (int e = 0; e < 4; ++e) largest = std::max(largest, std::fabs(axial_force(sample.beams[0], e) / 12500 - 1));
-  CHECK(largest < 1e-3);
-  // The washers press the cube together with as much.
-  double pressed = 0;
-  for (double s : element_stress(model, all_elements(model)).values) pressed = std::max(pressed, std::fabs(s));
-  CHECK(pressed > 0.5 * 12500 / (0.08 * 0.08));
+  // Viscous hourglass control holds nothing at rest, as what settles has it: that is what the bolt's force swings by.
+  for (const auto& [control, bound] : {std::pair{scene::HourglassType::stiffness, 1e-3}, {scene::HourglassType::viscous, 1e-2}}) {
+    scene::Scene scene = bolted_cube(12500, 1e-3);
+    set_hourglass(scene.parts[0], control, control == scene::HourglassType::viscous ? 0.1 : 0.05);
+    scene.settle.active = true;
+    scene.settle.tolerance = 1e-5;
+    scene.settle.max_steps = 100000;
+    Model model;
+    build_model(scene, model);
+    Recorder recorder;
+    REQUIRE(run(model, {&recorder}).completed);
+    double largest = 0;
+    for (const HistorySample& sample : recorder.samples)
+      for (int e = 0; e < 4; ++e) largest = std::max(largest, std::fabs(axial_force(sample.beams[0], e) / 12500 - 1));
+    CHECK(largest < bound);
+    // The washers press the cube together with as much.
+    double pressed = 0;
+    for (double s : element_stress(model, all_elements(model)).values) pressed = std::max(pressed, std::fabs(s));
+    CHECK(pressed > 0.5 * 12500 / (0.08 * 0.08));
+  }
 }
 
 TEST_CASE("without settling a bolt begins with its pretension as it lies, and loses some to what it presses together") {

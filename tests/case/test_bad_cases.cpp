@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "source_folder.hpp"
 #include "tests/case/temporary_case.hpp"
 
 using namespace railwave;
@@ -31,7 +32,7 @@ std::vector<std::string> expected_of(const fs::path& path) {
 
 TEST_CASE("each broken case gets its messages, and no others", "[case]") {
   std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(fs::path(RAILWAVE_SOURCE_DIR) / "tests/case/bad"))
+  for (const auto& entry : fs::directory_iterator(fs::path(source_folder) / "tests/case/bad"))
     paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   REQUIRE(paths.size() >= 35);

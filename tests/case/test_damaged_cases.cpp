@@ -1,5 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 
+#include "source_folder.hpp"
 #include "tests/case/temporary_case.hpp"
 
 using namespace railwave;
@@ -7,7 +8,7 @@ using namespace railwave::test;
 
 namespace {
 
-std::string rolling_case() { return text_of(std::string(RAILWAVE_SOURCE_DIR) + "/cases/rolling.toml"); }
+std::string rolling_case() { return text_of(source_folder + "/cases/rolling.toml"); }
 
 /// Reads the text as a case; anything but a scene or an InputError with a message fails the test.
 void read_anyhow(const TemporaryCase& file, const std::string& text) {

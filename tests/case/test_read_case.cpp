@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "source_folder.hpp"
 #include "tests/case/temporary_case.hpp"
 
 using namespace railwave;
@@ -463,7 +464,7 @@ TEST_CASE("settling is on with its section, unless that says no", "[case]") {
 }
 
 TEST_CASE("the rolling case is read", "[case]") {
-  const auto scene = read_case(std::string(RAILWAVE_SOURCE_DIR) + "/cases/rolling.toml");
+  const auto scene = read_case(source_folder + "/cases/rolling.toml");
   CHECK(scene.parts.size() >= 2);
   CHECK(scene.settle.active);
   CHECK_FALSE(scene.contacts.empty());

@@ -6,6 +6,7 @@
 #include "case/keys.hpp"
 #include "case/read_value.hpp"
 #include "case/reference.hpp"
+#include "source_folder.hpp"
 #include "tests/case/temporary_case.hpp"
 
 using namespace railwave;
@@ -13,7 +14,7 @@ using namespace railwave::test;
 using namespace railwave::case_file;
 
 namespace {
-const std::filesystem::path docs = std::filesystem::path(RAILWAVE_SOURCE_DIR) / "docs";
+const std::filesystem::path docs = std::filesystem::path(source_folder) / "docs";
 }
 
 TEST_CASE("docs/case-file.md is what the table of keys says", "[case]") {

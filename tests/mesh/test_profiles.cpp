@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/profiles.hpp"
+#include "source_folder.hpp"
 
 using namespace railwave;
 using Catch::Matchers::WithinAbs;
@@ -15,7 +16,7 @@ using Catch::Matchers::WithinAbs;
 namespace {
 
 std::vector<std::vector<double>> table(const std::string& name) {
-  std::ifstream file(std::string(RAILWAVE_DATA_DIR) + "/" + name);
+  std::ifstream file(source_folder + "/data/" + name);
   REQUIRE(file.good());
   std::vector<std::vector<double>> rows;
   for (std::string text; std::getline(file, text);) {

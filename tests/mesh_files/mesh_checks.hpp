@@ -8,11 +8,12 @@
 #include <string>
 
 #include "mesh/mesh.hpp"
+#include "source_folder.hpp"
 
 // What the tests of mesh files share: a folder of their own, and measures of a mesh that don't use the reader's code.
 namespace railwave {
 
-inline const std::string test_data = std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/data/";
+inline const std::string test_data = source_folder + "/tests/mesh_files/data/";
 
 /// A new folder, deleted with all its files at the end.
 class TemporaryFolder {

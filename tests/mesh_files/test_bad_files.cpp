@@ -6,6 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/mesh_file.hpp"
+#include "source_folder.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
 using namespace railwave;
@@ -16,7 +17,7 @@ using namespace railwave;
 TEST_CASE("each broken mesh file is refused with its message") {
   std::vector<std::filesystem::path> paths;
   for (const auto& entry :
-       std::filesystem::directory_iterator(std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/bad"))
+       std::filesystem::directory_iterator(source_folder + "/tests/mesh_files/bad"))
     if (const auto ending = entry.path().extension(); ending == ".inp" || ending == ".msh")
       paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());

@@ -3,6 +3,7 @@
 
 #include "case/read_case.hpp"
 #include "post/contact_solution.hpp"
+#include "source_folder.hpp"
 #include "tests/verify/march.hpp"
 
 using namespace railwave;
@@ -15,7 +16,7 @@ TEST_CASE("the case of Hertz's sphere on a plane comes near Hertz's solution on 
   for (const std::string mesh : {"sphere", "block"})
     for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04"})
       changed.push_back("meshes." + mesh + "." + key);
-  const scene::Scene scene = read_case(RAILWAVE_SOURCE_DIR "/cases/verify/hertz_sphere.toml", changed);
+  const scene::Scene scene = read_case(source_folder + "/cases/verify/hertz_sphere.toml", changed);
   Model model;
   build_model(scene, model);
   const SettleReport report = settle_whole(model);
@@ -39,7 +40,7 @@ TEST_CASE("nodes that meet exactly come to rest with smooth normals") {
   for (const std::string mesh : {"sphere", "block"})
     for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04", "zone_start=-0.012", "zone_end=0.012", "zone_width=0.024"})
       changed.push_back("meshes." + mesh + "." + key);
-  const scene::Scene scene = read_case(RAILWAVE_SOURCE_DIR "/cases/verify/hertz_sphere.toml", changed);
+  const scene::Scene scene = read_case(source_folder + "/cases/verify/hertz_sphere.toml", changed);
   Model model;
   build_model(scene, model);
   const SettleReport report = settle_whole(model);

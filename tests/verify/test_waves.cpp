@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "source_folder.hpp"
 #include "tests/verify/march.hpp"
 
 using namespace railwave;
@@ -115,7 +116,7 @@ void check_wave_in_file(const std::string& path, double scale) {
 }  // namespace
 
 TEST_CASE("P and S waves run as fast in meshes made by Gmsh and in the manner of CalculiX") {
-  const std::string folder = std::string(RAILWAVE_SOURCE_DIR) + "/tests/mesh_files/data/";
+  const std::string folder = source_folder + "/tests/mesh_files/data/";
   for (const char* file : {"block_ascii.msh", "block_binary.msh"}) check_wave_in_file(folder + file, 1.0);
   check_wave_in_file(folder + "cantilever.inp", 1e-3);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/beam.hpp"
+#include "kernels/nodes.hpp"
 
 namespace railwave {
 
@@ -9,14 +10,7 @@ namespace railwave {
 struct BeamNodeMoment {
   BeamArrays beams;
 
-  KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& x) const {
-    const int c = beams.constraint(n);
-    if (c < 0) return x;
-    Vector3 result{{0, 0, 0}};
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) result[i] += beams.projections(c, i, j) * x[j];
-    return result;
-  }
+  KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& x) const { return projected(beams.projections, beams.constraint(n), x); }
 
   KOKKOS_INLINE_FUNCTION Vector3 moment(int n) const {
     Vector3 sum{{0, 0, 0}};

@@ -40,7 +40,7 @@ struct ContactForce {
       contact.place(s, 1) = now.place.eta;
     }
     contact.gap(s) = now.gap;
-    if (!(now.gap < 0)) {
+    if (law.apart(contact, s, now)) {
       if (touched) {
         part(s, previous);
         law.part(contact, s, entry.node, now);
@@ -48,7 +48,7 @@ struct ContactForce {
       return;
     }
 
-    const double stiffness = contact.segment_stiffness(now.segment);
+    const double stiffness = law.stiffness(contact, now.segment);
     const double pressing = law.pressing(contact, s, entry.node, now, stiffness);
     Vector3 force = pressing * now.normal;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];

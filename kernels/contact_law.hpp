@@ -6,6 +6,9 @@ namespace railwave {
 
 /// The law of most pairs: a linear penalty (thesis eq. 2.26c) and a constant coefficient of friction.
 struct PlainContactLaw {
+  /// N/m, of the spring at a segment.
+  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const { return contact.segment_stiffness(segment); }
+  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const { return !(now.gap < 0); }
   KOKKOS_INLINE_FUNCTION double pressing(const ContactArrays& /*contact*/, int /*s*/, int /*node*/, const Projection& now,
                                          double stiffness) const {
     return -now.gap * stiffness;
@@ -58,6 +61,9 @@ struct ContactLaw {
   Array<const double*> mass;          ///< kg
   double damping;                     ///< share of critical damping now: none while a scene settles
   double elapsed;                     ///< s since the instant before; 0: there is none, or time has no meaning
+
+  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const { return contact.segment_stiffness(segment); }
+  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const { return !(now.gap < 0); }
 
   /// The penalty spring's force and the dashpot's beside it; never a pull.
   KOKKOS_INLINE_FUNCTION double pressing(const ContactArrays& contact, int s, int node, const Projection& now,

@@ -108,21 +108,25 @@ struct NodeAdvance {
   }
 };
 
+/// A vector without its components along held directions. Each row of the table is I - sum d d^T over directions d.
+/// @param c row; -1: nothing is held
+template <class Table>
+KOKKOS_FORCEINLINE_FUNCTION Vector3 projected(const Table& table, int c, const Vector3& a) {
+  if (c < 0) return a;
+  Vector3 free;
+  for (int i = 0; i < 3; ++i) free[i] = table(c, i, 0) * a[0] + table(c, i, 1) * a[1] + table(c, i, 2) * a[2];
+  return free;
+}
+
 /// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7, eqs. 2.31).
-/// Each row of the table is the projection I - sum d d^T over a node's constrained directions d, so a constrained
-/// direction keeps the velocity it began with.
+/// A constrained direction keeps the velocity it began with.
 struct NodalAcceleration {
   NodalForce force;
   Vector3 gravity;                          ///< m/s2
   Array<const double* [3][3]> constraints;  ///< projections
 
   KOKKOS_INLINE_FUNCTION Vector3 constrain(int n, const Vector3& a) const {
-    const int c = force.nodes.constraint(n);
-    if (c < 0) return a;
-    Vector3 free;
-    for (int i = 0; i < 3; ++i)
-      free[i] = constraints(c, i, 0) * a[0] + constraints(c, i, 1) * a[1] + constraints(c, i, 2) * a[2];
-    return free;
+    return projected(constraints, force.nodes.constraint(n), a);
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {

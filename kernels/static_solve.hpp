@@ -14,23 +14,9 @@ KOKKOS_INLINE_FUNCTION Vector3 block_product(const NodeBlocks& blocks, int n, co
            blocks(n, 5) * v[0] + blocks(n, 4) * v[1] + blocks(n, 2) * v[2]}};
 }
 
-/// I - sum d d^T over a node's directions d along which it cannot move while the scene settles.
-struct StaticHolds {
-  Array<const int*> row_of_node;               ///< -1: free
-  Array<const double* [3][3]> table;
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n, const Vector3& a) const {
-    const int c = row_of_node(n);
-    if (c < 0) return a;
-    Vector3 free;
-    for (int i = 0; i < 3; ++i) free[i] = table(c, i, 0) * a[0] + table(c, i, 1) * a[1] + table(c, i, 2) * a[2];
-    return free;
-  }
-};
-
 /// Unbalanced force of each node, N, held directions taken out.
 struct StaticResidual {
   NodalAcceleration acceleration;              ///< its gravity is used
-  StaticHolds holds;
   Array<const double* [3]> body_acceleration;  ///< m/s2, see RelaxationUpdate
   NodeVector residual;
 
@@ -38,7 +24,7 @@ struct StaticResidual {
     return acceleration.force.nodes.mass(n) * (acceleration.gravity + row(body_acceleration, n));
   }
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    const Vector3 force = holds(n, acceleration.force(n) + body_force(n));
+    const Vector3 force = acceleration.constrain(n, acceleration.force(n) + body_force(n));
     for (int i = 0; i < 3; ++i) residual(n, i) = force[i];
   }
 };
@@ -103,10 +89,11 @@ struct ShiftAndHold {
   NodeVector u, f;
   Array<const double*> diagonal;
   double shift;
-  StaticHolds holds;
+  Array<const int*> constraint;                ///< as in ToWeighted
+  Array<const double* [3][3]> constraints;
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const double s = shift * diagonal(n);
-    const Vector3 a = holds(n, row(f, n) + s * row(u, n));
+    const Vector3 a = projected(constraints, constraint(n), row(f, n) + s * row(u, n));
     for (int i = 0; i < 3; ++i) f(n, i) = a[i];
   }
 };
@@ -149,12 +136,6 @@ struct CoarseAndFine {
       for (int i = 0; i < 3; ++i) sum[i] += modes.mode(n, 3 * m + i) * y(first + m);
     for (int i = 0; i < 3; ++i) z(n, i) = sum[i];
   }
-};
-
-struct InnerProduct {
-  static constexpr int values = 1;
-  NodeVector a, b;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
 };
 
 /// d += alpha p, r -= alpha q

@@ -11,6 +11,12 @@ namespace railwave {
 
 using NodeVector = Array<double* [3]>;
 
+struct InnerProduct {
+  static constexpr int values = 1;
+  NodeVector a, b;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
+};
+
 /// q -> u = M^(-1/2) q
 struct ToDisplacement {
   NodeVector q, u;
@@ -151,10 +157,8 @@ struct ToWeighted {
   Array<const double* [3][3]> constraints;  ///< projections
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const double scale = 1 / std::sqrt(mass(n));
-    const Vector3 a = scale * row(f, n);
-    const int c = constraint(n);
-    for (int i = 0; i < 3; ++i)
-      f(n, i) = c < 0 ? a[i] : constraints(c, i, 0) * a[0] + constraints(c, i, 1) * a[1] + constraints(c, i, 2) * a[2];
+    const Vector3 a = projected(constraints, constraint(n), scale * row(f, n));
+    for (int i = 0; i < 3; ++i) f(n, i) = a[i];
   }
 };
 

@@ -7,19 +7,12 @@
 #include <limits>
 
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 
 namespace railwave {
 
 namespace {
 
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
 constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
@@ -49,14 +42,14 @@ MeshQuality mesh_quality(const Mesh& mesh, double dilatational_wave_speed) {
     const auto at = [&](int corner) { return x[corner]; };
     double shortest = std::numeric_limits<double>::infinity(), longest = 0;
     for (const auto& edge : edges) {
-      const double size = length(minus(at(edge[1]), at(edge[0])));
+      const double size = length(difference(at(edge[1]), at(edge[0])));
       shortest = std::min(shortest, size);
       longest = std::max(longest, size);
     }
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
     for (int c = 0; c < 8; ++c) {
-      const double jacobian = triple(minus(at(neighbours[c][0]), at(c)), minus(at(neighbours[c][1]), at(c)),
-                                     minus(at(neighbours[c][2]), at(c)));
+      const double jacobian = triple(difference(at(neighbours[c][0]), at(c)), difference(at(neighbours[c][1]), at(c)),
+                                     difference(at(neighbours[c][2]), at(c)));
       least = std::min(least, jacobian);
       greatest = std::max(greatest, jacobian);
     }

@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/vectors.hpp"
 #include "model/beams.hpp"
 #include "model/place_sets.hpp"
 
@@ -86,19 +87,13 @@ void append(Assembly& assembly, const Mesh& mesh, const std::string& part) {
   }
 }
 
-Vec3 subtract(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// How far from `origin` along `direction` the triangle is (Moeller & Trumbore 1997); infinity: missed.
 double distance_to_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 e1 = subtract(b, a), e2 = subtract(c, a), p = cross(direction, e2);
+  const Vec3 e1 = difference(b, a), e2 = difference(c, a), p = cross(direction, e2);
   const double determinant = dot(e1, p);
   const double missed = std::numeric_limits<double>::infinity();
   if (std::fabs(determinant) < 1e-30) return missed;
-  const Vec3 t = subtract(origin, a), q = cross(t, e1);
+  const Vec3 t = difference(origin, a), q = cross(t, e1);
   const double u = dot(t, p) / determinant, v = dot(direction, q) / determinant;
   if (u < -1e-9 || v < -1e-9 || u + v > 1 + 1e-9) return missed;
   return dot(e2, q) / determinant;

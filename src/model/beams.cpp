@@ -210,14 +210,12 @@ void reset_beams(const Model& model) {
   Kokkos::deep_copy(beams.moment, 0.0);
   Kokkos::deep_copy(beams.work, 0.0);
   Kokkos::deep_copy(beams.stretch, 0.0);
-  Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position});
+  tighten_beams(model);
 }
 
-void beams_have_settled(const Model& model) {
+void tighten_beams(const Model& model) {
   if (!model.beams) return;
   const BeamArrays& beams = model.beams->arrays;
-  Kokkos::deep_copy(beams.spin, 0.0);
-  Kokkos::deep_copy(beams.work, 0.0);
   Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position});
 }
 

@@ -37,8 +37,8 @@ void add_moments(Model& model);
 /// Rotations, spins and stresses as at the start.
 void reset_beams(const Model& model);
 
-/// After settling: no spin, no work, and each pretension kept by the stretch.
-void beams_have_settled(const Model& model);
+/// Each pretension is kept by the stretch from here on.
+void tighten_beams(const Model& model);
 
 std::size_t beam_bytes(const Model& model);
 

@@ -6,6 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
@@ -51,9 +52,6 @@ bool common(const std::vector<int>& a, const std::vector<int>& b) {
 /// Cosine of the angle between two segments from which a fold counts as sharp: 60 degrees.
 constexpr double sharp_fold = 0.5;
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double product(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Outward normal, twice the area long, and the centre.
 struct Facet {
   Vec3 normal{}, centre{};
@@ -66,10 +64,10 @@ struct Facet {
 };
 
 bool sharp(const Facet& a, const Facet& b) {
-  return product(a.normal, b.normal) < sharp_fold * std::sqrt(product(a.normal, a.normal) * product(b.normal, b.normal));
+  return dot(a.normal, b.normal) < sharp_fold * std::sqrt(dot(a.normal, a.normal) * dot(b.normal, b.normal));
 }
 
-bool inwards(const Facet& a, const Facet& b) { return product(a.normal, difference(b.centre, a.centre)) > 0; }
+bool inwards(const Facet& a, const Facet& b) { return dot(a.normal, difference(b.centre, a.centre)) > 0; }
 
 /// The master's segments with their neighbours; whether sharp folds lie between them is noted in `arrays`.
 std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector<Face>& master, ContactArrays& arrays) {
@@ -126,7 +124,7 @@ std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contac
     const Vec3 &a = of_slave.at(slave_nodes[s]), &b = there->second;
     on_both[s] = 1;
     ++shared;
-    if (product(a, b) > facing * std::sqrt(product(a, a) * product(b, b))) ++no_seam;
+    if (dot(a, b) > facing * std::sqrt(dot(a, a) * dot(b, b))) ++no_seam;
   }
   if (no_seam > 0 || shared == slave_nodes.size())
     throw InputError(fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "

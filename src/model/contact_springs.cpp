@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
 #include "model/nearest_point.hpp"
 
@@ -24,9 +25,6 @@ std::vector<Vec3> rows_of(const HostArray& values, const std::vector<int>& nodes
   return rows;
 }
 
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double inner(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// What the master's surface is around each of its nodes.
 struct MasterNodes {
   std::vector<Vec3> normal;
@@ -40,8 +38,8 @@ struct MasterNodes {
         segments(position.size()) {
     for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
       const auto& corner = pair.master_segments[s];
-      const Vec3 p = minus(position[corner[2]], position[corner[0]]), q = minus(position[corner[3]], position[corner[1]]);
-      const double diagonal = std::sqrt(std::fmax(inner(p, p), inner(q, q)));
+      const Vec3 p = difference(position[corner[2]], position[corner[0]]), q = difference(position[corner[3]], position[corner[1]]);
+      const double diagonal = std::sqrt(std::fmax(dot(p, p), dot(q, q)));
       largest_size = std::fmax(largest_size, diagonal);
       for (int m : corner) {
         for (int i = 0; i < 3; ++i) {
@@ -54,7 +52,7 @@ struct MasterNodes {
       }
     }
     for (Vec3& n : normal) {
-      const double length = std::sqrt(inner(n, n));
+      const double length = std::sqrt(dot(n, n));
       if (length > 0)
         for (double& component : n) component /= length;
     }
@@ -69,8 +67,8 @@ void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position
     const auto& corner = pair.master_segments[s];
     int own = 0;
     while (corner[own] != m) ++own;
-    const Vec3 p = minus(position[corner[(own + 1) % 4]], position[m]), q = minus(position[corner[(own + 3) % 4]], position[m]);
-    const double pp = inner(p, p), pq = inner(p, q), qq = inner(q, q), ap = inner(away, p), aq = inner(away, q);
+    const Vec3 p = difference(position[corner[(own + 1) % 4]], position[m]), q = difference(position[corner[(own + 3) % 4]], position[m]);
+    const double pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), ap = dot(away, p), aq = dot(away, q);
     const double determinant = pp * qq - pq * pq;
     const double a = (ap * qq - aq * pq) / determinant, b = (aq * pp - ap * pq) / determinant;
     const double inside_a = std::fmax(0.0, std::fmin(1.0, a)), inside_b = std::fmax(0.0, std::fmin(1.0, b));
@@ -135,20 +133,20 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
   const MasterNodes around(pair, masters);
   const NearestPoint nearest(masters);
   double fastest_master = 0;
-  for (const Vec3& v : master_velocities) fastest_master = std::fmax(fastest_master, std::sqrt(inner(v, v)));
+  for (const Vec3& v : master_velocities) fastest_master = std::fmax(fastest_master, std::sqrt(dot(v, v)));
 
   std::vector<ContactSpring> springs;
   const auto status = to_host(pair.arrays.status);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
     if (pair.on_both[s] != 0) continue;
     const Vec3& v = slave_velocities[s];
-    const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(inner(v, v)) + fastest_master);
+    const double reach = 2 * around.largest_size + closing_factor * horizon * (std::sqrt(dot(v, v)) + fastest_master);
     const int m = nearest.find(slaves[s], reach);
     if (m < 0) continue;
-    const Vec3 away = minus(slaves[s], masters[m]), relative = minus(v, master_velocities[m]);
-    const double gap = inner(away, around.normal[m]);
-    const double aside = std::sqrt(std::fmax(0.0, inner(away, away) - gap * gap));
-    const double closing = closing_factor * horizon * std::sqrt(inner(relative, relative));
+    const Vec3 away = difference(slaves[s], masters[m]), relative = difference(v, master_velocities[m]);
+    const double gap = dot(away, around.normal[m]);
+    const double aside = std::sqrt(std::fmax(0.0, dot(away, away) - gap * gap));
+    const double closing = closing_factor * horizon * std::sqrt(dot(relative, relative));
     const bool may_touch = aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
     if (status(static_cast<int>(s)) == status_apart && !may_touch) continue;
     ContactSpring spring{static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};

@@ -35,12 +35,6 @@ struct StartVector {
   }
 };
 
-struct Inner {
-  static constexpr int values = 1;
-  NodeVector a, b;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
-};
-
 /// w - alpha q - beta p
 struct Recur {
   NodeVector w, q, p;
@@ -60,26 +54,14 @@ struct Scale {
 
 double inner(const NodeVector& a, const NodeVector& b) {
   double sum = 0;
-  block_sum(Inner{a, b}, static_cast<int>(a.extent(0)), &sum);
+  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum);
   return sum;
 }
 
 }  // namespace
 
-GlobalEstimate::GlobalEstimate(const Model& model) {
-  const auto& elements = model.assembly.elements;
+GlobalEstimate::GlobalEstimate(const Model& model) : tangent_(model.assembly) {
   const std::size_t nodes = model.assembly.nodes.size();
-  std::vector<int> first(nodes + 1, 0), corner(8 * elements.size());
-  for (const auto& corners : elements)
-    for (int n : corners) ++first[n + 1];
-  for (std::size_t n = 0; n < nodes; ++n) first[n + 1] += first[n];
-  std::vector<int> filled(first.begin(), first.end() - 1);
-  for (std::size_t e = 0; e < elements.size(); ++e)
-    for (int N = 0; N < 8; ++N) corner[filled[elements[e][N]]++] = static_cast<int>(8 * e) + N;
-  corners_ = to_device("tangent corners", elements);
-  first_corner_ = to_device("tangent first corner", first);
-  corner_ = to_device("tangent corner", corner);
-  corner_force_ = unset_array<double* [24]>("tangent corner force", elements.size());
   now_ = unset_array<double* [3]>("tangent vector", nodes);
   before_ = unset_array<double* [3]>("tangent vector before", nodes);
   image_ = unset_array<double* [3]>("tangent image", nodes);
@@ -87,8 +69,7 @@ GlobalEstimate::GlobalEstimate(const Model& model) {
 }
 
 std::size_t GlobalEstimate::bytes() const {
-  return corners_.span() * sizeof(int) + (first_corner_.span() + corner_.span()) * sizeof(int) +
-         (corner_force_.span() + 4 * now_.span()) * sizeof(double);
+  return tangent_.bytes() + 4 * now_.span() * sizeof(double);
 }
 
 void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep& result) {
@@ -105,7 +86,7 @@ void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep&
     auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
     for (const ContactSpring& spring : springs) seen[spring.slave] = 1;
   }
-  springs_ = collector.on_device();
+  tangent_.set_springs(collector.on_device());
 }
 
 void GlobalEstimate::apply(const Model& model, double inverse_time) {
@@ -114,25 +95,19 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   const TieArrays& ties = model.ties.arrays;
   if (ties.active())
     Kokkos::parallel_for("tangent_ties", Range(0, ties.slave_count), TieMotion{ties, model.nodes.position, displacement_});
+  const double speed = largest_initial_speed(model.scene);
+  std::vector<ElementStiffness> stiffness;
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const auto& range = model.assembly.parts[p];
     const scene::Part& part = model.scene.parts[p];
-    const scene::Material& material = model.scene.materials[range.material];
+    const scene::Material& material = model.scene.materials[model.assembly.parts[p].material];
     const bool viscous = part.hourglass == scene::HourglassType::viscous;
     const double factor = hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
     const double mu = material.shear_modulus(), damped = 1 + part.stiffness_damping * inverse_time;
-    const double bulk = (part.linear_bulk_viscosity * material.dilatational_speed() +
-                         part.quadratic_bulk_viscosity * largest_initial_speed(model.scene)) * material.density * inverse_time;
-    Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
-                         ElementTangent{range.first_element,
-                                        {damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk},
-                                        corners_, model.nodes.position, displacement_, corner_force_});
+    const double bulk = (part.linear_bulk_viscosity * material.dilatational_speed() + part.quadratic_bulk_viscosity * speed) *
+                        material.density * inverse_time;
+    stiffness.push_back({damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk});
   }
-  Kokkos::parallel_for("tangent_gather", Range(0, nodes), GatherTangent{first_corner_, corner_, corner_force_, image_});
-  if (springs_.count > 0) {
-    Kokkos::parallel_for("tangent_springs", Range(0, springs_.count), SpringForce{springs_, displacement_, inverse_time});
-    Kokkos::parallel_for("tangent_add_springs", Range(0, springs_.node_count), AddSprings{springs_, image_});
-  }
+  tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
   if (ties.active()) {
     Kokkos::parallel_for("tangent_tie_force", Range(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
     Kokkos::parallel_for("tangent_tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_nodes, image_});

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/tangent.hpp"
 #include "model/contact_springs.hpp"
+#include "model/tangent_operator.hpp"
 
 namespace railwave {
 
@@ -36,11 +36,8 @@ class GlobalEstimate {
   void apply(const Model& model, double inverse_time);
   double largest_eigenvalue(const Model& model, double inverse_time, double accuracy, GlobalStep& result);
 
-  Array<int* [8]> corners_;
-  Array<int*> first_corner_, corner_;
-  Array<double* [24]> corner_force_;
+  TangentOperator tangent_;
   NodeVector now_, before_, image_, displacement_;
-  TangentSprings springs_;
 };
 
 }  // namespace railwave

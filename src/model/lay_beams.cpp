@@ -5,24 +5,18 @@
 #include <limits>
 
 #include "case/error.hpp"
+#include "mesh/vectors.hpp"
 #include "model/beams.hpp"
 
 namespace railwave {
 namespace {
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double inner(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double size_of(const Vec3& a) { return std::sqrt(inner(a, a)); }
-Vec3 product(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// A direction without its part along a unit vector, of length 1; the length that it had.
 std::pair<Vec3, double> across(const Vec3& direction, const Vec3& unit) {
   Vec3 rest = direction;
-  const double along = inner(direction, unit);
+  const double along = dot(direction, unit);
   for (int i = 0; i < 3; ++i) rest[i] -= along * unit[i];
-  const double size = size_of(rest);
+  const double size = length(rest);
   if (size > 0)
     for (double& r : rest) r /= size;
   return {rest, size};
@@ -32,7 +26,7 @@ std::pair<Vec3, double> across(const Vec3& direction, const Vec3& unit) {
 Vec3 axis_across(const Vec3& direction) {
   int least = 0;
   for (int i = 1; i < 3; ++i)
-    if (std::fabs(direction[i]) < std::fabs(direction[least]) - 1e-9 * size_of(direction)) least = i;
+    if (std::fabs(direction[i]) < std::fabs(direction[least]) - 1e-9 * length(direction)) least = i;
   Vec3 axis{0, 0, 0};
   axis[least] = 1;
   return axis;
@@ -49,10 +43,10 @@ std::vector<int> spread(const scene::Scene& scene, const Assembly& assembly, con
   if (!beam.orientation)
     complain(scene, beam, "count: needs `orientation`, the normal of the plane in which the beams are spread, to choose among the " +
                               fmt::format("{} nodes of '{}'", nodes.size(), beam.to));
-  const auto [normal, length] = across(*beam.orientation, {0, 0, 0});
+  const auto [normal, size] = across(*beam.orientation, {0, 0, 0});
   double radius = 0;
   for (int n : nodes) radius += across(difference(assembly.nodes[n], assembly.nodes[from]), normal).second / static_cast<double>(nodes.size());
-  const Vec3 first = across(axis_across(normal), normal).first, second = product(normal, first);
+  const Vec3 first = across(axis_across(normal), normal).first, second = cross(normal, first);
   std::vector<int> chosen;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * M_PI * k / count;
@@ -61,8 +55,8 @@ std::vector<int> spread(const scene::Scene& scene, const Assembly& assembly, con
     for (int n : nodes) {
       Vec3 off = difference(assembly.nodes[n], assembly.nodes[from]);
       for (int i = 0; i < 3; ++i) off[i] -= radius * (std::cos(angle) * first[i] + std::sin(angle) * second[i]);
-      if (size_of(off) < (1 - 1e-9) * least) {
-        least = size_of(off);
+      if (length(off) < (1 - 1e-9) * least) {
+        least = length(off);
         best = n;
       }
     }
@@ -87,13 +81,13 @@ std::vector<int> far_ends(const scene::Scene& scene, const Assembly& assembly, c
 
 std::array<Vec3, 3> beam_axes(const scene::Scene& scene, const scene::Beam& beam, const Vec3& from, const Vec3& to) {
   Vec3 along = difference(to, from);
-  const double length = size_of(along);
-  if (!(length > 0)) complain(scene, beam, fmt::format("from '{}' to '{}' is no distance; move one of them", beam.from, beam.to));
-  for (double& a : along) a /= length;
+  const double distance = length(along);
+  if (!(distance > 0)) complain(scene, beam, fmt::format("from '{}' to '{}' is no distance; move one of them", beam.from, beam.to));
+  for (double& a : along) a /= distance;
   const auto [height, size] = across(beam.orientation ? *beam.orientation : axis_across(along), along);
   if (!(size > 1e-6))
     complain(scene, beam, "orientation: lies along the beam; give a direction across it");
-  return {along, product(height, along), height};
+  return {along, cross(height, along), height};
 }
 
 void lay_beams(const scene::Scene& scene, Assembly& assembly) {

@@ -152,7 +152,7 @@ SettleReport settle_by_relaxation(Model& model, const std::function<bool(const S
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
   hold_ends(model, update.unbalanced);
-  beams_have_settled(model);
+  tighten_beams(model);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/static_contact.hpp"
+#include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
@@ -47,7 +48,12 @@ void copy_state(const ContactArrays& to, const ContactArrays& from) {
   copy(to.tangential_force, from.tangential_force);
 }
 
-double length(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+/// What trials make flow, group by group.
+std::vector<Array<double*>> plastic_state(const Model& model) {
+  std::vector<Array<double*>> state;
+  for (const ElementGroup& group : model.elements) state.insert(state.end(), {group.plastic.history, group.plastic.back_stress});
+  return state;
+}
 
 /// N, of each slave node.
 std::vector<double> pressing_forces(const ContactPair& pair) {
@@ -59,16 +65,11 @@ std::vector<double> pressing_forces(const ContactPair& pair) {
   return pressing;
 }
 
-template <bool Friction, class Normals>
-void press_with(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
-  Kokkos::parallel_for("augmented_contact", ContactRange(0, pair.window.count),
-                       AugmentedContact<Friction, Normals>{contact_force<Friction, Normals>(model, pair), multiplier, stiffening});
-}
-
 template <class Normals>
-void press_pair(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
-  if (pair.arrays.friction > 0) press_with<true, Normals>(model, pair, multiplier);
-  else press_with<false, Normals>(model, pair, multiplier);
+void press_pair(const Model& model, const ContactPair& pair, const AugmentedLaw& law) {
+  const ContactRange range(0, pair.window.count);
+  if (pair.arrays.friction > 0) Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, law));
+  else Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, law));
 }
 
 }  // namespace
@@ -83,10 +84,10 @@ StaticContact::StaticContact(Model& model) : model_(model) {
     for (const auto& segment : pair.master_segments)
       for (int k : {0, 1}) {
         const Vec3 &a = model.assembly.nodes[pair.master_nodes[segment[k]]], &b = model.assembly.nodes[pair.master_nodes[segment[k + 2]]];
-        smallest_segment_ = std::min(smallest_segment_, length({a[0] - b[0], a[1] - b[1], a[2] - b[2]}));
+        smallest_segment_ = std::min(smallest_segment_, length(difference(a, b)));
       }
   }
-  for (const ElementGroup& group : model.elements) plastic_.push_back(like(group.plastic.history));
+  for (const Array<double*>& flowed : plastic_state(model)) plastic_.push_back(like(flowed));
 }
 
 void StaticContact::keep() {
@@ -94,7 +95,8 @@ void StaticContact::keep() {
     copy_state(kept_[p].contact, model_.contacts[p].arrays);
     copy(kept_[p].friction_now, model_.contacts[p].law.friction_now);
   }
-  for (std::size_t g = 0; g < plastic_.size(); ++g) copy(plastic_[g], model_.elements[g].plastic.history);
+  const auto plastic = plastic_state(model_);
+  for (std::size_t i = 0; i < plastic_.size(); ++i) copy(plastic_[i], plastic[i]);
 }
 
 void StaticContact::restore() {
@@ -105,7 +107,8 @@ void StaticContact::restore() {
     pair.next_look = pair.next_near_look = -1;
     pair.slaves_at_layout = {};
   }
-  for (std::size_t g = 0; g < plastic_.size(); ++g) copy(model_.elements[g].plastic.history, plastic_[g]);
+  const auto plastic = plastic_state(model_);
+  for (std::size_t i = 0; i < plastic_.size(); ++i) copy(plastic[i], plastic_[i]);
 }
 
 void StaticContact::press() {
@@ -116,8 +119,9 @@ void StaticContact::press() {
     ContactPair& pair = model_.contacts[p];
     if (pair.has_springs()) continue;
     keep_window(model_, pair, instant);
-    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, kept_[p].multiplier);
-    else press_pair<FacetNormals>(model_, pair, kept_[p].multiplier);
+    const AugmentedLaw law(kept_[p].multiplier, stiffening);
+    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, law);
+    else press_pair<FacetNormals>(model_, pair, law);
   }
 }
 

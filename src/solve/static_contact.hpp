@@ -41,7 +41,7 @@ class StaticContact {
   bool augmented_ = false;
   double smallest_segment_ = 1e300;
   std::vector<Kept> kept_;                     ///< by pair
-  std::vector<Array<double*>> plastic_;        ///< by element group
+  std::vector<Array<double*>> plastic_;        ///< see plastic_state
 };
 
 }  // namespace railwave

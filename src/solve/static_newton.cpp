@@ -48,7 +48,7 @@ class Newton {
   Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
       : model_(model), go_on_(go_on), contact_(model), stages_(force_stages_without_multipliers(model)),
         tangent_(model), coarse_(model, tangent_),
-        residual_{model.acceleration(), tangent_.holds(), to_device("centrifugal field", centrifugal_field(model)), vector("residual")},
+        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), vector("residual")},
         origin_(vector("origin")), step_(vector("static step")), left_(vector("left residual")), z_(vector("preconditioned")),
         way_(vector("search direction")), image_(vector("image")) {}
 

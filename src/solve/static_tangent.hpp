@@ -4,6 +4,7 @@
 
 #include "kernels/static_solve.hpp"
 #include "model/model.hpp"
+#include "model/tangent_operator.hpp"
 #include "model/tangent_springs.hpp"
 
 namespace railwave {
@@ -28,28 +29,21 @@ class StaticTangent {
   /// Inverses of the diagonal blocks, held directions taken out.
   const NodeBlocks& inverse_blocks() const { return inverse_; }
 
-  const ElementStiffness& stiffness_of(int element) const { return stiffness_[stiffness_of_element_[element]]; }
-  const StaticHolds& holds() const { return holds_; }
+  const ElementStiffness& stiffness_of(int element) const { return stiffness_[part_of_element_[element]]; }
   /// I - sum d d^T of a node's held directions, by rows; null: free.
   const double* projection(int node) const;
 
  private:
-  void lay_holds();
-
   const Model& model_;
-  StaticHolds holds_;
+  TangentOperator tangent_;
   double shift_ = 0;
   std::vector<ElementStiffness> stiffness_;  ///< by part
-  std::vector<int> stiffness_of_element_, hold_;
+  std::vector<int> part_of_element_, row_of_node_;
   std::vector<std::array<double, 9>> projections_;
   std::vector<std::array<double, 6>> element_blocks_;
   std::vector<double> diagonal_;
-  Array<int* [8]> corners_;
-  Array<int*> first_corner_, corner_;
-  Array<double* [24]> corner_force_;
   Array<double*> device_diagonal_;
   NodeBlocks inverse_;
-  TangentSprings springs_;
 };
 
 }  // namespace railwave

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "case/error.hpp"
 #include "mesh/mesh.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
@@ -20,6 +21,17 @@ inline scene::Material steel() {
   material.poissons_ratio = 0.3;
   material.density = 7800;
   return material;
+}
+
+/// What building a scene's model complains of; nothing when it suits.
+inline std::string complaint_of_building(const scene::Scene& scene) {
+  Model model;
+  try {
+    build_model(scene, model);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 /// One box of steel, named "block", with the run's length given.

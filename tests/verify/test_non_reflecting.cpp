@@ -267,15 +267,7 @@ TEST_CASE("a scene without non-reflecting ends computes none, and what cannot be
   CHECK_THAT(stage_names(scene), !ContainsSubstring("non-reflecting"));
   let_out(scene, "block.x_max");
   CHECK_THAT(stage_names(scene), ContainsSubstring("non-reflecting ends"));
-  const auto complaint = [&]() -> std::string {
-    Model model;
-    try {
-      build_model(scene, model);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto complaint = [&] { return complaint_of_building(scene); };
   SECTION("twice") {
     let_out(scene, "block.x_max");
     CHECK_THAT(complaint(), ContainsSubstring("name surfaces without common faces"));

@@ -110,15 +110,7 @@ TEST_CASE("a set with a prescribed motion is held while the scene settles") {
 TEST_CASE("a node has one prescribed motion, and methods that cannot prescribe one say so") {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-5);
   scene.prescribed_motions.push_back(motion("block.z_min", {5, 0, 0}, {0, 0, 0}));
-  const auto complaint = [&]() -> std::string {
-    Model model;
-    try {
-      build_model(scene, model);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto complaint = [&] { return complaint_of_building(scene); };
   CHECK(complaint().empty());
   SECTION("twice") {
     scene.prescribed_motions.push_back(motion("block.x_min", {5, 0, 0}, {0, 0, 0}));

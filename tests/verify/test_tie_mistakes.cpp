@@ -8,71 +8,57 @@ using namespace railwave;
 using namespace railwave::verify;
 using Catch::Matchers::ContainsSubstring;
 
-namespace {
-
-std::string complaint(const scene::Scene& scene) {
-  Model model;
-  try {
-    build_model(scene, model);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-}  // namespace
-
 TEST_CASE("what cannot be tied is refused, with where and why") {
   TiedBlocks blocks;
   scene::Scene scene = blocks.scene(1e-5);
-  CHECK(complaint(scene).empty());
+  CHECK(complaint_of_building(scene).empty());
   SECTION("too far") {
     scene.parts[1].position[2] += 0.004;
-    CHECK_THAT(complaint(scene), ContainsSubstring("100 of the 100 nodes of 'fine.z_min' have no face of 'coarse.z_max' near enough"));
-    CHECK_THAT(complaint(scene), ContainsSubstring("0, 0.064) m, 0.004 m from it (allowed: 0.00283 m); ("));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("100 of the 100 nodes of 'fine.z_min' have no face of 'coarse.z_max' near enough"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("0, 0.064) m, 0.004 m from it (allowed: 0.00283 m); ("));
     scene.ties[0].max_distance = 0.005;
-    CHECK(complaint(scene).empty());
+    CHECK(complaint_of_building(scene).empty());
   }
   SECTION("beside") {
     scene.parts[1].position[0] += 0.012;
-    CHECK_THAT(complaint(scene), ContainsSubstring("20 of the 100 nodes"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("20 of the 100 nodes"));
   }
   SECTION("tied twice") {
     scene.ties.push_back(scene.ties[0]);
     scene.ties[1].name = "again";
-    CHECK_THAT(complaint(scene), ContainsSubstring("0.06) m is tied by [ties.grown] already; name surfaces without common nodes"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("0.06) m is tied by [ties.grown] already; name surfaces without common nodes"));
   }
   SECTION("each other's slave") {
     scene.meshes[1].box.divisions = {3, 3, 3};
     scene.ties.push_back(scene.ties[0]);
     std::swap(scene.ties[1].slave, scene.ties[1].master);
-    CHECK_THAT(complaint(scene), ContainsSubstring("is of a slave and of a master"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("is of a slave and of a master"));
   }
   SECTION("coarse slave") {
     std::swap(scene.ties[0].slave, scene.ties[0].master);
-    CHECK_THAT(complaint(scene), ContainsSubstring("the slave is the coarser mesh there"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("the slave is the coarser mesh there"));
   }
   SECTION("held") {
     hold(scene, "fine.x_min", {true, false, false});
-    CHECK_THAT(complaint(scene), ContainsSubstring("is held by a constraint that does not hold the face under it"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("is held by a constraint that does not hold the face under it"));
     hold(scene, "coarse.x_min", {true, false, false});
-    CHECK(complaint(scene).empty());
+    CHECK(complaint_of_building(scene).empty());
   }
   SECTION("moved") {
     scene::PrescribedMotion motion;
     motion.name = "driven";
     motion.target = "fine.z_min";
     scene.prescribed_motions.push_back(motion);
-    CHECK_THAT(complaint(scene), ContainsSubstring("moves as [prescribed_motion.driven] says"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("moves as [prescribed_motion.driven] says"));
   }
   SECTION("end") {
     scene::NonReflecting end;
     end.name = "open";
     end.target = "fine.x_max";
     scene.non_reflecting.push_back(end);
-    CHECK_THAT(complaint(scene), ContainsSubstring("belongs to [non_reflecting.open]"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("belongs to [non_reflecting.open]"));
     scene.non_reflecting[0].target = "coarse.x_max";
-    CHECK(complaint(scene).empty());
+    CHECK(complaint_of_building(scene).empty());
   }
   SECTION("multiplier") {
     scene.parts.push_back(scene.parts[0]);
@@ -84,13 +70,13 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
     contact.master = "third.x_min";
     contact.algorithm = scene::ContactAlgorithm::multiplier;
     scene.contacts.push_back(contact);
-    CHECK_THAT(complaint(scene), ContainsSubstring("whose algorithm \"multiplier\" cannot foresee"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("whose algorithm \"multiplier\" cannot foresee"));
     scene.contacts[0].algorithm = scene::ContactAlgorithm::penalty;
-    CHECK(complaint(scene).empty());
+    CHECK(complaint_of_building(scene).empty());
   }
   SECTION("subcycled") {
     scene.solver.subcycling = true;
-    CHECK_THAT(complaint(scene), ContainsSubstring("subcycling = true with [ties.grown]"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("subcycling = true with [ties.grown]"));
   }
 }
 

@@ -121,6 +121,28 @@ class SteadyRolling:
         self.moment = np.sum(self.x * self.shear[:, 1] - self.y * self.shear[:, 0]) * self.h * self.k
         self.stick_share = 1 - slips.mean()
 
+    def creepages_round(self, inner, outer, points=60):
+        """Longitudinal, lateral creepage and spin of the rigid motion that fits best, by least squares, the surfaces' velocities
+        between two distances from the centre, in larger semi-axes: those prescribed and what the strained surfaces add as
+        they pass. Signs are the creepages'; tractions count as forces at the cells' middles."""
+        nu, reach = self.hertz.material.poissons_ratio, outer * max(self.hertz.a, self.hertz.b)
+        place = np.linspace(-reach, reach, points)
+        x, y = (values.ravel() for values in np.meshgrid(place, place))
+        there = (np.hypot(x, y) >= inner / outer * reach) & (np.hypot(x, y) <= reach)
+        x, y = x[there], y[there]
+        dx, dy = x[:, None] - self.x, y[:, None] - self.y
+        r = np.hypot(dx, dy)
+        force = self.shear * self.h * self.k / (np.pi * self.hertz.material.shear_modulus())
+        # Derivatives along x of (1 - nu) / r + nu x^2 / r^3, (1 - nu) / r + nu y^2 / r^3 and nu x y / r^3.
+        common = -(1 - nu) * dx / r**3
+        xx, yy = common + nu * (2 * dx / r**3 - 3 * dx**3 / r**5), common - 3 * nu * dx * dy**2 / r**5
+        xy = nu * (dy / r**3 - 3 * dx**2 * dy / r**5)
+        strain = np.concatenate([xx @ force[:, 0] + xy @ force[:, 1], xy @ force[:, 0] + yy @ force[:, 1]])
+        one, none = np.ones_like(x), np.zeros_like(x)
+        longitudinal, lateral, spin = np.linalg.lstsq(np.column_stack([np.concatenate(column) for column in (
+            (-one, none), (none, -one), (-y, x))]), -strain, rcond=None)[0]
+        return self.creepages[0] + longitudinal, self.creepages[1] + lateral, self.creepages[2] + spin
+
     def nearest(self, values, x, y):
         """Of values over the cells, those of the cell at each place; 0 outside."""
         column, row = (np.floor(place / size + 0.5 * self.cells).astype(int) for place, size in ((x, self.h), (y, self.k)))

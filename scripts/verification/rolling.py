@@ -168,7 +168,7 @@ def compare(outcome, results, name, creepages, friction, wished_normal, cells):
         (f"({name}) peak pressure, Pa", state.pressure.max(), hertz.peak, ""),
         (f"({name}) patch area, m2", enclosed(outlines(x, y, state.pressure)), hertz.area, ""),
     ]
-    outcome.figures += creepages_of_motion(results, name, creepages)
+    outcome.figures += creepages_of_motion(results, name, solution.creepages_round(1.5, 3))
     reference = interpolate(exact.grid, x, y)
     known = ~np.isnan(reference[..., 0]) & (state.slipping > 0)
     angle = np.angle((shear[known] @ [1, 1j]) / (reference[known] @ [1, 1j]), deg=True)

@@ -11,7 +11,7 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "scripts"))
 from verification.exact import Hertz, Steel  # noqa: E402
-from verification.half_space import SteadyRolling, converged, creepage_for_force  # noqa: E402
+from verification.half_space import SteadyRolling, converged, creepage_for_force, influence  # noqa: E402
 from verification.rolling import DATA, interpolate, reference_field, table_5_2  # noqa: E402
 from verification.stick_measure import sampled  # noqa: E402
 
@@ -66,6 +66,29 @@ class HalfSpaceRolling(unittest.TestCase):
         self.assertLess(abs(lateral[1] / (modulus * c**2 * 3.67) - 1), 0.015)
         self.assertLess(abs(spin[1] / (-modulus * c**3 * 1.47) - 1), 0.03)
         self.assertLess(abs(lateral[2] / (-modulus * c**3 * 1.47) - 1), 0.03)
+
+    def test_creepages_in_a_ring(self):
+        """Without traction those prescribed; with it what differences of the displacement, an integral over rectangles, give."""
+        hertz = Hertz(1e5, 0.46, 0.30)
+        for found, prescribed in zip(SteadyRolling(hertz, 1e-9, (0.003, 0.002, 0.1), 10).creepages_round(1.5, 3), (0.003, 0.002, 0.1)):
+            self.assertAlmostEqual(found, prescribed, places=9)
+        solution = SteadyRolling(hertz, 0.45, (0.003, 0.004, 0), 20)
+        nu, modulus, angle = Steel.poissons_ratio, Steel.shear_modulus(), 1e-3 + np.linspace(0, 2 * np.pi, 720, endpoint=False)
+        radius = 3 * max(hertz.a, hertz.b)
+        x, y = radius * np.cos(angle), radius * np.sin(angle)
+
+        def displacement(px, py):
+            xx, yy, xy = influence(px[:, None] - solution.x, py[:, None] - solution.y, solution.h, solution.k)
+            along, across = solution.shear.T
+            return np.array([(xx + (1 - nu) * yy) @ along + nu * xy @ across, nu * xy @ along + (yy + (1 - nu) * xx) @ across]) / (np.pi * modulus)
+
+        step = 1e-5
+        velocity = -(displacement(x + step, y) - displacement(x - step, y)) / (2 * step)
+        spin = np.mean(x * velocity[1] - y * velocity[0]) / radius**2
+        self.assertGreater(spin, 1e-3)
+        found = solution.creepages_round(2.99, 3, 1500)
+        self.assertLess(abs(found[2] / spin - 1), 0.01)
+        self.assertLess(np.linalg.norm(np.array(found[:2]) - [0.003 - velocity[0].mean(), 0.004 - velocity[1].mean()]), 1e-7)
 
     def test_coulombs_law(self):
         hertz = Hertz(1e5, 0.46, 0.30)

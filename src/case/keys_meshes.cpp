@@ -173,4 +173,20 @@ Section mesh_section() {
   return section;
 }
 
+Section seam_section() {
+  using scene::Seam;
+  auto section = named_section(
+      "seams", "seam", &scene::Scene::seams,
+      "Cracks: on a plane across the rail the faces of elements come apart, as surfaces `part.NAME_before` and `part.NAME_behind` for a contact. "
+      "The mesh's layers across x are bent onto the plane; the crack consists of whole faces, so that its length and depth are met to an element's size.");
+  section.keys = {
+      key("mesh", &Seam::mesh, "mesh that it is in; all parts of that mesh have it").names(mesh).needed(),
+      key("place", &Seam::place, "middle of its mouth on the mesh's upper surface, in the mesh's own axes").in("m").needed(),
+      key("length", &Seam::length, "along y, half of it to each side; more than the mesh is wide: all through").in("m").within(above(0)).needed(),
+      key("depth", &Seam::depth, "along its plane").in("m").within(above(0)).needed(),
+      key("angle", &Seam::angle, "between its plane and the vertical; positive: its deeper parts lie farther along x").in("rad").within(between(-1.2, 1.2)),
+  };
+  return section;
+}
+
 }  // namespace railwave::case_file

@@ -27,8 +27,6 @@ Vec3 placed(const Track& track, double x, RailSide side, double outwards, double
   return {at[0] + x, at[1] + y * std::cos(angle) - z * std::sin(angle), at[2] + y * std::sin(angle) + z * std::cos(angle)};
 }
 
-double plate_size(const Track& track) { return track.fishplate_size.value_or(3 * track.rail.zone_size); }
-
 void add_plate(TrackEntries& entries, const std::string& material, RailSide side) {
   const Track& track = entries.track;
   scene::Scene& scene = entries.scene;
@@ -42,7 +40,7 @@ void add_plate(TrackEntries& entries, const std::string& material, RailSide side
   plate.end = *track.gap_position + 0.5 * track.fishplate_length;
   plate.thickness = track.fishplate_thickness;
   plate.clearance = track.fishplate_clearance;
-  plate.size = plate_size(track);
+  plate.size = track.fishplate_size;
   plate.gap_start = *track.gap_position - 0.5 * track.gap;
   plate.gap_end = *track.gap_position + 0.5 * track.gap;
   entries.add(scene.meshes, "meshes", mesh);
@@ -92,7 +90,7 @@ void add_bolt(TrackEntries& entries, const std::string& material, double x, int 
     head.surface = "outer";
     const Vec3 middle = placed(track, x, side, outside, z);
     // However coarse the plate is, some nodes must be under the head.
-    const Vec3 half{std::max(head_reach * d, 0.51 * plate_size(track)), wide, std::max(head_reach * d, 0.75 * track.rail.section_size)};
+    const Vec3 half{std::max(head_reach * d, 0.51 * track.fishplate_size.value_or(3 * track.rail.zone_size)), wide, std::max(head_reach * d, 0.75 * track.rail.section_size)};
     for (int i = 0; i < 3; ++i) head.box[0][i] = middle[i] - half[i], head.box[1][i] = middle[i] + half[i];
     // Both plates have a set of this name.
     head.line = track.line;

@@ -139,7 +139,7 @@ std::vector<Key> fishplate_keys() {
       position("end", &Plate::end, "x of its end"),
       position("thickness", &Plate::thickness, "beside the web where that is thinnest").within(above(0)),
       position("clearance", &Plate::clearance, "between web and plate; head and foot are touched").within(between(0, 0.003)),
-      position("size", &Plate::size, "of elements along x").within(above(0)).otherwise("three times the rail's zone_size"),
+      position("size", &Plate::size, "of elements along x").within(above(0)).otherwise("three times the rail's zone_size; zone_size where the plate reaches the layers of that size under the head"),
       position("gap_start", &Plate::gap_start, "x where a gap between rails begins that it bridges: there `fishing` ends").otherwise("no gap"),
       position("gap_end", &Plate::gap_end, "x where that gap ends: there `fishing_2` begins").otherwise("no gap"),
   };

@@ -74,7 +74,7 @@ std::vector<Key> joint_keys() {
       length("fishplate_length", &Track::fishplate_length, "along the rails, half of it before the gap's middle"),
       length("fishplate_thickness", &Track::fishplate_thickness, "beside the web where that is thinnest"),
       key("fishplate_clearance", &Track::fishplate_clearance, "between web and plate; head and foot are touched").in("m").within(between(0, 0.003)),
-      length("fishplate_size", &Track::fishplate_size, "of the plates' elements along x").otherwise("three times zone_size"),
+      length("fishplate_size", &Track::fishplate_size, "of the plates' elements along x").otherwise("three times zone_size, or zone_size where they reach the layers of that size under the head"),
       key("bolt_positions", &Track::bolt_positions, "of each bolt along x from the gap's middle").in("m"),
       key("bolt_height", &Track::bolt_height, "above the middle of the foot, along the rail's own axis").in("m").within(between(0.04, 0.11)).otherwise("the chamber's middle: 54E1 0.070, 60E1 0.076"),
       key("bolt_diameter", &Track::bolt_diameter, "of the shank").in("m").within(between(0.01, 0.04)),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "case/error.hpp"
 #include "mesh/extrusion.hpp"
@@ -65,24 +66,45 @@ Points refined(Points kept, const Points& line, std::size_t cells) {
 /// The lines of a rail's section that a plate lies on, mirrored to y > 0.
 struct Chamber {
   Points underside, web, foot_top;  ///< outwards; from head to foot; outwards
+  double fine_from = 0;             ///< y from which on the underside is as fine along x as the running surface
 };
 
 Chamber chamber(const SectionMesh& rail, scene::RailSide side) {
   const bool left = side == scene::RailSide::left;
   const auto points = [&](const char* name) {
     Points line;
+    int before = -1;
     for (int n : rail.lines.at(std::string(name) + (left ? "_left" : "_right"))) {
-      const Point2 p = rail.position(n);
-      line.push_back({left ? -p.y : p.y, p.z});
+      // In a transition along x the rail has nodes between the section's.
+      if (before >= 0 && rail.nodes[n].level != rail.nodes[before].level) {
+        const bool down = rail.nodes[n].level > rail.nodes[before].level;
+        const Point2 lower = rail.position(down ? n : before), upper = rail.position(down ? before : n);
+        line.push_back((1 - transition_depth) * lower + transition_depth * upper);
+      }
+      line.push_back(rail.position(n));
+      before = n;
     }
+    if (left)
+      for (Point2& p : line) p.y = -p.y;
     return line;
   };
   Chamber found{points(fishing_lines[0]), points(fishing_lines[1]), points(fishing_lines[2])};
   std::reverse(found.underside.begin(), found.underside.end());
+  found.fine_from = found.underside.back().y;
+  for (int n : rail.lines.at(std::string(fishing_lines[0]) + (left ? "_left" : "_right")))  // from the head's corner inwards
+    if (rail.nodes[n].level > 0) {
+      found.fine_from = std::fabs(rail.position(n).y);
+      break;
+    }
   return found;
 }
 
-SectionMesh plate_section(const scene::MeshSource& source, Chamber lines) {
+struct PlateSection {
+  SectionMesh mesh;
+  bool on_fine_layers = false;  ///< it reaches where the rail is as fine along x as its running surface
+};
+
+PlateSection plate_section(const scene::MeshSource& source, Chamber lines) {
   const scene::FishplateMesh& plate = source.fishplate;
   double thinnest = lines.web.front().y;
   for (const Point2& p : lines.web) thinnest = std::min(thinnest, p.y);
@@ -124,7 +146,7 @@ SectionMesh plate_section(const scene::MeshSource& source, Chamber lines) {
   outside.push_back(lower.back());
   fill_block(section, upper, rows, {}, inner, outside, lower, 0);
   section.lines = {{"upper", upper}, {"inner", inner}, {"lower", lower}, {"outer", outside}};
-  return section;
+  return {std::move(section), outer > lines.fine_from + 1e-6};
 }
 
 /// Equal cells of about `size` in each of the stretches between `ends`.
@@ -153,17 +175,19 @@ Mesh fishplate_mesh(const scene::MeshSource& source) {
   rail.name = plate.rail;
   rail.rail = plate.rail_mesh;
   check_rail_mesh(rail);
-  SectionMesh section;
+  PlateSection built;
   try {
-    section = plate_section(source, chamber(rail_section(section_plan(plate.rail_mesh)), plate.side));
+    built = plate_section(source, chamber(rail_section(section_plan(plate.rail_mesh)), plate.side));
   } catch (const std::invalid_argument& problem) {
     throw InputError(place_of(rail) + problem.what());
   }
 
+  const SectionMesh& section = built.mesh;
+  const double default_size = (built.on_fine_layers ? 1 : 3) * plate.rail_mesh.zone_size;  // nowhere coarser than the rail, for ties
   std::vector<double> ends{plate.start, plate.end};
   if (plate.gap_start && plate.gap_end) ends = {plate.start, *plate.gap_start, *plate.gap_end, plate.end};
   std::vector<int> at;
-  const Stations stations = plate_stations(ends, plate.size.value_or(3 * plate.rail_mesh.zone_size), at);
+  const Stations stations = plate_stations(ends, plate.size.value_or(default_size), at);
   const bool left = plate.side == scene::RailSide::left;
   const Placement leaning = inclined(plate.rail_mesh.inclination);
   const Placement place = [&](Point2 p, double x) { return leaning({left ? -p.y : p.y, p.z}, x); };

@@ -6,17 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "case/expand_joint.hpp"
+
 namespace railwave::case_file {
 namespace {
 
 using scene::Track;
 using scene::Vec3;
-
-template <class Entry>
-const Entry* find(const std::vector<Entry>& entries, const std::string& name) {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
-  return found == entries.end() ? nullptr : &*found;
-}
 
 scene::Material made_of(const std::string& name, double modulus, double poissons_ratio, double density) {
   scene::Material material;
@@ -30,44 +26,33 @@ scene::Material made_of(const std::string& name, double modulus, double poissons
 /// The largest box of a connector's area that bounds nothing along y and z.
 constexpr double far = 1e3;
 
-class Expansion {
+class Expansion : private TrackEntries {
  public:
-  Expansion(scene::Scene& scene, const Track& track, Complaints& complaints) : scene_(scene), track_(track), complaints_(complaints) {}
+  using TrackEntries::TrackEntries;
 
   void run() {
     add_rails();
-    const auto places = sleeper_places(track_);
+    const auto places = sleeper_places(track);
     if (places.empty())
-      complaints_.add({track_.line}, "[tracks." + track_.name + "]: has no sleeper under its rail; make the rail longer than a pitch, or give positions");
+      complain("has no sleeper under its rail; make the rail longer than a pitch, or give positions");
     for (std::size_t k = 0; k < places.size(); ++k) add_sleeper(places[k], static_cast<int>(k) + 1);
   }
 
  private:
-  template <class Entry>
-  void add(std::vector<Entry>& entries, const char* section, Entry entry) {
-    entry.line = track_.line;
-    if (const Entry* other = find(entries, entry.name)) {
-      complaints_.add({track_.line}, fmt::format("[tracks.{}]: makes [{}.{}], which is there already (line {}); rename one", track_.name,
-                                                 section, entry.name, other->line));
-      return;
-    }
-    entries.push_back(std::move(entry));
-  }
-
-  std::string own(const std::string& what) const { return track_.name + "_" + what; }
-  std::string own(const char* what, int number) const { return fmt::format("{}_{}_{}", track_.name, what, number); }
-
   void add_rails() {
-    auto material = track_.rail_material;
-    if (material.empty()) add(scene_.materials, "materials", made_of(material = own("steel"), 210e9, 0.3, 7800));
-    if (!track_.gap_position) return add_rail(own("rail"), material, track_.rail);
-    scene::RailMesh before = track_.rail, behind = track_.rail;
-    before.end = *track_.gap_position - 0.5 * track_.gap;
-    behind.start = *track_.gap_position + 0.5 * track_.gap;
+    auto material = track.rail_material;
+    if (material.empty()) add(scene.materials, "materials", made_of(material = own("steel"), 210e9, 0.3, 7800));
+    if (!track.gap_position) return add_rail(own("rail"), material, track.rail);
+    scene::RailMesh before = track.rail, behind = track.rail;
+    before.end = *track.gap_position - 0.5 * track.gap;
+    behind.start = *track.gap_position + 0.5 * track.gap;
     before.zone_end = std::min(before.zone_end, before.end);
     behind.zone_start = std::max(behind.zone_start, behind.start);
+    if (before.path_end) before.path_end = before.end;
+    if (behind.path_start) behind.path_start = behind.start;
     add_rail(own("rail"), material, before);
     add_rail(own("rail_2"), material, behind);
+    if (track.fishplates) add_joint(*this, material);
   }
 
   void add_rail(const std::string& name, const std::string& material, const scene::RailMesh& rail) {
@@ -75,50 +60,41 @@ class Expansion {
     mesh.name = name;
     mesh.type = scene::MeshType::rail;
     mesh.rail = rail;
-    add(scene_.meshes, "meshes", mesh);
-    add_part(name, name, material, track_.position);
-  }
-
-  void add_part(const std::string& name, const std::string& mesh, const std::string& material, const Vec3& position) {
-    scene::Part part;
-    part.name = name;
-    part.mesh = mesh;
-    part.material = material;
-    part.position = position;
-    add(scene_.parts, "parts", part);
+    add(scene.meshes, "meshes", mesh);
+    add_part(name, name, material, track.position);
   }
 
   void add_sleeper(const SleeperPlace& place, int number) {
-    const scene::Sleeper kind = sleeper_of(scene_, *place.kind);
+    const scene::Sleeper kind = sleeper_of(scene, *place.kind);
     const std::string name = own("sleeper", number);
     if (kinds_.insert(*place.kind).second) add_kind(*place.kind, kind);
-    const Vec3& at = track_.position;
+    const Vec3& at = track.position;
     add_part(name, own(*place.kind), kind.material.empty() ? own(*place.kind) : kind.material, {at[0] + place.x, at[1], at[2]});
     add_fastening(place, kind, name, number);
     add_bed(kind, name, number);
   }
 
-  bool centre_is_left() const { return track_.rail.inclination >= 0; }
+  bool centre_is_left() const { return track.rail.inclination >= 0; }
 
   /// The mesh of all sleepers of a kind, the sleeper's middle at x = 0; its material unless the case has one.
   void add_kind(const std::string& name, const scene::Sleeper& kind) {
     const bool timber = kind.base == scene::Sleeper::Base::timber;
     if (kind.material.empty()) {
       const auto material = timber ? made_of(own(name), 20e9, 0.3, 1300) : made_of(own(name), 38.4e9, 0.2, 2520);
-      add(scene_.materials, "materials", material);
+      add(scene.materials, "materials", material);
     }
     scene::MeshSource mesh;
     mesh.name = own(name);
     mesh.type = scene::MeshType::box;
     mesh.box.size = {*kind.width, *kind.half_length, *kind.height};
-    mesh.box.origin = {-0.5 * *kind.width, centre_is_left() ? -track_.rail_distance : track_.rail_distance - *kind.half_length,
+    mesh.box.origin = {-0.5 * *kind.width, centre_is_left() ? -track.rail_distance : track.rail_distance - *kind.half_length,
                        -*kind.pad_thickness - *kind.height};
     mesh.box.divisions = *kind.divisions;
-    add(scene_.meshes, "meshes", mesh);
+    add(scene.meshes, "meshes", mesh);
   }
 
   void add_fastening(const SleeperPlace& place, const scene::Sleeper& kind, const std::string& sleeper, int number) {
-    const bool behind = track_.gap_position && place.x > *track_.gap_position;
+    const bool behind = track.gap_position && place.x > *track.gap_position;
     scene::Connector fastening;
     fastening.name = own("fastening", number);
     fastening.from = sleeper + ".z_max";
@@ -126,9 +102,9 @@ class Expansion {
     fastening.stiffness = *kind.fastening_stiffness;
     fastening.damping = *kind.fastening_damping;
     fastening.spread = kind.fastening_spread;
-    const double x = track_.position[0] + place.x;
+    const double x = track.position[0] + place.x;
     fastening.area = {{{x - 0.5 * *kind.pad_length, -far, -far}, {x + 0.5 * *kind.pad_length, far, far}}};
-    add(scene_.connectors, "connectors", fastening);
+    add(scene.connectors, "connectors", fastening);
   }
 
   void add_bed(const scene::Sleeper& kind, const std::string& sleeper, int number) {
@@ -139,23 +115,20 @@ class Expansion {
     ballast.stiffness = {0, 0, *kind.ballast_stiffness};
     ballast.damping = {0, 0, *kind.ballast_damping};
     ballast.spread = kind.ballast_spread;
-    add(scene_.connectors, "connectors", ballast);
+    add(scene.connectors, "connectors", ballast);
     scene::Constraint bed;
     bed.name = own("bed", number);
     bed.target = sleeper + ".z_min";
     // Not along y: an underside that cannot stretch would not let the sleeper bend.
     bed.fixed = {true, false, false};
-    add(scene_.constraints, "constraints", bed);
+    add(scene.constraints, "constraints", bed);
     scene::Constraint centre;
     centre.name = own("centre", number);
     centre.target = sleeper + (centre_is_left() ? ".y_min" : ".y_max");
     centre.fixed = {false, true, false};
-    add(scene_.constraints, "constraints", centre);
+    add(scene.constraints, "constraints", centre);
   }
 
-  scene::Scene& scene_;
-  const Track& track_;
-  Complaints& complaints_;
   std::set<std::string> kinds_;  ///< whose mesh is there
 };
 
@@ -188,7 +161,7 @@ std::vector<SleeperPlace> sleeper_places(const Track& track) {
 }
 
 scene::Sleeper sleeper_of(const scene::Scene& scene, const std::string& name) {
-  const scene::Sleeper* given = find(scene.sleepers, name);
+  const scene::Sleeper* given = find_entry(scene.sleepers, name);
   scene::Sleeper kind = given ? *given : scene::Sleeper{};
   if (!given) {
     kind.name = name;

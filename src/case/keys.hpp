@@ -27,6 +27,7 @@ Section solver_section();
 Section output_section();
 
 Section mesh_section();  // keys_meshes.cpp
+Section seam_section();
 
 Section material_section();  // keys_bodies.cpp
 Section part_section();

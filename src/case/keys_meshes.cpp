@@ -9,6 +9,7 @@ using scene::BoxMesh;
 using scene::CrownedBlockMesh;
 using scene::CylinderMesh;
 using scene::FileMesh;
+using scene::FishplateMesh;
 using scene::MeshSource;
 using scene::RollerMesh;
 using scene::WheelMesh;
@@ -52,6 +53,9 @@ std::vector<Key> wheel_keys() {
                "middle of the contact band, along the profile from the tape circle"),
       length("zone_width", &Wheel::zone_width, "width of the contact band"),
       any("zone_layers", &Wheel::zone_layers, "layers of zone_size below the running surface").within(between(1, 20)),
+      position("path_start", &Wheel::path_start, "arc where the way begins that the wheel rolls over; surface `tread` reaches as far").otherwise("no way beyond the zone"),
+      length("path_length", &Wheel::path_length, "rolled arc length of that way"),
+      length("path_size", &Wheel::path_size, "largest element size along the tread on that way, outside the zone"),
       any("growth", &Wheel::growth, "largest ratio of neighbouring element sizes").within(above_up_to(1, 3)),
       length("coarse_size", &Wheel::coarse_size, "largest element size along the tread, far from the zone"),
       length("core_size", &Wheel::core_size, "largest element size below the tread, as an arc at the tread"),
@@ -124,6 +128,23 @@ std::vector<Key> cylinder_keys() {
   };
 }
 
+std::vector<Key> fishplate_keys() {
+  using Plate = FishplateMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::fishplate, field, help); };
+  const auto position = [=](auto name, auto field, auto help) { return any(name, field, help).in("m"); };
+  return {
+      any("rail", &Plate::rail, "mesh of the rail in whose fishing chamber it lies, on its facets").names(mesh).needed(),
+      any("side", &Plate::side, "which chamber; left is towards -y").one_of({"left", "right"}),
+      position("start", &Plate::start, "x of its beginning"),
+      position("end", &Plate::end, "x of its end"),
+      position("thickness", &Plate::thickness, "beside the web where that is thinnest").within(above(0)),
+      position("clearance", &Plate::clearance, "between web and plate; head and foot are touched").within(between(0, 0.003)),
+      position("size", &Plate::size, "of elements along x").within(above(0)).otherwise("three times the rail's zone_size; zone_size where the plate reaches the layers of that size under the head"),
+      position("gap_start", &Plate::gap_start, "x where a gap between rails begins that it bridges: there `fishing` ends").otherwise("no gap"),
+      position("gap_end", &Plate::gap_end, "x where that gap ends: there `fishing_2` begins").otherwise("no gap"),
+  };
+}
+
 std::vector<Key> file_keys() {
   const auto file = &MeshSource::file;
   return {
@@ -139,7 +160,7 @@ std::vector<Key> file_keys() {
 Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
-  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder"}).needed()};
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate"}).needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys());
   section.add_keys("rail", rail_keys(&MeshSource::rail));
@@ -147,7 +168,24 @@ Section mesh_section() {
   section.add_keys("crowned_block", crowned_block_keys());
   section.add_keys("roller", roller_keys());
   section.add_keys("cylinder", cylinder_keys());
+  section.add_keys("fishplate", fishplate_keys());
   section.rule = check_mesh;
+  return section;
+}
+
+Section seam_section() {
+  using scene::Seam;
+  auto section = named_section(
+      "seams", "seam", &scene::Scene::seams,
+      "Cracks: on a plane across the rail the faces of elements come apart, as surfaces `part.NAME_before` and `part.NAME_behind` for a contact. "
+      "The mesh's layers across x are bent onto the plane; the crack consists of whole faces, so that its length and depth are met to an element's size.");
+  section.keys = {
+      key("mesh", &Seam::mesh, "mesh that it is in; all parts of that mesh have it").names(mesh).needed(),
+      key("place", &Seam::place, "middle of its mouth on the mesh's upper surface, in the mesh's own axes").in("m").needed(),
+      key("length", &Seam::length, "along y, half of it to each side; more than the mesh is wide: all through").in("m").within(above(0)).needed(),
+      key("depth", &Seam::depth, "along its plane").in("m").within(above(0)).needed(),
+      key("angle", &Seam::angle, "between its plane and the vertical; positive: its deeper parts lie farther along x").in("rad").within(between(-1.2, 1.2)),
+  };
   return section;
 }
 

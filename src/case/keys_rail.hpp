@@ -29,6 +29,9 @@ std::vector<Key> rail_keys(scene::RailMesh Entry::*rail) {
       length("coarse_size", &Rail::coarse_size, "largest element size along the head's surface, far from the zone"),
       length("core_size", &Rail::core_size, "largest element size along the rail, below the head's surface"),
       length("section_size", &Rail::section_size, "largest element size across the head's surface"),
+      position("path_start", &Rail::path_start, "x where the way begins that a wheel rolls over; surface `head` reaches as far").otherwise("zone_start"),
+      position("path_end", &Rail::path_end, "x where it ends").otherwise("zone_end"),
+      length("path_size", &Rail::path_size, "largest element size along the head on that way, outside the zone"),
       any("web_columns", &Rail::web_columns, "elements through the web's thickness").within(between(1, 9)),
       any("height_map", &Rail::height_map,
           "measured surface: a CSV file with the columns x, y, dz in m, a height for each place of a grid of x and y; nodes of the "

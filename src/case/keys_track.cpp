@@ -57,6 +57,33 @@ Section sleeper_section() {
   return section;
 }
 
+namespace {
+
+std::vector<Key> joint_keys() {
+  using scene::Track;
+  const auto length = [](auto name, auto field, auto help) { return key(name, field, help).in("m").within(above(0)); };
+  return {
+      key("fishplates", &Track::fishplates,
+          "a joint at the gap: fishplates `NAME_fishplate_left` (towards -y) and `NAME_fishplate_right` over both rails, and bolts, beams "
+          "`NAME_bolt_1` ..., from a point beyond one plate to one beyond the other, `NAME_bolt_1_left` and `NAME_bolt_1_right`; beams of the "
+          "points' names spread each head over the nodes `bolt_1` of the plate. Bolts don't touch the web"),
+      key("fishplate_fit", &Track::fishplate_fit, "glued to the rails, or in contact; ties and contacts have the plates' names, behind the gap with _2")
+          .one_of({"tie", "contact"}),
+      key("fishplate_friction", &Track::fishplate_friction, "Coulomb coefficient of that contact").within(at_least(0)),
+      key("fishplate_material", &Track::fishplate_material, "of the plates").names(material).otherwise("the rail's"),
+      length("fishplate_length", &Track::fishplate_length, "along the rails, half of it before the gap's middle"),
+      length("fishplate_thickness", &Track::fishplate_thickness, "beside the web where that is thinnest"),
+      key("fishplate_clearance", &Track::fishplate_clearance, "between web and plate; head and foot are touched").in("m").within(between(0, 0.003)),
+      length("fishplate_size", &Track::fishplate_size, "of the plates' elements along x").otherwise("three times zone_size, or zone_size where they reach the layers of that size under the head"),
+      key("bolt_positions", &Track::bolt_positions, "of each bolt along x from the gap's middle").in("m"),
+      key("bolt_height", &Track::bolt_height, "above the middle of the foot, along the rail's own axis").in("m").within(between(0.04, 0.11)).otherwise("the chamber's middle: 54E1 0.070, 60E1 0.076"),
+      key("bolt_diameter", &Track::bolt_diameter, "of the shank").in("m").within(between(0.01, 0.04)),
+      key("bolt_pretension", &Track::bolt_pretension, "force in each bolt, as of beams").in("N").within(at_least(0)),
+  };
+}
+
+}  // namespace
+
 Section track_section() {
   using scene::Track;
   auto section = named_section(
@@ -82,6 +109,7 @@ Section track_section() {
       key("gap_position", &Track::gap_position, "x of the middle of a gap, at which one rail ends and another begins, both free").in("m").otherwise("one rail"),
       key("gap", &Track::gap, "its width").in("m").within(above(0)),
   };
+  for (auto& one : joint_keys()) section.keys.push_back(std::move(one));
   for (auto& one : rail_keys(&Track::rail)) {
     const bool length = one.name == "start" || one.name == "end";
     section.keys.push_back(length ? std::move(one).needed() : std::move(one));

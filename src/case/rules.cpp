@@ -65,6 +65,14 @@ void check_wheel(const scene::WheelMesh& wheel, EntryCheck& check) {
     check.complain("conicity",
                    "has no effect on profile '" + wheel.profile + "'; leave it out, or say profile = \"cone\"");
   }
+  for (const char* key : {"path_length", "path_size"})
+    if (check.given(key) && !check.given("path_start"))
+      check.complain(key, fmt::format("has no effect without path_start; give that too, or leave {} out", key));
+  if (wheel.path_start) {
+    at_most(check, {"path_start", *wheel.path_start}, {"zone_start", wheel.zone_start});
+    at_most(check, {"zone_size", wheel.zone_size}, {"path_size", wheel.path_size});
+    at_most(check, {"path_size", wheel.path_size}, {"coarse_size", wheel.coarse_size});
+  }
   const double around = 2 * M_PI * wheel.radius;
   if (check.sound({"zone_length", "radius"}) && wheel.zone_length > around) {
     check.complain("zone_length",
@@ -83,6 +91,14 @@ void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
   at_most(check, {"zone_size", rail.zone_size}, {"coarse_size", rail.coarse_size});
   if (check.given("height_map_depth") && !check.given("height_map"))
     check.complain("height_map_depth", "has no effect without height_map; give that too, or leave height_map_depth out");
+  const bool path = check.given("path_start") || check.given("path_end");
+  if (check.given("path_size") && !path) check.complain("path_size", "has no effect without path_start or path_end; give one of them, or leave path_size out");
+  if (path) {
+    at_most(check, {"path_size", rail.path_size}, {"coarse_size", rail.coarse_size});
+    at_most(check, {"zone_size", rail.zone_size}, {"path_size", rail.path_size});
+  }
+  if (rail.path_start) at_most(check, {"path_start", *rail.path_start}, {"zone_start", rail.zone_start});
+  if (rail.path_end) at_most(check, {"zone_end", rail.zone_end}, {"path_end", *rail.path_end});
   if (!check.sound({"start", "end"})) return;
   for (const auto& end : {Named{"zone_start", rail.zone_start}, Named{"zone_end", rail.zone_end}}) {
     if (!check.sound({end.key}) || (end.value >= rail.start && end.value <= rail.end)) continue;
@@ -111,6 +127,8 @@ void check_mesh(void* entry, EntryCheck& check) {
   if (!check.sound({"type"})) return;
   if (mesh.type == scene::MeshType::wheel) check_wheel(mesh.wheel, check);
   if (mesh.type == scene::MeshType::rail) check_rail(mesh.rail, check);
+  if (mesh.type == scene::MeshType::fishplate && check.given("gap_start") != check.given("gap_end"))
+    check.complain(check.given("gap_start") ? "gap_end" : "gap_start", "is missing; a gap has a start and an end");
 }
 
 void check_part(void* entry, EntryCheck& check) {

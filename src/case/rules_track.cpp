@@ -56,6 +56,30 @@ void check_gap(const scene::Track& track, EntryCheck& check) {
                                                first, last, track.rail.zone_start, track.rail.zone_end));
 }
 
+void check_joint(const scene::Track& track, EntryCheck& check) {
+  if (!track.fishplates) {
+    for (const char* key : {"fishplate_fit", "fishplate_friction", "fishplate_material", "fishplate_length", "fishplate_thickness", "fishplate_clearance",
+                            "fishplate_size", "bolt_positions", "bolt_height", "bolt_diameter", "bolt_pretension"})
+      if (check.given(key)) check.complain(key, fmt::format("has no effect without fishplates = true; set that, or leave {} out", key));
+    return;
+  }
+  if (!check.given("gap_position")) {
+    check.complain("fishplates", "has no effect without gap_position; give that too, or leave fishplates out");
+    return;
+  }
+  if (check.given("fishplate_friction") && check.sound({"fishplate_fit"}) && track.fishplate_fit == scene::FishplateFit::tie)
+    check.complain("fishplate_friction", "has no effect on plates that are tied; set fishplate_fit = \"contact\", or leave fishplate_friction out");
+  if (!check.sound({"gap", "gap_position", "fishplate_length", "bolt_positions", "bolt_diameter", "start", "end"})) return;
+  const double half = 0.5 * track.fishplate_length;
+  if (*track.gap_position - half < track.rail.start || *track.gap_position + half > track.rail.end)
+    check.complain("fishplate_length", fmt::format("is {}, so that the plates reach from {} to {}, beyond the rails", track.fishplate_length,
+                                                   *track.gap_position - half, *track.gap_position + half));
+  const double least = 0.5 * track.gap + 0.5 * track.bolt_diameter, most = half - track.bolt_diameter;
+  for (double x : track.bolt_positions)
+    if (std::fabs(x) < least || std::fabs(x) > most)
+      check.complain("bolt_positions", fmt::format("has {}, must be {:.4g} to {:.4g} m away from the gap's middle: in the plates, and not in the gap", x, least, most));
+}
+
 }  // namespace
 
 void check_track(void* entry, EntryCheck& check) {
@@ -63,6 +87,7 @@ void check_track(void* entry, EntryCheck& check) {
   check_rail(track.rail, check);
   check_sleepers_of(track, check);
   check_gap(track, check);
+  check_joint(track, check);
 }
 
 }  // namespace railwave::case_file

@@ -42,7 +42,7 @@ struct Material : Place {
   double shear_speed() const { return std::sqrt(shear_modulus() / density); }
 };
 
-enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder };
+enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate };
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -77,6 +77,9 @@ struct WheelMesh {
   int web_columns = 3;             ///< elements through the web's thickness
   double web_centre = -0.0025;     ///< lateral middle of web and hub: the rim's middle
   double conicity = 0.025;         ///< slope of the tread of profile "cone"
+  std::optional<double> path_start;  ///< arc at which the wheel begins to roll towards or through its zone; absent: no path
+  double path_length = 1.4;        ///< rolled arc length that is the path
+  double path_size = 0.003;        ///< largest element size along the tread on it
 };
 
 /// 54E1 section extruded along x, foot centre at y = 0 and underside at z = 0, inclined towards -y (the track's centre).
@@ -98,6 +101,8 @@ struct RailMesh {
   int web_columns = 3;             ///< elements through the web's thickness
   std::string height_map;          ///< CSV of x, y, dz on the running surface, see mesh/height_map.hpp; empty: nominal
   double height_map_depth = 0.015; ///< m below the surface at which nodes stay where they are
+  std::optional<double> path_start, path_end;  ///< x range that a wheel rolls over, beyond the zone; absent: that of the zone
+  double path_size = 0.003;        ///< largest element size along the head on it
 };
 
 struct FileMesh {
@@ -154,6 +159,21 @@ struct CylinderMesh {
   double core_share = 0.5;         ///< half diagonal of the core over the radius
 };
 
+enum class RailSide { left, right };  ///< left: towards -y, where a rail of positive inclination leans
+
+/// A bar in the fishing chamber at one side of a rail; see mesh/fishplate.hpp.
+struct FishplateMesh {
+  std::string rail;                ///< the mesh that it fits
+  RailMesh rail_mesh;              ///< that mesh's parameters, filled in when the case has been read
+  RailSide side = RailSide::left;
+  double start = -0.3;             ///< x range, m
+  double end = 0.3;
+  double thickness = 0.02;         ///< m, from the web's thinnest place outwards
+  double clearance = 0;            ///< m, between web and plate
+  std::optional<double> size;      ///< m, elements along x; absent: 3 zone_size of the rail
+  std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
+};
+
 struct MeshSource : Place {
   MeshType type = MeshType::box;
   BoxMesh box;
@@ -163,6 +183,16 @@ struct MeshSource : Place {
   CrownedBlockMesh crowned_block;
   RollerMesh roller;
   CylinderMesh cylinder;
+  FishplateMesh fishplate;
+};
+
+/// A crack in a mesh: nodes doubled on a plane across the rail, its two faces surfaces NAME_before and NAME_behind.
+struct Seam : Place {
+  std::string mesh;
+  Vec3 place{0, 0, 0};             ///< m, middle of its mouth on the mesh's upper surface
+  double length = 0;               ///< m, along y
+  double depth = 0;                ///< m, along its plane
+  double angle = 0;                ///< rad from the vertical, positive: deeper parts lie farther along x
 };
 
 enum class HourglassType { viscous, stiffness };
@@ -360,6 +390,8 @@ struct Sleeper : Place {
   std::array<int, 2> fastening_spread{3, 3}, ballast_spread{2, 6};
 };
 
+enum class FishplateFit { tie, contact };
+
 /// Half a track, generated: see case/expand_tracks.hpp for what it becomes.
 struct Track : Place {
   RailMesh rail;
@@ -376,6 +408,18 @@ struct Track : Place {
   double pair_distance = 0.24;                ///< m
   std::optional<double> gap_position;         ///< x of the middle of the gap between two rails
   double gap = 0.006;                         ///< m
+  bool fishplates = false;                    ///< and bolts, at the gap
+  FishplateFit fishplate_fit = FishplateFit::tie;
+  double fishplate_friction = 0.3;            ///< where they are in contact
+  std::string fishplate_material;             ///< empty: the rail's
+  double fishplate_length = 0.6;              ///< m
+  double fishplate_thickness = 0.02;          ///< m
+  double fishplate_clearance = 0;             ///< m
+  std::optional<double> fishplate_size;       ///< m
+  std::vector<double> bolt_positions{-0.23, -0.065, 0.065, 0.23};  ///< m along x from the gap's middle
+  std::optional<double> bolt_height;          ///< m above the foot's underside, before inclination; absent: the chamber's middle
+  double bolt_diameter = 0.024;               ///< m
+  double bolt_pretension = 12.5e3;            ///< N
 };
 
 struct Scene {
@@ -384,6 +428,7 @@ struct Scene {
   std::string static_text;         ///< what of the case the static state can depend on, key by key; empty where there is no file
   std::vector<Material> materials;
   std::vector<MeshSource> meshes;
+  std::vector<Seam> seams;
   std::vector<Part> parts;
   std::vector<NodeSet> node_sets;
   std::vector<Sleeper> sleepers;

@@ -5,6 +5,7 @@
 #include "mesh/box.hpp"
 #include "mesh/crowned_block.hpp"
 #include "mesh/cylinder.hpp"
+#include "mesh/fishplate.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/rail.hpp"
 #include "mesh/roller.hpp"
@@ -28,6 +29,8 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return roller_mesh(source);
     case scene::MeshType::cylinder:
       return cylinder_mesh(source);
+    case scene::MeshType::fishplate:
+      return fishplate_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
 }

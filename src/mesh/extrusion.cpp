@@ -161,6 +161,17 @@ std::vector<int> nodes_on_section_nodes(const Extrusion& extrusion, const std::v
   return nodes;
 }
 
+std::vector<Face> faces_at_station(const Extrusion& extrusion, int station) {
+  std::vector<Face> faces;
+  for (int e = 0; e < static_cast<int>(extrusion.mesh.elements.size()); ++e)
+    for (int side = 0; side < 6; ++side) {
+      const auto nodes = extrusion.mesh.face_nodes({e, side});
+      const auto there = [&](int n) { return extrusion.section_node[n] >= 0 && extrusion.station[n] == station; };
+      if (std::all_of(nodes.begin(), nodes.end(), there)) faces.push_back({e, side});
+    }
+  return faces;
+}
+
 std::vector<int> zone_elements(const Extrusion& extrusion, const SectionMesh& section, int first, int last) {
   std::vector<int> elements;
   for (std::size_t e = 0; e < extrusion.mesh.elements.size(); ++e) {

@@ -33,6 +33,9 @@ std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<S
 /// Mesh nodes made from the given nodes of the section, at all stations.
 std::vector<int> nodes_on_section_nodes(const Extrusion& extrusion, const std::vector<int>& section_nodes);
 
+/// Faces that lie across the extrusion at a station, made from the section's own nodes.
+std::vector<Face> faces_at_station(const Extrusion& extrusion, int station);
+
 /// Elements made from zone quads between the stations `first` and `last`.
 std::vector<int> zone_elements(const Extrusion& extrusion, const SectionMesh& section, int first, int last);
 

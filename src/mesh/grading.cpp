@@ -120,8 +120,28 @@ void add_levels(Stations& stations, std::vector<double> sizes, int origin, const
   }
 }
 
-Stations assemble(const StationPlan& plan, const ZoneCells& zone, std::vector<double> before, double start,
-                  const std::vector<double>& after) {
+/// Cells at one side of the zone, from it outwards.
+struct SideCells {
+  std::vector<double> sizes;
+  int on_path = 0;  ///< so many of them first
+};
+
+/// Cells over `length`, over the first `path` of it up to path_size; the number of those beyond is a multiple of `multiple`.
+SideCells side_cells(const StationPlan& plan, double length, double path, int multiple = 1) {
+  if (path > length - 0.5 * plan.path_size) path = length;  // no sliver beyond
+  SideCells cells;
+  if (path > plan.zone_size) cells.sizes = graded_cells(path, plan.zone_size, plan.growth, plan.path_size);
+  cells.on_path = static_cast<int>(cells.sizes.size());
+  const double from = cells.on_path == 0 ? 0 : path, first = cells.on_path == 0 ? plan.zone_size : cells.sizes.back();
+  const auto beyond = graded_cells(length - from, first, plan.growth, plan.coarse_size, multiple);
+  cells.sizes.insert(cells.sizes.end(), beyond.begin(), beyond.end());
+  return cells;
+}
+
+Stations assemble(const StationPlan& plan, const ZoneCells& zone, const SideCells& before_zone, double start,
+                  const SideCells& after_zone) {
+  std::vector<double> before = before_zone.sizes;
+  const std::vector<double>& after = after_zone.sizes;
   std::reverse(before.begin(), before.end());
   std::vector<double> sizes = before;
   sizes.insert(sizes.end(), zone.cells, plan.zone_size);
@@ -133,6 +153,8 @@ Stations assemble(const StationPlan& plan, const ZoneCells& zone, std::vector<do
     stations.position[before.size() + i] = zone.first + i * plan.zone_size;
   stations.zone_first = static_cast<int>(before.size());
   stations.zone_last = stations.zone_first + zone.cells;
+  stations.path_first = stations.zone_first - before_zone.on_path;
+  stations.path_last = stations.zone_last + after_zone.on_path;
   add_levels(stations, sizes, stations.zone_first + zone.origin, plan);
   return stations;
 }
@@ -142,10 +164,10 @@ Stations assemble(const StationPlan& plan, const ZoneCells& zone, std::vector<do
 Stations open_stations(const StationPlan& plan, double start, double end) {
   const ZoneCells zone = zone_cells(plan);
   const double last = zone.first + zone.cells * plan.zone_size;
-  const auto before = graded_cells(zone.first - start, plan.zone_size, plan.growth, plan.coarse_size);
-  const auto after = graded_cells(end - last, plan.zone_size, plan.growth, plan.coarse_size);
+  const auto before = side_cells(plan, zone.first - start, zone.first - plan.path_start);
+  const auto after = side_cells(plan, end - last, plan.path_end - last);
   Stations stations = assemble(plan, zone, before, start, after);
-  if (!after.empty()) stations.position.back() = end;
+  if (!after.sizes.empty()) stations.position.back() = end;
   return stations;
 }
 
@@ -153,7 +175,7 @@ Stations periodic_stations(const StationPlan& plan, double period) {
   StationPlan fitted = plan;
   ZoneCells zone = zone_cells(plan);
   double rest = period - zone.cells * plan.zone_size;
-  std::vector<double> before, after;
+  SideCells before, after;
   if (rest < 6 * plan.zone_size) {  // the whole circle is zone, in whole groups of two levels
     zone.cells = static_cast<int>(std::ceil(period / plan.zone_size / 9 - 1e-6)) * 9;
     fitted.zone_size = period / zone.cells;
@@ -162,20 +184,21 @@ Stations periodic_stations(const StationPlan& plan, double period) {
   } else {
     // Both sides meet opposite the zone; whole groups of three from the origin leave no odd cell there.
     const int side_before = zone.origin, side_after = zone.cells - zone.origin;
-    const auto grade = [&](int zone_side) {
-      auto cells = graded_cells(rest / 2, plan.zone_size, plan.growth, plan.coarse_size);
-      for (int extra = 1; (zone_side + static_cast<int>(cells.size())) % 3 != 0 && extra < 3; ++extra) {
-        const int wanted = static_cast<int>(cells.size()) + 1;
-        const auto more = graded_cells(rest / 2, plan.zone_size, plan.growth, plan.coarse_size, wanted);
-        if (static_cast<int>(more.size()) != wanted) break;
+    const auto grade = [&](int zone_side, double path) {
+      auto cells = side_cells(plan, rest / 2, path);
+      const auto count = [](const SideCells& of) { return static_cast<int>(of.sizes.size()); };
+      for (int extra = 1; (zone_side + count(cells)) % 3 != 0 && extra < 3; ++extra) {
+        const int wanted = count(cells) + 1;
+        const auto more = side_cells(plan, rest / 2, path, wanted - cells.on_path);
+        if (count(more) != wanted) break;
         cells = more;
       }
       return cells;
     };
-    before = grade(side_before);
-    after = grade(side_after);
+    before = grade(side_before, zone.first - plan.path_start);
+    after = grade(side_after, plan.path_end - zone.first - zone.cells * plan.zone_size);
   }
-  Stations stations = assemble(fitted, zone, before, zone.first - (before.empty() ? 0 : rest / 2), after);
+  Stations stations = assemble(fitted, zone, before, zone.first - (before.sizes.empty() ? 0 : rest / 2), after);
   stations.position.pop_back();
   stations.periodic = true;
   stations.period = period;

@@ -27,6 +27,8 @@ struct Stations {
   int origin = 0;      ///< station of the zone from which the levels were merged outwards
   int zone_first = 0;  ///< stations at which the zone begins and ends
   int zone_last = 0;
+  int path_first = 0;  ///< and the path; that of the zone where there is none
+  int path_last = 0;
 
   /// Coordinate of the end of a cell that begins at station `i`, one level-0 cell on.
   double next_position(int i) const {
@@ -41,6 +43,8 @@ struct StationPlan {
   double coarse_size;           ///< largest cell of level 0
   double merge_limit;           ///< largest merged cell
   int levels;                   ///< how many levels, at least 1
+  double path_start = 0, path_end = 0;  ///< range about the zone with cells up to path_size; none unless it is wider
+  double path_size = 0;
 };
 
 /// Layers from `start` to `end`; a layer lies at 0 when the zone holds 0.

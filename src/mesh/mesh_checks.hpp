@@ -25,6 +25,17 @@ class MeshChecks {
     if (!good) complaints_.push_back(fmt::format("{}{} = {}; allowed: {}", place_, key, value, allowed));
   }
 
+  /// A path of finer cells: it holds the zone, and lies between two limits.
+  void path(double path_start, double path_end, double zone_start, double zone_end, double first, double last, double path_size,
+            double zone_size, double coarse_size) {
+    expect(path_start >= first - 1e-9 && path_start <= zone_start, "path_start", path_start,
+           fmt::format("{:g} m to zone_start = {:g} m", first, zone_start));
+    expect(path_end >= zone_end && path_end <= last + 1e-9, "the path's end", path_end,
+           fmt::format("the zone's end = {:g} m to {:g} m", zone_end, last));
+    expect(path_size >= zone_size && path_size <= coarse_size, "path_size", path_size,
+           fmt::format("zone_size = {:g} to coarse_size = {:g} m", zone_size, coarse_size));
+  }
+
   /// What wheel and rail share.
   void grading(double zone_size, double growth, double coarse_size, double core_size, double section_size, int zone_layers,
                int web_columns) {

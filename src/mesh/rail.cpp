@@ -15,9 +15,7 @@
 
 namespace railwave {
 
-namespace {
-
-void check(const scene::MeshSource& source) {
+void check_rail_mesh(const scene::MeshSource& source) {
   const scene::RailMesh& r = source.rail;
   MeshChecks checks(source);
   checks.expect(r.section == "54E1" || r.section == "60E1", "section", r.section, "\"54E1\" or \"60E1\"");
@@ -26,6 +24,9 @@ void check(const scene::MeshSource& source) {
   checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end, fmt::format("more than zone_start = {:g} m", r.zone_start));
   checks.expect(r.zone_start >= r.start, "zone_start", r.zone_start, fmt::format("start = {:g} m or more", r.start));
   checks.expect(r.zone_end <= r.end, "zone_end", r.zone_end, fmt::format("end = {:g} m or less", r.end));
+  if (r.path_start || r.path_end)
+    checks.path(r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.zone_start, r.zone_end, r.start, r.end,
+                r.path_size, r.zone_size, r.coarse_size);
   checks.grading(r.zone_size, r.growth, r.coarse_size, r.core_size, r.section_size, r.zone_layers, r.web_columns);
   checks.expect(r.zone_width >= r.zone_size && r.zone_width <= 0.09, "zone_width", r.zone_width,
                 "zone_size to 0.09 m");
@@ -35,12 +36,7 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-}  // namespace
-
-Mesh rail_mesh(const scene::MeshSource& source) {
-  check(source);
-  const scene::RailMesh& r = source.rail;
-
+RailSectionPlan section_plan(const scene::RailMesh& r) {
   RailSectionPlan plan;
   plan.section = r.section;
   plan.inclination = r.inclination;
@@ -52,7 +48,18 @@ Mesh rail_mesh(const scene::MeshSource& source) {
   plan.zone_layers = r.zone_layers;
   plan.web_columns = r.web_columns;
   plan.lower_transition = 9 * r.zone_size <= r.core_size;
+  return plan;
+}
 
+Placement inclined(double inclination) {
+  const double angle = std::atan(inclination), c = std::cos(angle), s = std::sin(angle);
+  return [=](Point2 p, double x) { return Vec3{x, p.y * c - p.z * s, p.y * s + p.z * c}; };
+}
+
+Mesh rail_mesh(const scene::MeshSource& source) {
+  check_rail_mesh(source);
+  const scene::RailMesh& r = source.rail;
+  const RailSectionPlan plan = section_plan(r);
   SectionMesh section;
   try {
     section = rail_section(plan);
@@ -60,17 +67,22 @@ Mesh rail_mesh(const scene::MeshSource& source) {
     throw InputError(place_of(source) + problem.what());
   }
   const StationPlan along{r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size, r.core_size,
-                          plan.lower_transition ? 3 : 2};
+                          plan.lower_transition ? 3 : 2, r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.path_size};
   const Stations stations = open_stations(along, r.start, r.end);
 
-  const double angle = std::atan(r.inclination), c = std::cos(angle), s = std::sin(angle);
-  const auto place = [=](Point2 p, double x) { return Vec3{x, p.y * c - p.z * s, p.y * s + p.z * c}; };
-  Extrusion extrusion = extrude(section, stations, place, false);
+  Extrusion extrusion = extrude(section, stations, inclined(r.inclination), false);
   Mesh& mesh = extrusion.mesh;
 
   const int last = static_cast<int>(stations.position.size()) - 1;
   mesh.surfaces["running_surface"] = faces_on_edges(extrusion, section.edges["running_surface"], 0, last);
-  mesh.surfaces["head"] = faces_on_edges(extrusion, section.edges["head"], stations.zone_first - 2, stations.zone_last + 2);
+  mesh.surfaces["head"] = faces_on_edges(extrusion, section.edges["head"], stations.path_first - 2, stations.path_last + 2);
+  for (const char* side : {"_left", "_right"}) {
+    auto& fishing = mesh.surfaces[std::string("fishing") + side];
+    for (const char* line : fishing_lines) {
+      const auto faces = faces_on_edges(extrusion, section.edges_along(section.lines.at(std::string(line) + side)), 0, last);
+      fishing.insert(fishing.end(), faces.begin(), faces.end());
+    }
+  }
   mesh.element_sets["zone"] = zone_elements(extrusion, section, stations.zone_first, stations.zone_last);
   mesh.node_sets["foot"] = nodes_on_section_nodes(extrusion, section.node_sets["foot"]);
   auto& start = mesh.node_sets["start"];
@@ -82,14 +94,12 @@ Mesh rail_mesh(const scene::MeshSource& source) {
   const auto& foot = mesh.node_sets["foot"];
   std::vector<char> on_foot(mesh.nodes.size(), 0);
   for (int n : foot) on_foot[n] = 1;
-  const auto at_station = [&](int n, int station) { return extrusion.section_node[n] >= 0 && extrusion.station[n] == station; };
+  mesh.surfaces["start_face"] = faces_at_station(extrusion, 0);
+  mesh.surfaces["end_face"] = faces_at_station(extrusion, last);
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
     for (int side = 0; side < 6; ++side) {
       const auto nodes = mesh.face_nodes({e, side});
-      const auto all = [&](const auto& holds) { return std::all_of(nodes.begin(), nodes.end(), holds); };
-      if (all([&](int n) { return at_station(n, 0); })) mesh.surfaces["start_face"].push_back({e, side});
-      if (all([&](int n) { return at_station(n, last); })) mesh.surfaces["end_face"].push_back({e, side});
-      if (all([&](int n) { return on_foot[n] != 0; })) mesh.surfaces["foot"].push_back({e, side});
+      if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return on_foot[n] != 0; })) mesh.surfaces["foot"].push_back({e, side});
     }
   if (!r.height_map.empty())
     apply_height_map(HeightMap(r.height_map), r.height_map_depth, mesh.surfaces["running_surface"], place_of(source), mesh);

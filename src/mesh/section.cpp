@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <utility>
 
 namespace railwave {
 
@@ -36,6 +38,16 @@ std::vector<int> SectionMesh::add_curve_line(int first, int curve, int parts, in
   for (int i = 1; i < parts; ++i) result.push_back(add_curve_node(curve, curves[curve].length * i / parts));
   result.push_back(last);
   return result;
+}
+
+std::vector<SectionEdge> SectionMesh::edges_along(const std::vector<int>& line) const {
+  std::set<std::pair<int, int>> wanted;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) wanted.insert(std::minmax(line[i], line[i + 1]));
+  std::vector<SectionEdge> found;
+  for (std::size_t q = 0; q < quads.size(); ++q)
+    for (int i = 0; i < 4; ++i)
+      if (wanted.count(std::minmax(quads[q].nodes[i], quads[q].nodes[(i + 1) % 4])) != 0) found.push_back({static_cast<int>(q), i});
+  return found;
 }
 
 namespace {

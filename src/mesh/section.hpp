@@ -42,6 +42,7 @@ struct SectionMesh {
   std::vector<Curve> curves;
   std::map<std::string, std::vector<SectionEdge>> edges;
   std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, std::vector<int>> lines;  ///< nodes one after the other along the outline
 
   int add_node(Point2 position);
   int add_fixed_node(Point2 position);
@@ -49,6 +50,8 @@ struct SectionMesh {
   int add_curve_node(int curve, double parameter);
   /// `parts + 1` nodes along a curve, evenly spaced by arc length, between two nodes that exist.
   std::vector<int> add_curve_line(int first, int curve, int parts, int last);
+  /// The edges of quads between each two nodes that follow each other.
+  std::vector<SectionEdge> edges_along(const std::vector<int>& line) const;
   Point2 position(int node) const { return nodes[node].position; }
 };
 

@@ -49,6 +49,11 @@ void check(const scene::MeshSource& source) {
                 fmt::format("half the circumference, {:.4f} m, to either side", pi * w.radius));
   checks.expect(w.zone_width >= w.zone_size && w.zone_width <= w.rim_width, "zone_width", w.zone_width,
                 "zone_size to rim_width");
+  if (w.path_start) {
+    const double middle = w.zone_start + w.zone_length / 2;
+    checks.path(*w.path_start, *w.path_start + w.path_length, w.zone_start, w.zone_start + w.zone_length, middle - pi * w.radius,
+                middle + pi * w.radius, w.path_size, w.zone_size, w.coarse_size);
+  }
   checks.grading(w.zone_size, w.growth, w.coarse_size, w.core_size, w.section_size, w.zone_layers, w.web_columns);
   checks.report();
 }
@@ -66,7 +71,8 @@ Mesh wheel_mesh(const scene::MeshSource& source) {
     throw InputError(place_of(source) + problem.what());
   }
   const StationPlan around{w.zone_start, w.zone_start + w.zone_length, w.zone_size, w.growth, w.coarse_size, w.core_size,
-                           lower_transition ? 3 : 2};
+                           lower_transition ? 3 : 2, w.path_start.value_or(w.zone_start),
+                           w.path_start ? *w.path_start + w.path_length : w.zone_start, w.path_size};
   const Stations stations = periodic_stations(around, 2 * pi * w.radius);
 
   const double radius = w.radius;
@@ -77,8 +83,8 @@ Mesh wheel_mesh(const scene::MeshSource& source) {
   Mesh& mesh = extrusion.mesh;
   const int count = static_cast<int>(stations.position.size());
   mesh.surfaces["running_surface"] = faces_on_edges(extrusion, section.edges["running_surface"], 0, count);
-  mesh.surfaces["tread"] = faces_on_edges(extrusion, section.edges["tread"], std::max(0, stations.zone_first - 2),
-                                          std::min(count, stations.zone_last + 2));
+  mesh.surfaces["tread"] = faces_on_edges(extrusion, section.edges["tread"], std::max(0, stations.path_first - 2),
+                                          std::min(count, stations.path_last + 2));
   mesh.element_sets["zone"] = zone_elements(extrusion, section, stations.zone_first, stations.zone_last);
   mesh.node_sets["bore"] = nodes_on_section_nodes(extrusion, section.node_sets["bore"]);
   std::vector<int> centre;

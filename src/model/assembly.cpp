@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
 #include "model/beams.hpp"
 #include "model/place_sets.hpp"
@@ -48,6 +49,8 @@ Mesh mesh_of(const scene::Scene& scene, const scene::Part& part) {
   const auto source = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                    [&](const auto& candidate) { return candidate.name == part.mesh; });
   Mesh mesh = build_mesh(*source);
+  for (const scene::Seam& seam : scene.seams)
+    if (seam.mesh == part.mesh) open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh);
   if (part.element_set.empty()) return mesh;
   const auto set = mesh.element_sets.find(part.element_set);
   if (set == mesh.element_sets.end()) {

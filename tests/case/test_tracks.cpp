@@ -110,3 +110,62 @@ TEST_CASE("names that a track makes can be used, and may not be taken", "[case]"
   TemporaryCase lost(track_case("first_sleeper = 20"));
   CHECK(mistakes_of(lost.path()).find("[tracks.track]: has no sleeper under its rail") != std::string::npos);
 }
+
+TEST_CASE("a joint is two fishplates on both rails, and bolts between points with heads spread over the plates", "[case]") {
+  const std::string joint = "gap_position = 0.06\nzone_end = 0.2\nfishplates = true\nposition = [10, 1, 2]\ninclination = 0\n";
+  TemporaryCase file(track_case(joint + "bolt_positions = [-0.1, 0.15]\nfishplate_clearance = 0.001\n"));
+  const auto scene = read_case(file.path());
+  const auto& right = named(scene.meshes, "track_fishplate_right").fishplate;
+  CHECK(right.side == scene::RailSide::right);
+  CHECK_THAT(right.start, WithinAbs(0.06 - 0.3, 1e-12));
+  CHECK_THAT(*right.gap_end, WithinAbs(0.063, 1e-12));
+  CHECK_FALSE(right.size.has_value());
+  CHECK(right.rail_mesh.zone_end == named(scene.meshes, "track_rail").rail.zone_end);
+  CHECK(named(scene.parts, "track_fishplate_left").position == scene::Vec3{10, 1, 2});
+  REQUIRE(scene.ties.size() == 4);
+  CHECK(named(scene.ties, "track_fishplate_left_2").slave == "track_fishplate_left.fishing_2");
+  CHECK(named(scene.ties, "track_fishplate_left_2").master == "track_rail_2.fishing_left");
+  CHECK(scene.contacts.empty());
+  CHECK(scene.points.size() == 4);
+  CHECK(scene.beams.size() == 6);
+  const auto& bolt = named(scene.beams, "track_bolt_2");
+  CHECK(bolt.from == "track_bolt_2_left");
+  CHECK(*bolt.pretension == 12.5e3);
+  CHECK(bolt.radius == 0.012);
+  const auto &a = named(scene.points, "track_bolt_2_left").position, &b = named(scene.points, "track_bolt_2_right").position;
+  CHECK_THAT(a[0], WithinAbs(10.21, 1e-12));
+  CHECK_THAT(a[2], WithinAbs(2.07, 1e-12));
+  CHECK_THAT(0.5 * (a[1] + b[1]), WithinAbs(1, 1e-12));
+  CHECK_THAT(b[1] - a[1], WithinAbs(2 * (0.008 + 0.001 + 0.02 + 0.6 * 0.024), 1e-12));
+  const auto& head = named(scene.beams, "track_bolt_1_right");
+  CHECK(head.to == "track_fishplate_right.bolt_1");
+  CHECK_FALSE(head.pretension.has_value());
+
+  TemporaryCase loose(track_case(joint + "fishplate_fit = \"contact\"\nfishplate_friction = 0.2\n"));
+  const auto other = read_case(loose.path());
+  CHECK(other.ties.empty());
+  REQUIRE(other.contacts.size() == 4);
+  CHECK(named(other.contacts, "track_fishplate_right").friction == 0.2);
+}
+
+TEST_CASE("a joint's mistakes are told with what would do", "[case]") {
+  const auto mistakes = [](const std::string& keys) {
+    TemporaryCase file(track_case(keys));
+    return mistakes_of(file.path());
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    INFO(text);
+    CHECK(text.find(part) != std::string::npos);
+  };
+  const std::string joint = "gap_position = 0.06\nzone_end = 0.2\nfishplates = true\n";
+  says(mistakes("bolt_pretension = 1e3"), "bolt_pretension: has no effect without fishplates = true");
+  says(mistakes("fishplates = true"), "fishplates: has no effect without gap_position");
+  says(mistakes(joint + "fishplate_friction = 0.2"), "fishplate_friction: has no effect on plates that are tied");
+  says(mistakes(joint + "bolt_positions = [0.01, 0.2]"), "bolt_positions: has 0.01, must be 0.015 to 0.276 m away");
+  says(mistakes(joint + "fishplate_length = 8"), "fishplate_length: is 8, so that the plates reach from");
+  says(mistakes(joint + "path_size = 0.003"), "path_size: has no effect without path_start");
+  TemporaryCase box("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\ngap_start = 0\n" + track_case(""));
+  says(mistakes_of(box.path()), "gap_end: is missing");
+  TemporaryCase other("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\n" + track_case(""));
+  says(mistakes_of(other.path()), "[meshes.p] rail: 'b' is no mesh of type \"rail\"");
+}

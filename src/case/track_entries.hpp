@@ -1,0 +1,58 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "case/complaints.hpp"
+#include "case/scene.hpp"
+
+namespace railwave::case_file {
+
+template <class Entry>
+const Entry* find_entry(const std::vector<Entry>& entries, const std::string& name) {
+  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+/// Adds what a track makes to the scene, under names that begin with the track's.
+class TrackEntries {
+ public:
+  TrackEntries(scene::Scene& into, const scene::Track& of, Complaints& complaints) : scene(into), track(of), complaints_(complaints) {}
+
+  scene::Scene& scene;
+  const scene::Track& track;
+
+  std::string own(const std::string& what) const { return track.name + "_" + what; }
+  std::string own(const char* what, int number) const { return fmt::format("{}_{}_{}", track.name, what, number); }
+
+  /// Complains of a name that is there already.
+  template <class Entry>
+  void add(std::vector<Entry>& entries, const char* section, Entry entry) {
+    entry.line = track.line;
+    if (const Entry* other = find_entry(entries, entry.name)) {
+      complain(fmt::format("makes [{}.{}], which is there already (line {}); rename one", section, entry.name, other->line));
+      return;
+    }
+    entries.push_back(std::move(entry));
+  }
+
+  void add_part(const std::string& name, const std::string& mesh, const std::string& material, const scene::Vec3& position) {
+    scene::Part part;
+    part.name = name;
+    part.mesh = mesh;
+    part.material = material;
+    part.position = position;
+    add(scene.parts, "parts", part);
+  }
+
+  void complain(const std::string& what) { complaints_.add({track.line}, "[tracks." + track.name + "]: " + what); }
+
+ private:
+  Complaints& complaints_;
+};
+
+}  // namespace railwave::case_file

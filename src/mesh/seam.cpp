@@ -1,0 +1,193 @@
+#include "mesh/seam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
+
+namespace railwave {
+namespace {
+
+/// A face between two elements that lies across x.
+struct LayerFace {
+  std::array<int, 4> nodes{};  ///< sorted
+  Face before{}, behind{};     ///< the same face of the element at each side
+  Vec3 centre{0, 0, 0};
+  double area = 0;
+};
+
+/// Over how many times the largest move nodes beside the plane move too: none comes nearer to the next one by more than a third.
+constexpr double reach = 3;
+
+Vec3 centre_of(const Mesh& mesh, int element) {
+  Vec3 sum{0, 0, 0};
+  for (int n : mesh.elements[element])
+    for (int i = 0; i < 3; ++i) sum[i] += mesh.nodes[n][i] / 8;
+  return sum;
+}
+
+/// How deep a place lies below the mouth, along the seam.
+double depth_of(const scene::Seam& seam, const Vec3& x) { return (seam.place[2] - x[2]) / std::cos(seam.angle); }
+
+bool inside(const scene::Seam& seam, const LayerFace& face) {
+  return std::fabs(face.centre[1] - seam.place[1]) <= 0.5 * seam.length && depth_of(seam, face.centre) <= seam.depth;
+}
+
+/// Faces across x with an element at both sides, by layer (x in units of a tolerance).
+std::map<long, std::vector<LayerFace>> layers_within(const scene::Seam& seam, const Mesh& mesh, double tolerance) {
+  std::map<std::array<int, 4>, Face> open;
+  std::map<long, std::vector<LayerFace>> layers;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    for (int side = 0; side < 6; ++side) {
+      auto nodes = mesh.face_nodes({e, side});
+      const double x = mesh.nodes[nodes[0]][0];
+      if (!std::all_of(nodes.begin(), nodes.end(), [&](int n) { return std::fabs(mesh.nodes[n][0] - x) < tolerance; })) continue;
+      LayerFace face;
+      for (int n : nodes)
+        for (int i = 0; i < 3; ++i) face.centre[i] += mesh.nodes[n][i] / 4;
+      if (!inside(seam, face)) continue;
+      face.area = 0.5 * length(cross(difference(mesh.nodes[nodes[2]], mesh.nodes[nodes[0]]), difference(mesh.nodes[nodes[3]], mesh.nodes[nodes[1]])));
+      std::sort(nodes.begin(), nodes.end());
+      const auto other = open.find(nodes);
+      if (other == open.end()) {
+        open[nodes] = {e, side};
+        continue;
+      }
+      face.nodes = nodes;
+      const bool first_before = centre_of(mesh, other->second.element)[0] < x;
+      face.before = first_before ? other->second : Face{e, side};
+      face.behind = first_before ? Face{e, side} : other->second;
+      layers[std::lround(x / tolerance)].push_back(face);
+    }
+  return layers;
+}
+
+/// The layer nearest to the mouth of those that have faces over the whole seam: deeper layers of a mesh may be coarser.
+std::vector<LayerFace> chosen_layer(const scene::Seam& seam, const std::map<long, std::vector<LayerFace>>& layers) {
+  const auto area = [](const std::vector<LayerFace>& faces) {
+    double sum = 0;
+    for (const LayerFace& face : faces) sum += face.area;
+    return sum;
+  };
+  double largest = 0;
+  for (const auto& [x, faces] : layers) largest = std::max(largest, area(faces));
+  const std::vector<LayerFace>* best = nullptr;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& [x, faces] : layers) {
+    const double off = std::fabs(faces.front().centre[0] - seam.place[0]);
+    if (area(faces) < 0.98 * largest || off >= nearest) continue;
+    nearest = off;
+    best = &faces;
+  }
+  return best ? *best : std::vector<LayerFace>{};
+}
+
+/// Moves the layer of these faces onto the seam's plane, and what is beside it by less.
+void incline(const scene::Seam& seam, const std::string& place, const std::vector<LayerFace>& faces, Mesh& mesh) {
+  const double slope = std::tan(seam.angle), x = faces.front().centre[0];
+  double deepest = 0;
+  for (const LayerFace& face : faces)
+    for (int n : face.nodes) deepest = std::max(deepest, seam.place[2] - mesh.nodes[n][2]);
+  const auto move = [&](const Vec3& at) { return seam.place[0] - x + slope * std::clamp(seam.place[2] - at[2], 0.0, deepest); };
+  double largest = 0, first = x, last = x;
+  for (const Vec3& at : mesh.nodes) {
+    largest = std::max(largest, std::fabs(move(at)));
+    first = std::min(first, at[0]);
+    last = std::max(last, at[0]);
+  }
+  const double range = reach * largest;
+  if (x - range < first || x + range > last)
+    throw InputError(fmt::format("{}: nodes up to {:.4g} m beside x = {:.6g} would have to move onto its plane, beyond the mesh's end; place the "
+                                 "seam farther from the end, or make it less deep or less inclined",
+                                 place, range, x));
+  for (Vec3& at : mesh.nodes) {
+    const double beside = std::fabs(at[0] - x);
+    if (beside < range) at[0] += (1 - beside / range) * move(at);
+  }
+}
+
+/// Nodes of the seam that both sides keep in common: its front within the mesh.
+std::set<int> front_of(const Mesh& mesh, const std::vector<LayerFace>& faces) {
+  std::map<std::array<int, 2>, int> edges;
+  const auto edges_of = [&](const std::array<int, 4>& corner, const auto& visit) {
+    for (int k = 0; k < 4; ++k) visit(std::array<int, 2>{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])});
+  };
+  for (const LayerFace& face : faces) edges_of(mesh.face_nodes(face.before), [&](auto edge) { ++edges[edge]; });
+  // The seam may end on the mesh's outside: there it is open.
+  std::map<std::array<int, 4>, std::pair<int, std::array<int, 4>>> uses;
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
+    for (int side = 0; side < 6; ++side) {
+      const auto corner = mesh.face_nodes({e, side});
+      auto key = corner;
+      std::sort(key.begin(), key.end());
+      auto& use = uses[key];
+      ++use.first;
+      use.second = corner;
+    }
+  std::set<std::array<int, 2>> outside;
+  for (const auto& [key, use] : uses)
+    if (use.first == 1) edges_of(use.second, [&](auto edge) { outside.insert(edge); });
+  std::set<int> front;
+  for (const auto& [edge, count] : edges)
+    if (count == 1 && outside.count(edge) == 0) front.insert(edge.begin(), edge.end());
+  return front;
+}
+
+/// Gives the elements behind the seam nodes of their own.
+void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, Mesh& mesh) {
+  const std::set<int> front = front_of(mesh, faces);
+  std::map<int, int> twin;
+  for (const LayerFace& face : faces)
+    for (int n : face.nodes)
+      if (front.count(n) == 0) twin.emplace(n, 0);
+  for (auto& [n, own] : twin) {
+    own = static_cast<int>(mesh.nodes.size());
+    mesh.nodes.push_back(Vec3(mesh.nodes[n]));
+  }
+  const double slope = std::tan(seam.angle);
+  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e) {
+    auto& corners = mesh.elements[e];
+    if (std::none_of(corners.begin(), corners.end(), [&](int n) { return twin.count(n) != 0; })) continue;
+    const Vec3 centre = centre_of(mesh, e);
+    if (centre[0] - seam.place[0] - slope * (seam.place[2] - centre[2]) < 0) continue;
+    for (int& n : corners)
+      if (const auto own = twin.find(n); own != twin.end()) n = own->second;
+  }
+  for (auto& [name, nodes] : mesh.node_sets) {
+    std::vector<int> more;
+    for (int n : nodes)
+      if (const auto own = twin.find(n); own != twin.end()) more.push_back(own->second);
+    nodes.insert(nodes.end(), more.begin(), more.end());
+  }
+  for (const LayerFace& face : faces) {
+    mesh.surfaces[seam.name + "_before"].push_back(face.before);
+    mesh.surfaces[seam.name + "_behind"].push_back(face.behind);
+  }
+}
+
+}  // namespace
+
+void open_seam(const scene::Seam& seam, const std::string& place, Mesh& mesh) {
+  for (const char* side : {"_before", "_behind"})
+    if (mesh.surfaces.count(seam.name + side) != 0)
+      throw InputError(fmt::format("{}: the mesh has a surface '{}{}' already; choose another name", place, seam.name, side));
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const auto& element : mesh.elements) shortest = std::min(shortest, hexahedron_length(corners_of(mesh.nodes, element)));
+  const auto faces = chosen_layer(seam, layers_within(seam, mesh, 1e-4 * shortest));
+  if (faces.empty())
+    throw InputError(fmt::format("{}: no layer of element faces across x lies within its length and depth below z = {:.6g}; make it longer or "
+                                 "deeper than an element, or move `place` to the mesh's upper surface",
+                                 place, seam.place[2]));
+  incline(seam, place, faces, mesh);
+  part(seam, faces, mesh);
+}
+
+}  // namespace railwave

@@ -1,0 +1,111 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "case/read_case.hpp"
+#include "solve/beams.hpp"
+#include "tests/verify/march.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double weight = 5e4;
+
+/// The joint on its two timber sleepers alone, as coarse as it may be, a weight on the rail's end before the gap.
+scene::Scene joint(const std::string& keys) {
+  const auto path = std::filesystem::temp_directory_path() / ("railwave_joint_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(path) << R"([tracks.track]
+start = -0.4
+end = 0.4
+gap_position = 0
+pair_position = 0
+zone_size = 0.007
+zone_start = -0.028
+zone_end = 0.028
+zone_layers = 1
+coarse_size = 0.05
+core_size = 0.06
+section_size = 0.012
+fishplates = true
+)" << keys << R"(
+[node_sets.loaded]
+part = "track_rail"
+surface = "head"
+box = [[-0.03, -1, -1], [1, 1, 1]]
+[loads.weight]
+type = "nodal_force"
+target = "track_rail.loaded"
+force = [0, 0, -5e4]
+[gravity]
+acceleration = [0, 0, -9.81]
+[settle]
+tolerance = 1e-5
+max_steps = 100000
+[time]
+end = 1e-5
+)";
+  scene::Scene scene = read_case(path.string());
+  std::filesystem::remove(path);
+  return scene;
+}
+
+double ballast_force(const Model& model) {
+  const auto force = to_host(model.connectors.arrays.force);
+  double sum = 0;
+  for (int c = 0; c < model.connectors.arrays.count; ++c)
+    if (model.scene.connectors[model.connectors.cells[c].connector].name.find("ballast") != std::string::npos) sum += force(c, 2);
+  return sum;
+}
+
+double axial_force(const Model& model, const std::string& name) {
+  const auto all = beam_resultants(model);
+  for (std::size_t b = 0; b < all.size(); ++b)
+    if (model.scene.beams[b].name == name) return all[b].force[0];
+  return std::nan("");
+}
+
+/// Vertical displacement of the head just before and just behind the gap.
+std::array<double, 2> deflections(const Model& model) {
+  const auto of = [&](const char* set) { return mean(model, NodeField::displacement, model.assembly.node_sets.at(set))[2]; };
+  return {of("track_rail.end"), of("track_rail_2.start")};
+}
+
+void check_settled(Model& model) {
+  const SettleReport settled = settle_whole(model);
+  INFO("settled after " << settled.steps << " steps, unbalance " << settled.unbalance);
+  CHECK(settled.settled);
+  compute_forces(model);
+  CHECK_THAT(ballast_force(model), WithinRel(weight + 9.81 * total_mass(model), 1e-4));
+  for (const char* bolt : {"track_bolt_1", "track_bolt_2", "track_bolt_3", "track_bolt_4"})
+    CHECK_THAT(axial_force(model, bolt), WithinRel(12.5e3, 0.01));
+}
+
+}  // namespace
+
+TEST_CASE("a glued joint settles: its bolts have their pretension, the ballast carries all weight, both rails go down together", "[long]") {
+  Model model;
+  build_model(joint(""), model);
+  check_settled(model);
+  const auto [before, behind] = deflections(model);
+  INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
+  CHECK(before < behind);
+  CHECK(behind < 0.8 * before);
+}
+
+TEST_CASE("plates in contact carry the load over as well, with more give", "[long]") {
+  Model model;
+  build_model(joint("fishplate_fit = \"contact\"\n"), model);
+  check_settled(model);
+  const auto [before, behind] = deflections(model);
+  INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
+  CHECK(before < behind);
+  CHECK(behind < 0.5 * before);
+}

@@ -27,7 +27,9 @@ struct BeamArrays {
   Array<double* [3]> bending;         ///< N m2: torsion, bending about the second and third axis
   Array<double*> stretch;             ///< at which it has no axial force
   Array<double*> pretension;          ///< N
-  Array<int*> tightened;              ///< 1: it has a pretension
+  Array<int*> tightened;              ///< 0: it has no pretension; of a bolt's elements the `holding` one has it while the scene
+                                      ///< settles whatever its stretch, the others begin with it
+  static constexpr int holding = 1, beginning = 2;
 
   // By beam node.
   Array<int*> node;                   ///< of the model
@@ -56,7 +58,7 @@ struct BeamMiddle {
   Vector3 force, moment;   ///< along its axes, N and N m
 };
 
-/// @param held the axial force of tightened ones is their pretension, whatever their stretch
+/// @param held the axial force of holding ones is their pretension, whatever their stretch
 KOKKOS_INLINE_FUNCTION BeamMiddle beam_middle(const BeamArrays& beams, const Array<const double* [3]>& position, int e,
                                               bool held) {
   const int a = beams.end(e, 0), b = beams.end(e, 1);
@@ -79,8 +81,33 @@ KOKKOS_INLINE_FUNCTION BeamMiddle beam_middle(const BeamArrays& beams, const Arr
     m.moment[i] = beams.bending(e, i) * m.curve[i];
   }
   for (int i = 0; i < 3; ++i) m.force[i] = beams.stiffness(e, i) * (m.stretch[i] - (i == 0 ? beams.stretch(e) : 0.0));
-  if (held && beams.tightened(e) != 0) m.force[0] = beams.pretension(e);
+  if (held && beams.tightened(e) == BeamArrays::holding) m.force[0] = beams.pretension(e);
   return m;
+}
+
+/// What an element does to its ends.
+struct BeamEnds {
+  Vector3 force;               ///< N, on the first end; the opposite on the second
+  Vector3 moment[2];           ///< N m
+};
+
+/// A sum of the element's axes.
+KOKKOS_INLINE_FUNCTION Vector3 along_axes(const BeamArrays& beams, int e, const Vector3& x) {
+  Vector3 sum{{0, 0, 0}};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) sum[k] += x[i] * beams.axes(e, i, k);
+  return sum;
+}
+
+/// With c = N x D, D the arm turned back, p = tan(angle/4) n and H = s I + (1 - s) n n^T, the derivatives by the ends' spins
+/// are (c -+ c x p) / 2 +- H M, all turned with the middle: linear in the section's force N and moment M.
+KOKKOS_INLINE_FUNCTION BeamEnds beam_ends(const BeamArrays& beams, int e, const BeamMiddle& m, const Vector3& force, const Vector3& moment) {
+  const Vector3 N = along_axes(beams, e, force), M = along_axes(beams, e, moment);
+  const double squared = dot(m.axis, m.axis);
+  const double share = squared > 1e-8 ? (1 - m.spread) / squared : -1.0 / 6;
+  const Vector3 bent = m.spread * M + (share * dot(m.axis, M)) * m.axis;
+  const Vector3 lever = cross(N, m.arm), across = cross(lever, m.half);
+  return {turned(m.turn, N), {turned(m.turn, bent - 0.5 * (lever + across)), turned(m.turn, -1.0 * bent - 0.5 * (lever - across))}};
 }
 
 /// Forces on the ends' nodes (contributions) and moments on their rotations; behind the elements come the moments from outside,
@@ -98,30 +125,14 @@ struct BeamForce {
     else moment_from_outside(i - beams.count);
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 along_axes(int e, const Vector3& x) const {
-    Vector3 sum{{0, 0, 0}};
-    for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) sum[k] += x[i] * beams.axes(e, i, k);
-    return sum;
-  }
-
-  /// With c = N x D, D the arm turned back, p = tan(angle/4) n and H = s I + (1 - s) n n^T, the derivatives by the ends' spins
-  /// are (c -+ c x p) / 2 +- H M, all turned with the middle.
   KOKKOS_INLINE_FUNCTION void element(int e) const {
     const BeamMiddle m = beam_middle(beams, position, e, held);
-    const Vector3 N = along_axes(e, m.force), M = along_axes(e, m.moment);
-    const double squared = dot(m.axis, m.axis);
-    const double share = squared > 1e-8 ? (1 - m.spread) / squared : -1.0 / 6;
-    const Vector3 bent = m.spread * M + (share * dot(m.axis, M)) * m.axis;
-    const Vector3 lever = cross(N, m.arm), across = cross(lever, m.half);
-    const Vector3 force = turned(m.turn, N);
-    const Vector3 on_first = turned(m.turn, bent - 0.5 * (lever + across));
-    const Vector3 on_second = turned(m.turn, -1.0 * bent - 0.5 * (lever - across));
+    const BeamEnds ends = beam_ends(beams, e, m, m.force, m.moment);
     for (int k = 0; k < 3; ++k) {
-      contribution(beams.first + 2 * e, k) = force[k];
-      contribution(beams.first + 2 * e + 1, k) = -force[k];
-      beams.moment(2 * e, k) = on_first[k];
-      beams.moment(2 * e + 1, k) = on_second[k];
+      contribution(beams.first + 2 * e, k) = ends.force[k];
+      contribution(beams.first + 2 * e + 1, k) = -ends.force[k];
+      beams.moment(2 * e, k) = ends.moment[0][k];
+      beams.moment(2 * e + 1, k) = ends.moment[1][k];
     }
   }
 
@@ -163,8 +174,9 @@ struct BeamSectionForces {
 struct TightenBeams {
   BeamArrays beams;
   Array<const double* [3]> position;
+  bool all;  ///< false: only of those that held it while the scene settled
   KOKKOS_INLINE_FUNCTION void operator()(const int e) const {
-    if (beams.tightened(e) == 0) return;
+    if (beams.tightened(e) == 0 || (!all && beams.tightened(e) != BeamArrays::holding)) return;
     beams.stretch(e) = beam_middle(beams, position, e, true).stretch[0] - beams.pretension(e) / beams.stiffness(e, 0);
   }
 };

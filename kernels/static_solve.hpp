@@ -1,8 +1,11 @@
 #pragma once
 
+#include "kernels/beam_rotation.hpp"
 #include "kernels/tangent.hpp"
+#include "kernels/tie.hpp"
 
-/// What finding a static equilibrium does with vectors of three components a node.
+/// What finding a static equilibrium does with vectors of three components a node, and of as many a rotation of a beam node
+/// behind them.
 namespace railwave {
 
 /// A symmetric tensor of a node: xx, yy, zz, xy, yz, zx.
@@ -14,31 +17,59 @@ KOKKOS_INLINE_FUNCTION Vector3 block_product(const NodeBlocks& blocks, int n, co
            blocks(n, 5) * v[0] + blocks(n, 4) * v[1] + blocks(n, 2) * v[2]}};
 }
 
+/// Directions along which rows are held.
+struct HeldRows {
+  Array<int*> row;                             ///< of the projections, -1: free
+  Array<double* [3][3]> projections;           ///< I - sum d d^T
+
+  KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& a) const { return projected(projections, row(n), a); }
+};
+
 /// Unbalanced force of each node, N, held directions taken out.
 struct StaticResidual {
   NodalAcceleration acceleration;              ///< its gravity is used
   Array<const double* [3]> body_acceleration;  ///< m/s2, see RelaxationUpdate
+  HeldRows held;
   NodeVector residual;
 
   KOKKOS_INLINE_FUNCTION Vector3 body_force(int n) const {
     return acceleration.force.nodes.mass(n) * (acceleration.gravity + row(body_acceleration, n));
   }
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    const Vector3 force = acceleration.constrain(n, acceleration.force(n) + body_force(n));
+    const Vector3 force = held.free(n, acceleration.force(n) + body_force(n));
     for (int i = 0; i < 3; ++i) residual(n, i) = force[i];
   }
 };
 
-/// Sums of |unbalanced force|, of |applied and contact force|, and of unbalanced force times a direction.
-struct StaticUnbalance {
-  static constexpr int values = 3;
+/// What the constraints let through on each node, N: the forces that hold_ends takes over.
+struct StaticReaction {
   StaticResidual residual;
-  NodeVector direction;
+  NodeVector reaction;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const NodalAcceleration& acceleration = residual.acceleration;
+    const Vector3 force = acceleration.constrain(n, acceleration.force(n) + residual.body_force(n));
+    for (int i = 0; i < 3; ++i) reaction(n, i) = force[i];
+  }
+};
+
+/// Unbalanced moment of each rotation, N m.
+struct StaticMoment {
+  BeamNodeMoment node;
+  int first;             ///< row of the first rotation
+  NodeVector residual;
+  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
+    const Vector3 moment = node.moment(b);
+    for (int i = 0; i < 3; ++i) residual(first + b, i) = moment[i];
+  }
+};
+
+/// Sums of |unbalanced force|, and of |applied and contact force| with those of beams and ties.
+struct StaticUnbalance {
+  static constexpr int values = 2;
+  StaticResidual residual;
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
-    const Vector3 r = row(residual.residual, n);
-    sum[0] += norm(r);
+    sum[0] += norm(row(residual.residual, n));
     sum[1] += norm(residual.body_force(n)) + norm(residual.acceleration.force.extra_force(n));
-    sum[2] += dot(r, row(direction, n));
   }
 };
 
@@ -48,6 +79,30 @@ struct GoAlong {
   double share;
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     for (int i = 0; i < 3; ++i) x(n, i) = origin(n, i) + share * way(n, i);
+  }
+};
+
+/// Slaves where their masters' faces are.
+struct PlaceSlaves {
+  TieArrays ties;
+  NodeVector position;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    const TiedPlace tied = ties.places(s);
+    const Vector3 x = tied.place(position);
+    for (int k = 0; k < 3; ++k) position(tied.slave, k) = x[k];
+  }
+};
+
+/// The same for rotations: from where they were, by a share of the way's.
+struct TurnAlong {
+  BeamNodeMoment node;
+  int first;                        ///< row of the first rotation
+  Array<const double* [4]> origin;
+  NodeVector way;
+  double share;
+  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
+    for (int k = 0; k < 4; ++k) node.beams.rotation(b, k) = origin(b, k);
+    node.turn(b, share * row(way, first + b));
   }
 };
 
@@ -89,16 +144,15 @@ struct ShiftAndHold {
   NodeVector u, f;
   Array<const double*> diagonal;
   double shift;
-  Array<const int*> constraint;                ///< as in ToWeighted
-  Array<const double* [3][3]> constraints;
+  HeldRows held;
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const double s = shift * diagonal(n);
-    const Vector3 a = projected(constraints, constraint(n), row(f, n) + s * row(u, n));
+    const Vector3 a = held.free(n, row(f, n) + s * row(u, n));
     for (int i = 0; i < 3; ++i) f(n, i) = a[i];
   }
 };
 
-/// Coarse coordinates: for each aggregate of nodes as many as a rigid body has, u = sum_m mode_m y_m at its nodes.
+/// Coarse coordinates: for each aggregate of rows as many as a rigid body has, u = sum_m mode_m y_m at its nodes.
 struct CoarseModes {
   static constexpr int of_aggregate = 6;
   Array<int*> first;              ///< by aggregate, and one more: its nodes

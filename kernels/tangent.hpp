@@ -90,13 +90,12 @@ struct ElementTangent {
   }
 };
 
-/// Springs and dashpots, each along one direction d between weighted means of nodes: stretch = sum_k w_k d . u_k.
+/// Springs and dashpots: stretch = sum_k s_k . u_k, of nodes or of any other rows of u.
 struct TangentSprings {
   int count = 0;
   Array<int*> first;              ///< count + 1
   Array<int*> node;
-  Array<double*> weight;
-  Array<double* [3]> direction;   ///< unit
+  Array<double* [3]> share;       ///< s: between means of nodes along one direction, weight times that
   Array<double*> stiffness;       ///< N/m
   Array<double*> damping;         ///< N s/m
   Array<double*> force;           ///< N
@@ -104,7 +103,7 @@ struct TangentSprings {
   Array<int*> with_springs;       ///< those nodes
   Array<int*> first_of_node;      ///< node_count + 1
   Array<int*> spring_of_node;
-  Array<double*> weight_of_node;
+  Array<double* [3]> share_of_node;
 };
 
 struct SpringForce {
@@ -112,10 +111,9 @@ struct SpringForce {
   NodeVector displacement;
   double inverse_time;  ///< 1/tau, 1/s
   KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
-    const Vector3 d = row(springs.direction, s);
     double stretch = 0;
     for (int k = springs.first(s); k < springs.first(s + 1); ++k)
-      stretch += springs.weight(k) * dot(d, row(displacement, springs.node(k)));
+      stretch += dot(row(springs.share, k), row(displacement, springs.node(k)));
     springs.force(s) = (springs.stiffness(s) + inverse_time * springs.damping(s)) * stretch;
   }
 };
@@ -141,10 +139,8 @@ struct AddSprings {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = springs.with_springs(i);
     Vector3 f = row(sum, n);
-    for (int k = springs.first_of_node(i); k < springs.first_of_node(i + 1); ++k) {
-      const int s = springs.spring_of_node(k);
-      f = f + (springs.weight_of_node(k) * springs.force(s)) * row(springs.direction, s);
-    }
+    for (int k = springs.first_of_node(i); k < springs.first_of_node(i + 1); ++k)
+      f = f + springs.force(springs.spring_of_node(k)) * row(springs.share_of_node, k);
     for (int c = 0; c < 3; ++c) sum(n, c) = f[c];
   }
 };

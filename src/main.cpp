@@ -68,7 +68,11 @@ int write_mesh(const Arguments& arguments) {
   build_model(scene, model);
   write_model_file(model, arguments.mesh_file);
   std::cout << arguments.mesh_file << " and " << xdmf_path(arguments.mesh_file) << ": " << model.element_count() << " elements of "
-            << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots\n";
+            << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots";
+  int beams = 0;
+  for (const auto& chain : model.assembly.beam_chains) beams += static_cast<int>(chain.nodes.size()) - 1;
+  if (beams > 0) std::cout << ", " << beams << " elements of beams";
+  std::cout << '\n';
   return done;
 }
 

@@ -1,4 +1,4 @@
-"""A model that `railwave mesh` wrote: its surface by part, by stable step, and where the step is shortest."""
+"""A model that `railwave mesh` wrote: its surface by part, by stable step, and where the step is shortest; springs and beams."""
 
 import h5py
 import matplotlib.pyplot as plt
@@ -18,6 +18,11 @@ def exterior(elements):
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
     outside = first[count == 1]
     return faces[outside], outside // 6
+
+
+def lines_of(file, name):
+    """Both ends of each line of a group; none where there is no such group."""
+    return file[name]["coordinates"][:][file[name]["connectivity"][:]] if name in file else np.empty((0, 2, 3))
 
 
 class Surface:
@@ -42,7 +47,8 @@ class Surface:
                 steps.append(group["stable_step"][:][owner])
                 all_steps.append(group["stable_step"][:])
                 centres.append(nodes[elements].mean(axis=1))
-            self.lines = file["connectors/coordinates"][:].reshape(-1, 2, 3) if "connectors" in file else np.empty((0, 2, 3))
+            self.lines = lines_of(file, "connectors")
+            self.beams = lines_of(file, "beams")
         self.corners, self.part, self.step = np.concatenate(corners), np.concatenate(parts), np.concatenate(steps)
         all_steps, centres = np.concatenate(all_steps), np.concatenate(centres)
         self.least, self.place = all_steps.min(), centres[all_steps.argmin()]
@@ -69,6 +75,8 @@ class Surface:
         axes.add_collection(PolyCollection(self.corners[shown] @ self.axes, facecolors=shaded, edgecolors="black" if edges else shaded, linewidths=edges or 0.2))
         if lines and len(self.lines):
             axes.add_collection(LineCollection(self.lines @ self.axes, colors="crimson", linewidths=0.5))
+        if lines and len(self.beams):
+            axes.add_collection(LineCollection(self.beams @ self.axes, colors="black", linewidths=1.5))
         axes.set_aspect("equal")
         axes.autoscale_view()
         axes.axis("off")
@@ -92,8 +100,11 @@ def draw_model(path):
     palette = plt.get_cmap("tab10")(np.arange(len(kinds)) % 10)
     surface.draw(whole, palette[[kinds.index(family[p]) for p in surface.part]], edges=0.1)
     handles = [plt.Line2D([], [], marker="s", linestyle="", color=colour) for colour in palette]
-    handles.append(plt.Line2D([], [], color="crimson"))
-    whole.legend(handles, kinds + ["springs and dashpots"], fontsize=8, loc="upper left", frameon=False)
+    for name, there, style in (("springs and dashpots", surface.lines, {"color": "crimson"}), ("beams", surface.beams, {"color": "black", "linewidth": 1.5})):
+        if len(there):
+            handles.append(plt.Line2D([], [], **style))
+            kinds.append(name)
+    whole.legend(handles, kinds, fontsize=8, loc="upper left", frameon=False)
 
     scale = plt.Normalize(0, np.log10(max(surface.step.max() / surface.least, 1.01)))
     colours = plt.get_cmap("viridis")(scale(np.log10(surface.step / surface.least)))

@@ -74,7 +74,8 @@ void add_chain(Model& model, BeamStage& stage, Lists& lists, const Assembly::Bea
     lists.bending.push_back(values.bending);
     const double pretension = beam.pretension.value_or(0);
     lists.pretension.push_back(pretension);
-    lists.tightened.push_back(beam.pretension ? 1 : 0);
+    // One alone holds it while the scene settles: what lies between two such would be free to move along the bolt.
+    lists.tightened.push_back(!beam.pretension ? 0 : k == beam.divisions / 2 ? BeamArrays::holding : BeamArrays::beginning);
   }
 }
 
@@ -210,13 +211,13 @@ void reset_beams(const Model& model) {
   Kokkos::deep_copy(beams.moment, 0.0);
   Kokkos::deep_copy(beams.work, 0.0);
   Kokkos::deep_copy(beams.stretch, 0.0);
-  tighten_beams(model);
+  tighten_beams(model, true);
 }
 
-void tighten_beams(const Model& model) {
+void tighten_beams(const Model& model, bool all) {
   if (!model.beams) return;
   const BeamArrays& beams = model.beams->arrays;
-  Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position});
+  Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position, all});
 }
 
 std::size_t beam_bytes(const Model& model) {

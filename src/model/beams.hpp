@@ -37,8 +37,9 @@ void add_moments(Model& model);
 /// Rotations, spins and stresses as at the start.
 void reset_beams(const Model& model);
 
-/// Each pretension is kept by the stretch from here on.
-void tighten_beams(const Model& model);
+/// Pretensions are kept by the stretch from here on.
+/// @param all false: only of the elements that held them while the scene settled
+void tighten_beams(const Model& model, bool all);
 
 std::size_t beam_bytes(const Model& model);
 

@@ -27,11 +27,6 @@ void refuse_unknown_methods(const scene::Scene& scene) {
     refuse(scene, "subcycling = true with a [prescribed_motion]", "leave subcycling out");
   if (!scene.ties.empty() && solver.subcycling)
     refuse(scene, fmt::format("subcycling = true with [ties.{}]", scene.ties.front().name), "leave subcycling out");
-  if (scene.settle.active && scene.settle.method == scene::SettleMethod::newton) {
-    const std::string unknown = !scene.beams.empty() ? "[beams]" : !scene.ties.empty() ? "[ties]" : !scene.non_reflecting.empty() ? "[non_reflecting]" : "";
-    if (!unknown.empty())
-      throw InputError(fmt::format("{}: [settle] method = \"newton\" knows nothing of {}; set it to \"relaxation\"", scene.path, unknown));
-  }
   if (solver.subcycling && solver.step_estimate == scene::StepEstimate::global)
     refuse(scene, "subcycling = true with step_estimate = \"global\"", "leave one of the two out: a level's steps rest on its own elements");
 }

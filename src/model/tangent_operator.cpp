@@ -4,9 +4,9 @@
 
 namespace railwave {
 
-TangentOperator::TangentOperator(const Assembly& assembly) {
+TangentOperator::TangentOperator(const Assembly& assembly, int more_rows) {
   const auto& elements = assembly.elements;
-  const std::size_t nodes = assembly.nodes.size();
+  const std::size_t nodes = assembly.nodes.size() + more_rows;
   std::vector<int> first(nodes + 1, 0), corner(8 * elements.size());
   for (const auto& corners : elements)
     for (int n : corners) ++first[n + 1];
@@ -27,7 +27,7 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
     Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
                          ElementTangent{range.first_element, stiffness[p], corners_, position, u, corner_force_});
   }
-  Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(assembly.nodes.size())),
+  Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});
   if (springs_.count == 0) return;
   Kokkos::parallel_for("tangent_springs", Range(0, springs_.count), SpringForce{springs_, u, inverse_time});

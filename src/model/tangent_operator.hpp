@@ -8,7 +8,8 @@ namespace railwave {
 /// Forces of small motions u about the present places: of elements, by corners that are stored and gathered, and of springs.
 class TangentOperator {
  public:
-  explicit TangentOperator(const Assembly& assembly);
+  /// @param more_rows of the vectors, behind the nodes', for springs alone
+  explicit TangentOperator(const Assembly& assembly, int more_rows = 0);
 
   void set_springs(TangentSprings springs) { springs_ = springs; }
 

@@ -16,28 +16,31 @@ class SpringCollector {
   /// segment becomes four to its corners by the place's shape functions N: (u - sum N u_k)^2 <= sum N (u - u_k)^2. That is
   /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);
+  /// Beams as they settle (kernels/beam_tangent.hpp); the rows of their rotations follow the nodes'.
+  void add_beams();
 
   /// One spring between nodes: stretch = sum of weight times displacement along the direction.
   void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction, double stiffness);
 
-  /// What has been collected: spring s has the nodes first()[s] ... first()[s + 1] - 1 of node() and weight().
+  /// What has been collected: spring s has the rows first()[s] ... first()[s + 1] - 1 of node() and share().
+  std::size_t count() const { return stiffness_.size(); }
   const std::vector<int>& first() const { return first_; }
   const std::vector<int>& node() const { return node_; }
-  const std::vector<double>& weight() const { return weight_; }
-  const std::vector<Vec3>& direction() const { return direction_; }
+  const std::vector<Vec3>& share() const { return share_; }
   const std::vector<double>& stiffness() const { return stiffness_; }
 
   /// Everything collected, on the device.
   TangentSprings on_device() const;
 
  private:
-  void add_end(const WeightedNodes& end, double sign);
-  void close(const Vec3& direction, double stiffness, double damping);
+  void add(int node, double weight, const Vec3& direction);
+  void add_end(const WeightedNodes& end, double sign, const Vec3& direction);
+  void close(double stiffness, double damping);
 
   const Model& model_;
   std::vector<int> first_{0}, node_;
-  std::vector<double> weight_, stiffness_, damping_;
-  std::vector<Vec3> direction_;
+  std::vector<Vec3> share_;
+  std::vector<double> stiffness_, damping_;
 };
 
 }  // namespace railwave

@@ -9,10 +9,10 @@
 
 namespace railwave {
 
-/// Group /fields/NAME of a results file: one output set, its mesh once and its fields at each output time.
+/// Group /fields/NAME or /beams/NAME of a results file: one output set, its mesh once and its fields at each output time.
 class FieldSection {
  public:
-  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain.
+  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. Beams have section forces and moments whatever is asked.
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
@@ -30,7 +30,9 @@ class FieldSection {
     int components;
     hdf5::Dataset dataset;
   };
-  hdf5::Dataset times_, steps_;
+  void add_section_forces(const FieldSource& source);
+
+  hdf5::Dataset times_, steps_, forces_, moments_;
   std::vector<NodeColumn> node_columns_;
   std::vector<ElementColumn> element_columns_;
 };

@@ -50,7 +50,8 @@ FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vect
   }
   for (const OutputSet& set : sets) {
     if (wants_nodes) append(selection.nodes, set.nodes);
-    if (selection.stress || selection.plastic_strain) append(selection.elements, set.elements);
+    if (set.is_beam()) selection.beams = true;
+    else if (selection.stress || selection.plastic_strain) append(selection.elements, set.elements);
   }
   for (int i = 0; i < contact_count; ++i) {
     const ContactState state = source.contact(i);
@@ -70,6 +71,7 @@ FieldSnapshot::FieldSnapshot(const FieldSource& source, std::shared_ptr<const Fi
   for (const NodeField field : selection_->node_fields) node_fields_.push_back(source.nodes(field, selection_->nodes));
   if (selection_->stress) stress_ = source.stress(selection_->elements);
   if (selection_->plastic_strain) plastic_strain_ = source.plastic_strain(selection_->elements);
+  if (selection_->beams) beams_ = source.beams();
   for (int i = 0; i < selection_->contact_count; ++i) contacts_.push_back(source.contact(i));
 }
 

@@ -16,7 +16,7 @@ struct FieldSelection {
   std::vector<int> nodes, elements;                    ///< model numbers, ascending
   std::vector<int> place_of_node, place_of_element;    ///< by model number up to the largest: position in those, or -1
   std::vector<NodeField> node_fields;
-  bool stress = false, plastic_strain = false;
+  bool stress = false, plastic_strain = false, beams = false;
   int contact_count = 0;
 };
 
@@ -34,11 +34,12 @@ class FieldSnapshot : public FieldSource {
   HostField stress(const std::vector<int>& element_numbers) const override;
   HostField plastic_strain(const std::vector<int>& element_numbers) const override;
   ContactState contact(int number) const override { return contacts_.at(number); }
+  HostField beams() const override { return beams_; }
 
  private:
   std::shared_ptr<const FieldSelection> selection_;
   std::vector<HostField> node_fields_;  ///< one for each of selection_->node_fields
-  HostField stress_, plastic_strain_;   ///< without components where not selected
+  HostField stress_, plastic_strain_, beams_;   ///< without components where not selected
   std::vector<ContactState> contacts_;
 };
 

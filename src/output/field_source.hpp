@@ -14,6 +14,8 @@ class FieldSource {
   virtual HostField stress(const std::vector<int>& element_numbers) const = 0;
   virtual HostField plastic_strain(const std::vector<int>& element_numbers) const = 0;
   virtual ContactState contact(int number) const = 0;
+  /// Section forces and moments of all elements of beams, N and N m: six components.
+  virtual HostField beams() const { return {6, {}}; }
 };
 
 }  // namespace railwave

@@ -90,6 +90,7 @@ class ModelFileWriter {
     write_parts();
     write_sets();
     write_connectors();
+    write_beams();
     write_names();
     file_.close();
   }
@@ -173,6 +174,24 @@ class ModelFileWriter {
     grids_ += grid.text();
   }
 
+  void write_beams() {
+    std::vector<int> corners, number;
+    std::vector<double> pretension;
+    for (const Assembly::BeamChain& chain : model_.assembly.beam_chains)
+      for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k) {
+        corners.insert(corners.end(), {chain.nodes[k], chain.nodes[k + 1]});
+        number.push_back(chain.beam);
+        pretension.push_back(model_.scene.beams[chain.beam].pretension.value_or(0));
+      }
+    if (corners.empty()) return;
+    const Piece piece(model_.assembly.nodes, corners);
+    GridWriter grid(file_.root(), "", "beams", name_, 2);
+    grid.cells(piece.nodes, piece.connectivity);
+    grid.values("beam", number);
+    grid.values("pretension", pretension);
+    grids_ += grid.text();
+  }
+
   void write_names() {
     const hdf5::Group root = file_.root();
     const auto names = [](const auto& entries) {
@@ -184,6 +203,7 @@ class ModelFileWriter {
     root.set_attribute("part_names", names(model_.scene.parts));
     root.set_attribute("material_names", names(model_.scene.materials));
     if (!model_.scene.connectors.empty()) root.set_attribute("connector_names", names(model_.scene.connectors));
+    if (!model_.scene.beams.empty()) root.set_attribute("beam_names", names(model_.scene.beams));
   }
 
   const Model& model_;

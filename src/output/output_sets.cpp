@@ -44,6 +44,21 @@ OutputSet surface(const std::string& name, const std::vector<Face>& faces, const
   return set;
 }
 
+OutputSet beam(const scene::Scene& scene, int number, const Assembly& assembly) {
+  OutputSet set;
+  set.name = scene.beams[number].name;
+  set.corner_count = 2;
+  int element = 0;
+  for (const Assembly::BeamChain& chain : assembly.beam_chains)
+    for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k, ++element) {
+      if (chain.beam != number) continue;
+      set.elements.push_back(element);
+      set.corners.insert(set.corners.end(), {chain.nodes[k], chain.nodes[k + 1]});
+    }
+  number_nodes(set, assembly);
+  return set;
+}
+
 std::vector<int> elements_of(const Assembly::PartRange& part) {
   std::vector<int> elements(part.element_count);
   for (int i = 0; i < part.element_count; ++i) elements[i] = part.first_element + i;
@@ -82,6 +97,7 @@ std::vector<OutputSet> resolve_output_sets(const scene::Scene& scene, const Asse
     }
   }
   if (!complaints.empty()) throw InputError(complaints);
+  for (std::size_t b = 0; b < scene.beams.size(); ++b) sets.push_back(beam(scene, static_cast<int>(b), assembly));
   return sets;
 }
 

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "model/model.hpp"
+#include "solve/beams.hpp"
 
 namespace railwave {
 namespace {
@@ -15,6 +16,15 @@ class ModelFields : public FieldSource {
   HostField plastic_strain(const std::vector<int>& numbers) const override { return element_plastic_strain(model_, numbers); }
   HostField stress(const std::vector<int>& numbers) const override { return element_stress(model_, numbers); }
   ContactState contact(int number) const override { return contact_state(model_, number); }
+  HostField beams() const override {
+    HostField all{6, {}};
+    for (const BeamResultants& beam : beam_resultants(model_))
+      for (std::size_t e = 0; 3 * e < beam.force.size(); ++e) {
+        all.values.insert(all.values.end(), beam.force.begin() + 3 * e, beam.force.begin() + 3 * e + 3);
+        all.values.insert(all.values.end(), beam.moment.begin() + 3 * e, beam.moment.begin() + 3 * e + 3);
+      }
+    return all;
+  }
 
  private:
   const Model& model_;

@@ -4,6 +4,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -37,6 +38,10 @@ bool another_run_writes(const std::string& path) {
   const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(file);
   return locked;
+}
+
+bool any_beam(const std::vector<OutputSet>& sets) {
+  return std::any_of(sets.begin(), sets.end(), [](const OutputSet& set) { return set.is_beam(); });
 }
 
 }  // namespace
@@ -84,6 +89,7 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description)
   for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
   history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets, description_.beams);
   root.create_group("fields");
+  if (any_beam(description_.sets)) root.create_group("beams");
   root.create_group("contact");
 }
 
@@ -98,7 +104,10 @@ void ResultsWriter::history(const HistorySample& sample) {
 
 void ResultsWriter::create_sections(const FieldSource& source) {
   const hdf5::Group fields_group = file_.root().group("fields"), contacts_group = file_.root().group("contact");
-  for (const OutputSet& set : description_.sets) field_sections_.emplace_back(fields_group, set, description_.fields);
+  for (const OutputSet& set : description_.sets) {
+    if (set.is_beam()) field_sections_.emplace_back(file_.root().group("beams"), set, description_.fields);
+    else field_sections_.emplace_back(fields_group, set, description_.fields);
+  }
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
     const ContactSection& section = contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i));
     const ContactNames& names = description_.contacts[i];

@@ -43,10 +43,11 @@ class TimeText {
   void open_grid(const std::string& name, int corner_count, std::size_t cells, const std::string& cells_path) {
     text_ += fmt::format(
         "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
-        "     <Topology TopologyType=\"{}\" NumberOfElements=\"{}\">\n"
+        "     <Topology TopologyType=\"{}\"{} NumberOfElements=\"{}\">\n"
         "      <DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"4\" Dimensions=\"{} {}\">{}:{}</DataItem>\n"
         "     </Topology>\n",
-        escaped(name), corner_count == 4 ? "Quadrilateral" : "Hexahedron", cells, cells, corner_count, file_, escaped(cells_path));
+        escaped(name), corner_count == 2 ? "Polyline" : corner_count == 4 ? "Quadrilateral" : "Hexahedron",
+        corner_count == 2 ? " NodesPerElement=\"2\"" : "", cells, cells, corner_count, file_, escaped(cells_path));
   }
   void geometry(std::size_t nodes, const std::string& path) {
     text_ += fmt::format(
@@ -85,10 +86,13 @@ class TimeText {
 };
 
 void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string>& fields) {
-  const std::string group = "/fields/" + set.name + "/";
-  text.open_grid(set.name, set.corner_count, set.elements.size(), group + "connectivity");
+  const std::string group = set.group() + "/";
+  text.open_grid((set.is_beam() ? "beam " : "") + set.name, set.corner_count, set.elements.size(), group + "connectivity");
   text.geometry(set.nodes.size(), group + "coordinates");
+  if (set.is_beam())
+    for (const char* field : {"force", "moment"}) text.attribute(field, "Cell", set.elements.size(), 3, group + field);
   for (const std::string& field : fields) {
+    if (set.is_beam() && (field == "stress" || field == "plastic_strain")) continue;
     if (field == "stress") text.attribute(field, "Cell", set.elements.size(), 6, group + field);
     else if (field == "plastic_strain") text.attribute(field, "Cell", set.elements.size(), 1, group + field);
     else text.attribute(field, "Node", set.nodes.size(), 3, group + field);

@@ -16,8 +16,8 @@ struct XdmfContactSide {
 };
 
 /// Companion of a results file, for ParaView: an XML text that names, for every output time, the arrays in the HDF5 file.
-/// One temporal collection; each time is a spatial collection of one grid for every output set and one for each side of
-/// every contact, all undeformed, with the displacement as an attribute. The arrays that grow with time are named as
+/// One temporal collection; each time is a spatial collection of one grid for every output set, beams as lines, and one for each
+/// side of every contact, all undeformed, with the displacement as an attribute. The arrays that grow with time are named as
 /// XDMF's HyperSlab, which vtkXdmfReader (ParaView's "XDMF Reader") knows and vtkXdmf3Reader does not.
 class XdmfFile {
  public:

@@ -152,7 +152,7 @@ SettleReport settle_by_relaxation(Model& model, const std::function<bool(const S
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
   hold_ends(model, update.unbalanced);
-  tighten_beams(model);
+  tighten_beams(model, false);
   return report;
 }
 

@@ -118,15 +118,6 @@ Stage non_reflecting_stage(Model& model) {
           }};
 }
 
-/// Forces on the slaves' nodes go to their masters.
-Stage tie_stage(Model& model) {
-  return {"ties", [&model](const Instant&) {
-            const TieArrays& ties = model.ties.arrays;
-            Kokkos::parallel_for("tie_force", Range(0, ties.slave_count), TieForce{ties, model.acceleration().force});
-            Kokkos::parallel_for("tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
-          }};
-}
-
 /// The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
 Stage contact_clearing_stage(Model& model) {
   return {"clearing of contact forces", [&model](const Instant&) {
@@ -174,6 +165,14 @@ void advance_carried(const Model& model, double step) {
 }
 
 }  // namespace
+
+Stage tie_stage(Model& model) {
+  return {"ties", [&model](const Instant&) {
+            const TieArrays& ties = model.ties.arrays;
+            Kokkos::parallel_for("tie_force", Range(0, ties.slave_count), TieForce{ties, model.acceleration().force});
+            Kokkos::parallel_for("tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
+          }};
+}
 
 void follow_ties(const Model& model, double step, bool carried) {
   const TieFollow follow{model.ties.arrays, model.nodes, step};

@@ -17,9 +17,16 @@ constexpr double least_motion = 1e-8;
 
 }  // namespace
 
-StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent) : tangent_(tangent) {
+template <class Visit>
+void StaticCoarse::each_motion(int row, const Visit& visit) const {
+  if (!unknowns_.follows(row)) return visit(Motion{aggregate_[row], &mode_[row]});
+  for (const auto& [aggregate, mode] : slaves_.at(row)) visit(Motion{aggregate, &mode});
+}
+
+StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent) : tangent_(tangent), unknowns_(tangent.unknowns()) {
   divide_nodes(model);
-  lay_modes(model);
+  lay_modes();
+  lay_slaves();
   add_elements(model);
   std::vector<int> first(count_ + 1, 0), node(aggregate_.size());
   for (int a : aggregate_) ++first[a + 1];
@@ -34,7 +41,7 @@ StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent) : t
 /// Each part is halved across its longest side again and again.
 void StaticCoarse::divide_nodes(const Model& model) {
   const auto& elements = model.assembly.elements;
-  aggregate_.assign(model.assembly.nodes.size(), -1);
+  aggregate_.assign(unknowns_.rows(), -1);
   std::vector<Vec3> middle(elements.size(), Vec3{0, 0, 0});
   std::vector<int> order(elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
@@ -82,20 +89,20 @@ void StaticCoarse::divide(const std::vector<std::array<int, 8>>& elements, const
 }
 
 /// Rigid motions about the aggregate's middle, held directions taken out, made orthonormal in the diagonal.
-void StaticCoarse::lay_modes(const Model& model) {
+void StaticCoarse::lay_modes() {
   const std::size_t nodes = aggregate_.size();
-  const auto position = to_host(model.nodes.position);
+  const auto position = unknowns_.positions();
   std::vector<Vec3> middle(count_, Vec3{0, 0, 0});
   std::vector<double> members(count_, 0), size(count_, 0);
   for (std::size_t n = 0; n < nodes; ++n) {
     members[aggregate_[n]] += 1;
-    for (int i = 0; i < 3; ++i) middle[aggregate_[n]][i] += position(n, i);
+    for (int i = 0; i < 3; ++i) middle[aggregate_[n]][i] += position[n][i];
   }
   for (int a = 0; a < count_; ++a)
     for (double& x : middle[a]) x /= members[a];
   const auto arm = [&](std::size_t n) {
     const Vec3& c = middle[aggregate_[n]];
-    return Eigen::Vector3d(position(n, 0) - c[0], position(n, 1) - c[1], position(n, 2) - c[2]);
+    return Eigen::Vector3d(position[n][0] - c[0], position[n][1] - c[1], position[n][2] - c[2]);
   };
   for (std::size_t n = 0; n < nodes; ++n) size[aggregate_[n]] = std::max(size[aggregate_[n]], arm(n).norm());
 
@@ -104,7 +111,7 @@ void StaticCoarse::lay_modes(const Model& model) {
     const Eigen::Vector3d x = arm(n) / std::max(size[aggregate_[n]], 1e-300);
     NodeModes z;
     z << 1, 0, 0, 0, x[2], -x[1], 0, 1, 0, -x[2], 0, x[0], 0, 0, 1, x[1], -x[0], 0;
-    if (const double* p = tangent_.projection(static_cast<int>(n)))
+    if (const double* p = unknowns_.projection(static_cast<int>(n)))
       z = (Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(p) * z).eval();
     return z;
   };
@@ -129,20 +136,40 @@ void StaticCoarse::lay_modes(const Model& model) {
   for (std::size_t n = 0; n < nodes; ++n) Eigen::Map<NodeModes>(mode_[n].data()) = rigid(n) * gram[aggregate_[n]];
 }
 
+void StaticCoarse::lay_slaves() {
+  using NodeModes = Eigen::Matrix<double, 3, modes>;
+  for (int n = 0; n < unknowns_.nodes(); ++n) {
+    if (!unknowns_.follows(n)) continue;
+    auto& own = slaves_[n];
+    unknowns_.each_lead(n, [&](const StaticUnknowns::Lead& lead) {
+      auto& mode = own.try_emplace(aggregate_[lead.row], RowModes{}).first->second;
+      Eigen::Map<NodeModes>(mode.data()) += lead.share * Eigen::Map<const NodeModes>(mode_[lead.row].data());
+    });
+  }
+}
+
 /// Elements inside an aggregate that nothing holds resist none of its rigid motions.
 void StaticCoarse::add_elements(const Model& model) {
   const auto position = to_host(model.nodes.position);
+  struct CornerMotion {
+    int corner;
+    Motion motion;
+  };
+  std::vector<CornerMotion> motions;
+  std::vector<int> touched;
   for (std::size_t e = 0; e < model.assembly.elements.size(); ++e) {
     const auto& corners = model.assembly.elements[e];
-    std::array<int, 8> touched;
-    int count = 0;
+    motions.clear();
+    touched.clear();
     bool held = false;
-    for (int n : corners) {
-      held = held || tangent_.projection(n) != nullptr;
-      if (std::find(touched.begin(), touched.begin() + count, aggregate_[n]) == touched.begin() + count)
-        touched[count++] = aggregate_[n];
+    for (int N = 0; N < 8; ++N) {
+      held = held || unknowns_.projection(corners[N]) != nullptr;
+      each_motion(corners[N], [&](const Motion& motion) {
+        motions.push_back({N, motion});
+        if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end()) touched.push_back(motion.aggregate);
+      });
     }
-    if (count == 1 && !held) continue;
+    if (touched.size() == 1 && !held) continue;
     double x[3][7];
     for (int i = 0; i < 3; ++i) {
       double place[8];
@@ -150,23 +177,20 @@ void StaticCoarse::add_elements(const Model& model) {
       modes_of(place, x[i]);
     }
     const ElementStiffness& stiffness = tangent_.stiffness_of(static_cast<int>(e));
-    for (int c = 0; c < count; ++c)
+    for (int column : touched)
       for (int m = 0; m < modes; ++m) {
-        double u[3][7], force[3][8];
-        for (int i = 0; i < 3; ++i) {
-          double moved[8];
-          for (int N = 0; N < 8; ++N) moved[N] = aggregate_[corners[N]] == touched[c] ? mode_[corners[N]][3 * m + i] : 0.0;
-          modes_of(moved, u[i]);
-        }
+        double moved[3][8] = {}, u[3][7], force[3][8];
+        for (const CornerMotion& at : motions)
+          if (at.motion.aggregate == column)
+            for (int i = 0; i < 3; ++i) moved[i][at.corner] += (*at.motion.mode)[3 * m + i];
+        for (int i = 0; i < 3; ++i) modes_of(moved[i], u[i]);
         stiffness(x, u, force);
-        for (int r = 0; r < count; ++r) {
-          if (touched[r] < touched[c]) continue;
-          Block& block = of_elements_.try_emplace({touched[r], touched[c]}, Block::Zero()).first->second;
-          for (int N = 0; N < 8; ++N) {
-            if (aggregate_[corners[N]] != touched[r]) continue;
-            for (int k = 0; k < modes; ++k)
-              for (int i = 0; i < 3; ++i) block(k, m) += mode_[corners[N]][3 * k + i] * force[i][N];
-          }
+        for (const CornerMotion& at : motions) {
+          const int row = at.motion.aggregate;
+          if (row < column) continue;
+          Block& block = of_elements_.try_emplace({row, column}, Block::Zero()).first->second;
+          for (int k = 0; k < modes; ++k)
+            for (int i = 0; i < 3; ++i) block(k, m) += (*at.motion.mode)[3 * k + i] * force[i][at.corner];
         }
       }
   }
@@ -174,15 +198,14 @@ void StaticCoarse::add_elements(const Model& model) {
 
 void StaticCoarse::add_springs(const SpringCollector& springs, Blocks& blocks) const {
   using Stretch = Eigen::Matrix<double, modes, 1>;
-  for (std::size_t s = 0; s < springs.direction().size(); ++s) {
+  for (std::size_t s = 0; s < springs.count(); ++s) {
     std::map<int, Stretch> stretch;
-    const Vec3& d = springs.direction()[s];
-    for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k) {
-      const int n = springs.node()[k];
-      Stretch& of_aggregate = stretch.try_emplace(aggregate_[n], Stretch::Zero()).first->second;
-      for (int m = 0; m < modes; ++m)
-        for (int i = 0; i < 3; ++i) of_aggregate[m] += springs.weight()[k] * d[i] * mode_[n][3 * m + i];
-    }
+    for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k)
+      each_motion(springs.node()[k], [&](const Motion& motion) {
+        Stretch& of_aggregate = stretch.try_emplace(motion.aggregate, Stretch::Zero()).first->second;
+        for (int m = 0; m < modes; ++m)
+          for (int i = 0; i < 3; ++i) of_aggregate[m] += springs.share()[k][i] * (*motion.mode)[3 * m + i];
+      });
     for (const auto& [column, right] : stretch)
       for (const auto& [row, left] : stretch) {
         if (row < column) continue;

@@ -5,14 +5,19 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "case/error.hpp"
 #include "kernels/block_sum.hpp"
+#include "model/beams.hpp"
 #include "model/host_copy.hpp"
+#include "model/non_reflecting.hpp"
+#include "solve/beams.hpp"
 #include "solve/settle_parts.hpp"
 #include "solve/static_coarse.hpp"
 #include "solve/static_contact.hpp"
 #include "solve/static_tangent.hpp"
+#include "solve/static_unknowns.hpp"
 
 namespace railwave {
 namespace {
@@ -24,6 +29,8 @@ constexpr int iterations_between_looks = 20;
 /// A step is taken when the force along it has come down to this share of what it was, either way.
 constexpr double taken_share = 0.7;
 constexpr int most_trials = 20;
+/// A rotation turns no farther at once, rad: its moments have changed by then.
+constexpr double most_turn = 0.5;
 /// Share of the diagonal that is added to the stiffness: much where contact has still to close, and a body that nothing holds
 /// would turn by angles that strain it; raised where a step went too far to be taken whole or made things worse, and lowered
 /// where it didn't; to no less than a floor that rises while nothing improves, for bodies that slide away without friction.
@@ -46,11 +53,14 @@ struct Measure {
 class Newton {
  public:
   Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
-      : model_(model), go_on_(go_on), contact_(model), stages_(force_stages_without_multipliers(model)),
-        tangent_(model), coarse_(model, tangent_),
-        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), vector("residual")},
-        origin_(vector("origin")), step_(vector("static step")), left_(vector("left residual")), z_(vector("preconditioned")),
-        way_(vector("search direction")), image_(vector("image")) {}
+      : model_(model), go_on_(go_on), unknowns_(model), contact_(model), stages_(force_stages_without_multipliers(model)),
+        tangent_(model, unknowns_), coarse_(model, tangent_),
+        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), unknowns_.held(), vector("residual")},
+        origin_("origin", model.nodes.count), step_(vector("static step")), left_(vector("left residual")), z_(vector("preconditioned")),
+        way_(vector("search direction")), image_(vector("image")) {
+    if (model.ties.arrays.active()) ties_.push_back(tie_stage(model));
+    if (model.beams) turned_from_ = Array<double* [4]>("turned from", unknowns_.rotations());
+  }
 
   SettleReport run() {
     const scene::Settle& wish = model_.scene.settle;
@@ -84,16 +94,19 @@ class Newton {
       now = go(now.unbalance);
     }
     if (!report_.settled) report_.adrift = what_drifts(now);
+    hold_ends();
+    tighten_beams(model_, false);
     return report_;
   }
 
  private:
-  NodeVector vector(const char* name) const { return NodeVector(std::string(name), model_.nodes.count); }
-  Range all() const { return Range(0, model_.nodes.count); }
+  NodeVector vector(const char* name) const { return NodeVector(std::string(name), unknowns_.rows()); }
+  Range nodes() const { return Range(0, unknowns_.nodes()); }
+  Range all() const { return Range(0, unknowns_.rows()); }
 
   double inner(const NodeVector& a, const NodeVector& b) const {
     double sum = 0;
-    block_sum(InnerProduct{a, b}, model_.nodes.count, &sum, model_.sum_space);
+    block_sum(InnerProduct{a, b}, unknowns_.rows(), &sum, model_.sum_space);
     return sum;
   }
 
@@ -105,15 +118,31 @@ class Newton {
     instant.step = 1;
     for (const Stage& stage : stages_) stage.run(instant);
     contact_.press();
-    Kokkos::parallel_for("static_residual", all(), residual_);
-    double sum[3];
-    block_sum(StaticUnbalance{residual_, step_}, model_.nodes.count, sum, model_.sum_space);
-    return {sum[1] > 0 ? sum[0] / sum[1] : sum[0], sum[2], sum[1]};
+    for (const Stage& stage : ties_) stage.run(instant);
+    Kokkos::parallel_for("static_residual", nodes(), residual_);
+    double sum[2];
+    block_sum(StaticUnbalance{residual_}, unknowns_.nodes(), sum, model_.sum_space);
+    if (model_.beams) add_moments(sum);
+    return {sum[1] > 0 ? sum[0] / sum[1] : sum[0], inner(residual_.residual, step_), sum[1]};
+  }
+
+  /// Moments count as forces on the arm of an element, as in a relaxation.
+  void add_moments(double (&sum)[2]) {
+    const BeamNodeMoment rotation{model_.beams->arrays};
+    Kokkos::parallel_for("static_moment", Range(0, unknowns_.rotations()), StaticMoment{rotation, unknowns_.nodes(), residual_.residual});
+    const BeamRelaxationState beams = relaxation_state(model_);
+    sum[0] += beams.unbalanced;
+    sum[1] += beams.applied;
   }
 
   Measure evaluate_at(double share) {
     contact_.restore();
-    Kokkos::parallel_for("go_along", all(), GoAlong{model_.nodes.position, origin_, step_, share});
+    Kokkos::parallel_for("go_along", nodes(), GoAlong{model_.nodes.position, origin_, step_, share});
+    const TieArrays& ties = model_.ties.arrays;
+    if (ties.active()) Kokkos::parallel_for("place_slaves", Range(0, ties.slave_count), PlaceSlaves{ties, model_.nodes.position});
+    if (model_.beams)
+      Kokkos::parallel_for("turn_along", Range(0, unknowns_.rotations()),
+                           TurnAlong{{model_.beams->arrays}, unknowns_.nodes(), turned_from_, step_, share});
     return evaluate();
   }
 
@@ -121,6 +150,7 @@ class Newton {
   bool find_step(const Measure& now) {
     SpringCollector springs(model_);
     springs.add_connectors();
+    springs.add_beams();
     contact_.add_springs(springs);
     tangent_.set_springs(springs, shift_);
     coarse_.factor(springs);
@@ -143,26 +173,32 @@ class Newton {
       Kokkos::parallel_for("conjugate_turn", all(), ConjugateTurn{way_, z_, square / before});
       if (k % iterations_between_looks == 0 && !go_on_(report_)) return false;
     }
+    unknowns_.lead_slaves(step_);
     return true;
   }
 
-  /// Largest share of the step that moves no node of a contact surface farther than a segment: none passes through another.
+  /// Largest share of the step that moves no node of a contact surface farther than a segment, so that none passes through
+  /// another, and turns no rotation too far.
   double largest_share() const {
-    if (!contact_.any()) return 1;
+    if (!contact_.any() && !model_.beams) return 1;
     const auto step = to_host(step_);
-    double farthest = 0;
-    const auto look = [&](int n) { farthest = std::max(farthest, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2))); };
-    for (const ContactPair& pair : model_.contacts) {
-      for (int n : pair.slave_nodes) look(n);
-      for (int n : pair.master_nodes) look(n);
-    }
-    return farthest > 0 ? std::min(1.0, contact_.smallest_segment() / farthest) : 1.0;
+    double farthest = 0, turned = 0;
+    const auto look = [&](int n, double& most) { most = std::max(most, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2))); };
+    for (const ContactPair& pair : model_.contacts)
+      for (const auto* of_surface : {&pair.slave_nodes, &pair.master_nodes})
+        for (int n : *of_surface) look(n, farthest);
+    for (int r = unknowns_.nodes(); r < unknowns_.rows(); ++r) look(r, turned);
+    double share = 1;
+    if (farthest > 0) share = std::min(share, contact_.smallest_segment() / farthest);
+    if (turned > 0) share = std::min(share, most_turn / turned);
+    return share;
   }
 
   /// Goes along the step until the force along it has come down. Regula falsi of the Illinois kind between two places at
   /// which that force has different signs.
   Measure go(double unbalance_before) {
     Kokkos::deep_copy(origin_, model_.nodes.position);
+    if (model_.beams) Kokkos::deep_copy(turned_from_, model_.beams->arrays.rotation);
     const double first = inner(residual_.residual, step_);
     double low = 0, at_low = first, high = 0, at_high = 0, share = largest_share();
     const bool whole = share == 1;
@@ -189,6 +225,13 @@ class Newton {
     return now;
   }
 
+  /// The ends' supports take over what is left on their nodes.
+  void hold_ends() {
+    if (model_.ends.nodes.empty()) return;
+    Kokkos::parallel_for("static_reaction", nodes(), StaticReaction{residual_, image_});
+    railwave::hold_ends(model_, image_);
+  }
+
   /// A point mass has no shape to lean on: springs and constraints must hold it against its load.
   void refuse_drifting_points(const Measure& now) const {
     const auto residual = to_host(residual_.residual);
@@ -196,11 +239,12 @@ class Newton {
     springs.add_connectors();
     for (std::size_t k = 0; k < model_.assembly.point_nodes.size(); ++k) {
       const int n = model_.assembly.point_nodes[k];
+      if (model_.beams && model_.beams->number[n] >= 0) continue;
       Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-      for (std::size_t s = 0; s < springs.direction().size(); ++s)
+      for (std::size_t s = 0; s < springs.count(); ++s)
         for (int j = springs.first()[s]; j < springs.first()[s + 1]; ++j)
           if (springs.node()[j] == n) {
-            const Eigen::Vector3d d(springs.direction()[s].data());
+            const Eigen::Vector3d d(springs.share()[j].data());
             held += springs.stiffness()[s] * d * d.transpose();
           }
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
@@ -218,34 +262,44 @@ class Newton {
     }
   }
 
-  /// The part on which the largest force is left, if that is more than rounding leaves of deformation.
+  /// The part or beam on which the largest force is left, if that is more than rounding leaves of deformation.
   std::string what_drifts(const Measure& now) const {
     const auto residual = to_host(residual_.residual);
     std::string worst;
     double largest = model_.scene.settle.tolerance * now.applied;
-    for (const auto& part : model_.assembly.parts) {
+    const auto look = [&](const std::string& what, const std::vector<int>& nodes) {
       Vec3 sum{};
-      for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
+      for (int n : nodes)
         for (int i = 0; i < 3; ++i) sum[i] += residual(n, i);
       const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-      if (!(size > largest)) continue;
+      if (!(size > largest)) return;
       largest = size;
-      worst = fmt::format("part '{}' is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not "
-                          "met what will", part.name, sum[0], sum[1], sum[2]);
+      worst = fmt::format("{} is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not met "
+                          "what will", what, sum[0], sum[1], sum[2]);
+    };
+    for (const auto& part : model_.assembly.parts) {
+      std::vector<int> nodes(part.node_count);
+      std::iota(nodes.begin(), nodes.end(), part.first_node);
+      look("part '" + part.name + "'", nodes);
     }
+    for (const Assembly::BeamChain& chain : model_.assembly.beam_chains)
+      look("a beam of '" + model_.scene.beams[chain.beam].name + "'", chain.nodes);
     return worst;
   }
 
   Model& model_;
   const std::function<bool(const SettleReport&)>& go_on_;
   SettleReport report_;
+  StaticUnknowns unknowns_;
   StaticContact contact_;
-  std::vector<Stage> stages_;
+  std::vector<Stage> stages_, ties_;
   StaticTangent tangent_;
   StaticCoarse coarse_;
   double shift_ = least_shift, floor_ = least_shift;
   StaticResidual residual_;
-  NodeVector origin_, step_, left_, z_, way_, image_;
+  Array<double* [3]> origin_;
+  NodeVector step_, left_, z_, way_, image_;
+  Array<double* [4]> turned_from_;
 };
 
 }  // namespace

@@ -15,9 +15,12 @@ Eigen::Matrix3d whole(const std::array<double, 6>& b) {
   return m;
 }
 
+std::array<double, 6> distinct(const Eigen::Matrix3d& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}; }
+
 }  // namespace
 
-StaticTangent::StaticTangent(const Model& model) : model_(model), tangent_(model.assembly) {
+StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
+    : model_(model), unknowns_(unknowns), tangent_(model.assembly, unknowns.rotations()) {
   const auto& elements = model.assembly.elements;
   const std::size_t nodes = model.assembly.nodes.size();
   part_of_element_.assign(elements.size(), 0);
@@ -36,37 +39,34 @@ StaticTangent::StaticTangent(const Model& model) : model_(model), tangent_(model
                        ElementBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
                                      to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
   const auto host = to_host(blocks);
-  element_blocks_.resize(nodes);
-  for (std::size_t n = 0; n < nodes; ++n)
-    for (int c = 0; c < 6; ++c) element_blocks_[n][c] = host(n, c);
-
-  row_of_node_ = to_vector(model.nodes.constraint);
-  const auto table = to_host(model.constraints);
-  for (std::size_t r = 0; r < table.extent(0); ++r) {
-    auto& projection = projections_.emplace_back();
-    for (int k = 0; k < 9; ++k) projection[k] = table(r, k / 3, k % 3);
+  // Slaves' blocks are felt by their masters: what one slave has to do with another is left out.
+  std::vector<Eigen::Matrix3d> sum(unknowns.rows(), Eigen::Matrix3d::Zero());
+  for (std::size_t n = 0; n < nodes; ++n) {
+    std::array<double, 6> own;
+    for (int c = 0; c < 6; ++c) own[c] = host(n, c);
+    if (!unknowns.follows(static_cast<int>(n))) {
+      sum[n] += whole(own);
+      continue;
+    }
+    unknowns.each_lead(static_cast<int>(n), [&](const StaticUnknowns::Lead& lead) { sum[lead.row] += lead.share.transpose() * whole(own) * lead.share; });
   }
-}
-
-const double* StaticTangent::projection(int node) const {
-  return row_of_node_[node] < 0 ? nullptr : projections_[row_of_node_[node]].data();
+  element_blocks_.resize(sum.size());
+  for (std::size_t n = 0; n < sum.size(); ++n) element_blocks_[n] = distinct(sum[n]);
 }
 
 void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
   shift_ = shift;
   tangent_.set_springs(springs.on_device());
   auto blocks = element_blocks_;
-  for (std::size_t s = 0; s < springs.direction().size(); ++s) {
-    const Vec3& d = springs.direction()[s];
+  for (std::size_t s = 0; s < springs.count(); ++s)
     for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k) {
-      const double weight = springs.weight()[k], factor = springs.stiffness()[s] * weight * weight;
-      auto& b = blocks[springs.node()[k]];
-      for (int i = 0; i < 3; ++i) b[i] += factor * d[i] * d[i];
-      b[3] += factor * d[0] * d[1];
-      b[4] += factor * d[1] * d[2];
-      b[5] += factor * d[2] * d[0];
+      const Eigen::Vector3d own(springs.share()[k].data());
+      unknowns_.each_lead(springs.node()[k], [&](const StaticUnknowns::Lead& lead) {
+        const Eigen::Vector3d d = lead.share.transpose() * own;
+        const auto more = distinct(springs.stiffness()[s] * d * d.transpose());
+        for (int c = 0; c < 6; ++c) blocks[lead.row][c] += more[c];
+      });
     }
-  }
   double least = 1e300;
   diagonal_.resize(blocks.size());
   for (std::size_t n = 0; n < blocks.size(); ++n) {
@@ -74,10 +74,10 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
     if (diagonal_[n] > 0) least = std::min(least, diagonal_[n]);
   }
   for (std::size_t n = 0; n < blocks.size(); ++n) {
-    // A point mass that no spring holds.
+    // A point mass that no spring holds, or a slave.
     if (!(diagonal_[n] > 0)) diagonal_[n] = least;
     Eigen::Matrix3d block = whole(blocks[n]) + shift * diagonal_[n] * Eigen::Matrix3d::Identity();
-    const double* p = projection(static_cast<int>(n));
+    const double* p = unknowns_.projection(static_cast<int>(n));
     Eigen::Matrix3d inverse;
     if (p == nullptr) {
       inverse = block.inverse();
@@ -86,16 +86,17 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
       block = P * block * P + diagonal_[n] * (Eigen::Matrix3d::Identity() - P);
       inverse = P * block.inverse() * P;
     }
-    blocks[n] = {inverse(0, 0), inverse(1, 1), inverse(2, 2), inverse(0, 1), inverse(1, 2), inverse(2, 0)};
+    blocks[n] = distinct(inverse);
   }
   inverse_ = to_device("inverse blocks", blocks);
   device_diagonal_ = to_device("tangent diagonal", diagonal_);
 }
 
 void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {
+  unknowns_.lead_slaves(u);
   tangent_.apply(model_.assembly, stiffness_, model_.nodes.position, u, 0, f);
-  Kokkos::parallel_for("shift_and_hold", Range(0, model_.nodes.count),
-                       ShiftAndHold{u, f, device_diagonal_, shift_, model_.nodes.constraint, model_.constraints});
+  unknowns_.pass_on(f);
+  Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()), ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});
 }
 
 }  // namespace railwave

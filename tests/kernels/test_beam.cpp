@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <random>
 
-#include "kernels/beam.hpp"
+#include "kernels/beam_tangent.hpp"
 #include "kernels/team.hpp"
 
 using namespace railwave;
@@ -105,6 +105,46 @@ TEST_CASE("a beam, with a pretension held or not, leaves no resultant force and 
     CHECK(norm(moment) < 1e-13);
     if (held) CHECK(beam_middle(element.beams, element.position, 0, true).force[0] == 3);
   }
+}
+
+TEST_CASE("a beam's springs answer small motions as its forces do, where it is free of stress and wherever it has turned") {
+  if constexpr (on_device) SKIP("works on host arrays");
+  Element element;
+  element.beams.stretch(0) = 0;
+  const Vector3 angle{{0.4, -1.1, 0.7}};
+  const Vector3 along{{2 / 7.0, 3 / 7.0, 6 / 7.0}};
+  for (int n = 0; n < 2; ++n) {
+    element.turn(n, angle);
+    const Vector3 x = n == 0 ? Vector3{{0, 0, 0}} : turned(turn_about(angle), 0.8 * along);
+    for (int i = 0; i < 3; ++i) element.position(n, i) = 3 + x[i];
+  }
+  const BeamTangent tangent{element.beams, element.position, false, Array<double* [8][4][3]>("share", 1), Array<double* [8]>("stiffness", 1)};
+  tangent(0);
+  for (int s : {6, 7}) CHECK_THAT(tangent.stiffness(0, s), WithinAbs(0, 1e-12));
+  const auto forces = [&](int row, int i) {
+    BeamForce{element.beams, element.position, element.contribution, false, 0}(0);
+    return row < 2 ? element.contribution(row, i) : element.beams.moment(row - 2, i);
+  };
+  const auto move = [&](int row, int i, double h) {
+    Vector3 by{{0, 0, 0}};
+    by[i] = h;
+    if (row < 2) element.position(row, i) += h;
+    else element.turn(row - 2, by);
+  };
+  const double h = 1e-5;
+  for (int column = 0; column < 4; ++column)
+    for (int j = 0; j < 3; ++j)
+      for (int row = 0; row < 4; ++row)
+        for (int i = 0; i < 3; ++i) {
+          double stiffness = 0;
+          for (int s = 0; s < 8; ++s) stiffness += tangent.stiffness(0, s) * tangent.share(0, s, row, i) * tangent.share(0, s, column, j);
+          move(column, j, h);
+          const double ahead = forces(row, i);
+          move(column, j, -2 * h);
+          const double behind = forces(row, i);
+          move(column, j, h);
+          CHECK_THAT(stiffness, WithinAbs((behind - ahead) / (2 * h), 1e-8));
+        }
 }
 
 TEST_CASE("turns follow each other as rotation matrices do") {

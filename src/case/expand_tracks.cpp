@@ -85,6 +85,7 @@ class Expansion {
     part.mesh = mesh;
     part.material = material;
     part.position = position;
+    part.mirror = track_.mirror;
     add(scene_.parts, "parts", part);
   }
 

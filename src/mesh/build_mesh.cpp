@@ -9,6 +9,7 @@
 #include "mesh/rail.hpp"
 #include "mesh/roller.hpp"
 #include "mesh/wheel.hpp"
+#include "mesh/wheelset.hpp"
 
 namespace railwave {
 
@@ -28,6 +29,8 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return roller_mesh(source);
     case scene::MeshType::cylinder:
       return cylinder_mesh(source);
+    case scene::MeshType::wheelset:
+      return wheelset_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
 }

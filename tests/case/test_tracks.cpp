@@ -110,3 +110,22 @@ TEST_CASE("names that a track makes can be used, and may not be taken", "[case]"
   TemporaryCase lost(track_case("first_sleeper = 20"));
   CHECK(mistakes_of(lost.path()).find("[tracks.track]: has no sleeper under its rail") != std::string::npos);
 }
+
+TEST_CASE("a mirrored track has the same parts, mirrored, and the same connectors and constraints", "[case]") {
+  TemporaryCase plain(track_case("position = [0, 0.756, 0]\n")), mirrored(track_case("position = [0, -0.756, 0]\nmirror = true\n"));
+  const auto left = read_case(plain.path()), right = read_case(mirrored.path());
+  REQUIRE(left.parts.size() == right.parts.size());
+  for (std::size_t k = 0; k < left.parts.size(); ++k) {
+    CHECK_FALSE(left.parts[k].mirror);
+    CHECK(right.parts[k].mirror);
+    CHECK(right.parts[k].position[0] == left.parts[k].position[0]);
+    CHECK(right.parts[k].position[1] == -left.parts[k].position[1]);
+    CHECK(right.parts[k].mesh == left.parts[k].mesh);
+  }
+  // The mirrored sleeper's y_min is the side that looks to the centre of the track, at y = 0.
+  for (std::size_t k = 0; k < left.constraints.size(); ++k) CHECK(right.constraints[k].target == left.constraints[k].target);
+  for (std::size_t k = 0; k < left.connectors.size(); ++k) {
+    CHECK(right.connectors[k].stiffness == left.connectors[k].stiffness);
+    CHECK(right.connectors[k].area == left.connectors[k].area);
+  }
+}

@@ -20,11 +20,12 @@ const char* text_of(RailSide side) { return side == RailSide::left ? "left" : "r
 
 double middle_of_chamber(const std::string& section) { return section == "60E1" ? 0.076 : 0.070; }
 
-/// Where a point of the upright section lies, y counted outwards.
+/// Where a point of the upright section lies, y counted outwards; sides are those before a mirrored track is mirrored.
 Vec3 placed(const Track& track, double x, RailSide side, double outwards, double z) {
   const double angle = std::atan(track.rail.inclination), y = side == RailSide::left ? -outwards : outwards;
   const Vec3& at = track.position;
-  return {at[0] + x, at[1] + y * std::cos(angle) - z * std::sin(angle), at[2] + y * std::sin(angle) + z * std::cos(angle)};
+  const double across = y * std::cos(angle) - z * std::sin(angle);
+  return {at[0] + x, at[1] + (track.mirror ? -across : across), at[2] + y * std::sin(angle) + z * std::cos(angle)};
 }
 
 void add_plate(TrackEntries& entries, const std::string& material, RailSide side) {

@@ -168,7 +168,7 @@ Section prescribed_section() {
                                "Node sets that move as a rigid body whose motion is known, such as a driven roller's bore; held "
                                "while the scene settles. The work this takes is in the account's external work.");
   section.keys = {
-      key("target", &PrescribedMotion::target, "what is moved, in all directions").names(node_set).needed(),
+      key("target", &PrescribedMotion::target, "what is moved").names(node_set).needed(),
       key("velocity", &PrescribedMotion::velocity, "of the centre").in("m/s"),
       key("angular_velocity", &PrescribedMotion::angular_velocity, "about an axis of fixed direction through the moving centre")
           .in("rad/s"),
@@ -177,7 +177,13 @@ Section prescribed_section() {
                                              "that is to move from the start an [initial_motion]")
           .names(curve)
           .otherwise("constant 1"),
+      key("displacement", &PrescribedMotion::displacement, "besides that of the velocities, where `displacement_curve` is 1").in("m"),
+      key("displacement_curve", &PrescribedMotion::displacement_curve,
+          "factor on the displacement that changes with time, 0 at the start; each step goes to the displacement of its end").names(curve).otherwise("none"),
+      key("directions", &PrescribedMotion::directions, "along which of the axes; along the others the nodes are free").otherwise("all"),
+      key("axes", &PrescribedMotion::axes, "what x, y and z mean in `directions`: three unit vectors"),
   };
+  section.rule = check_prescribed;
   return section;
 }
 

@@ -41,6 +41,12 @@ Section part_section() {
       key("material", &Part::material, "the part's material").names(material).needed(),
       key("element_set", &Part::element_set, "element set of the mesh that is this part").otherwise("the whole mesh"),
       key("position", &Part::position, "where the mesh's own origin is put").in("m"),
+      key("mirror", &Part::mirror, "the mesh is mirrored at its plane y = 0; its sets keep their names"),
+      key("angle_of_attack", &Part::angle_of_attack,
+          "the mesh is turned by this angle about the vertical axis through its origin, from x to y: a wheel at y > 0 then steers to its flange. Boxes of "
+          "[node_sets] see it unturned; angular velocities of [initial_motion] and axes of torques on it turn along")
+          .in("rad")
+          .within(between(-0.2, 0.2)),
       key("hourglass", &Part::hourglass, "how hourglass modes are resisted: by velocity or by displacement")
           .one_of({"viscous", "stiffness"}),
       key("hourglass_coefficient", &Part::hourglass_coefficient, "how strongly; 0 leaves the modes free")

@@ -13,6 +13,7 @@ using scene::FishplateMesh;
 using scene::MeshSource;
 using scene::RollerMesh;
 using scene::WheelMesh;
+using scene::WheelsetMesh;
 
 namespace {
 
@@ -25,9 +26,10 @@ std::vector<Key> box_keys() {
   };
 }
 
-std::vector<Key> wheel_keys() {
+template <class Mesh>
+std::vector<Key> wheel_keys(Mesh MeshSource::*wheel) {
   using Wheel = WheelMesh;
-  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::wheel, field, help); };
+  const auto any = [=](auto name, auto field, auto help) { return key(name, wheel, field, help); };
   const auto position = [=](auto name, auto field, auto help) { return any(name, field, help).in("m"); };
   const auto length = [=](auto name, auto field, auto help) { return position(name, field, help).within(above(0)); };
   return {
@@ -62,6 +64,23 @@ std::vector<Key> wheel_keys() {
       length("section_size", &Wheel::section_size, "largest element size across the tread"),
       any("web_columns", &Wheel::web_columns, "elements through the web's thickness").within(between(1, 9)),
   };
+}
+
+std::vector<Key> wheelset_keys() {
+  using Wheelset = WheelsetMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::wheelset, field, help); };
+  std::vector<Key> keys{
+      any("half", &Wheelset::half, "only the half at y > 0, to the plane of symmetry y = 0; otherwise both, and each set as left_SET (y > 0) and right_SET too"),
+      any("flange_back_distance", &Wheelset::flange_back_distance, "between the inner sides of both wheels").in("m").within(above(0)),
+      any("axle", &Wheelset::axle,
+          "pairs [y in m, radius in m] from the axle's middle at y = 0 outwards, straight lines between; from its last but one the surface is "
+          "`journal`; within the hub the axle fills the bore")
+          .in("m")
+          .otherwise("[[0, 0.08], [0.61, 0.08], [0.89, 0.0675], [1.1, 0.0675]]"),
+      any("axle_size", &Wheelset::axle_size, "largest element size along the axle beside the hub").in("m").within(above(0)),
+  };
+  for (auto& one : wheel_keys(&MeshSource::wheelset)) keys.push_back(std::move(one));
+  return keys;
 }
 
 /// What both generators of graded blocks have.
@@ -160,15 +179,16 @@ std::vector<Key> file_keys() {
 Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
-  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate"}).needed()};
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate", "wheelset"}).needed()};
   section.add_keys("box", box_keys());
-  section.add_keys("wheel", wheel_keys());
+  section.add_keys("wheel", wheel_keys(&MeshSource::wheel));
   section.add_keys("rail", rail_keys(&MeshSource::rail));
   section.add_keys("file", file_keys());
   section.add_keys("crowned_block", crowned_block_keys());
   section.add_keys("roller", roller_keys());
   section.add_keys("cylinder", cylinder_keys());
   section.add_keys("fishplate", fishplate_keys());
+  section.add_keys("wheelset", wheelset_keys());
   section.rule = check_mesh;
   return section;
 }

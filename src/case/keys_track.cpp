@@ -94,8 +94,10 @@ Section track_section() {
   section.keys = {
       key("rail_material", &Track::rail_material, "the rail's material").names(material).otherwise("elastic: E 210 GPa, nu 0.3, 7800 kg/m3"),
       key("position", &Track::position, "where the track's own origin is put: z = 0 is the middle of the rail's foot").in("m"),
+      key("mirror", &Track::mirror, "the whole is mirrored at the plane y = 0 of its own origin: the other half of the track; sets keep their names"),
       key("rail_distance", &Track::rail_distance,
-          "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y unless the inclination is negative")
+          "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y unless the inclination is negative, "
+          "or the track mirrored")
           .in("m")
           .within(above(0)),
       key("sleeper", &Track::sleeper, "kind of the regular sleepers").names(sleeper),

@@ -126,6 +126,7 @@ void check_mesh(void* entry, EntryCheck& check) {
   const auto& mesh = *static_cast<scene::MeshSource*>(entry);
   if (!check.sound({"type"})) return;
   if (mesh.type == scene::MeshType::wheel) check_wheel(mesh.wheel, check);
+  if (mesh.type == scene::MeshType::wheelset) check_wheel(mesh.wheelset, check);
   if (mesh.type == scene::MeshType::rail) check_rail(mesh.rail, check);
   if (mesh.type == scene::MeshType::fishplate && check.given("gap_start") != check.given("gap_end"))
     check.complain(check.given("gap_start") ? "gap_end" : "gap_start", "is missing; a gap has a start and an end");
@@ -245,6 +246,18 @@ void check_motion(void* entry, EntryCheck& check) {
   if (motion.centre && motion.angular_velocity == zero && check.sound({"centre", "angular_velocity"})) {
     check.complain("centre", "has no effect without angular_velocity; give that too, or leave centre out");
   }
+}
+
+void check_prescribed(void* entry, EntryCheck& check) {
+  const auto& motion = *static_cast<scene::PrescribedMotion*>(entry);
+  if (check.given("displacement") != check.given("displacement_curve")) {
+    const bool without = check.given("displacement");
+    check.complain(without ? "displacement" : "displacement_curve",
+                   without ? "has no effect without displacement_curve, which says when; give that too, or leave displacement out"
+                           : "has no effect without displacement; give that too, or leave displacement_curve out");
+  }
+  if (check.sound({"directions"}) && !motion.directions[0] && !motion.directions[1] && !motion.directions[2])
+    check.complain("directions", "names no direction, so that nothing is prescribed; name some, or leave the section out");
 }
 
 void check_tie(void* entry, EntryCheck& check) {

@@ -31,6 +31,7 @@ void check_connector(void* entry, EntryCheck& check);
 void check_contact(void* entry, EntryCheck& check);
 void check_curve(void* entry, EntryCheck& check);
 void check_motion(void* entry, EntryCheck& check);
+void check_prescribed(void* entry, EntryCheck& check);
 void check_tie(void* entry, EntryCheck& check);
 void check_time(void* entry, EntryCheck& check);
 void check_output(void* entry, EntryCheck& check);

@@ -42,7 +42,7 @@ struct Material : Place {
   double shear_speed() const { return std::sqrt(shear_modulus() / density); }
 };
 
-enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate };
+enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate, wheelset };
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -174,6 +174,16 @@ struct FishplateMesh {
   std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
 };
 
+/// Wheel and half axle in one, or both halves; see mesh/wheelset.hpp. Its origin is the axle's middle.
+struct WheelsetMesh : WheelMesh {
+  WheelsetMesh() : axle{{0, 0.08}, {0.61, 0.08}, {0.89, 0.0675}, {1.1, 0.0675}} {}
+
+  bool half = false;               ///< only that at y > 0
+  double flange_back_distance = 1.360;  ///< m, between the wheels' inner sides
+  std::vector<std::array<double, 2>> axle;  ///< y and radius, m, from the middle outwards
+  double axle_size = 0.05;         ///< m, largest element size along the axle beside the hub
+};
+
 struct MeshSource : Place {
   MeshType type = MeshType::box;
   BoxMesh box;
@@ -184,6 +194,7 @@ struct MeshSource : Place {
   RollerMesh roller;
   CylinderMesh cylinder;
   FishplateMesh fishplate;
+  WheelsetMesh wheelset;
 };
 
 /// A crack in a mesh: nodes doubled on a plane across the rail, its two faces surfaces NAME_before and NAME_behind.
@@ -202,6 +213,8 @@ struct Part : Place {
   std::string material;
   std::string element_set;         ///< empty: the whole mesh
   Vec3 position{0, 0, 0};          ///< translation of the mesh, m
+  bool mirror = false;             ///< y of the mesh is turned round
+  double angle_of_attack = 0;      ///< rad, about z through the mesh's origin, after mirroring
   HourglassType hourglass = HourglassType::viscous;
   double hourglass_coefficient = 0.1;
   double mass_damping = 0;         ///< 1/s: force on a node is that times its mass and velocity, against the velocity
@@ -313,13 +326,18 @@ struct InitialMotion : Place {
   std::string around;              ///< node set whose centre of mass is the centre of rotation, e.g. an axle's bore
 };
 
-/// A node set that moves as a rigid body does whose motion is known: held while the scene settles.
+/// A node set that moves as a rigid body does whose motion is known, in all directions or some; held in these while the scene
+/// settles.
 struct PrescribedMotion : Place {
   std::string target;              ///< `part.node_set`
   Vec3 velocity{0, 0, 0};          ///< m/s, of the centre
   Vec3 angular_velocity{0, 0, 0};  ///< rad/s, about an axis of fixed direction through the moving centre
   std::optional<Vec3> centre;      ///< m, where the run begins; absent: the set's centre of mass
   std::string curve;               ///< factor on both; empty: constant 1
+  Vec3 displacement{0, 0, 0};      ///< m, besides what the velocities make
+  std::string displacement_curve;  ///< factor on that
+  std::array<bool, 3> directions{true, true, true};  ///< along axes[0], axes[1], axes[2]: in others the nodes are free
+  std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
 /// Dashpots on a surface that let waves out (Lysmer & Kuhlemeyer 1969); while the scene settles its nodes are held.
@@ -397,6 +415,7 @@ struct Track : Place {
   RailMesh rail;
   std::string rail_material;                  ///< empty: elastic rail steel of its own
   Vec3 position{0, 0, 0};
+  bool mirror = false;                        ///< all its parts are mirrored
   double rail_distance = 0.755;               ///< m, from the track's centre plane to the middle of the rail's foot
   std::string sleeper = "concrete";
   double pitch = 0.6;                         ///< m

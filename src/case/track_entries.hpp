@@ -46,6 +46,7 @@ class TrackEntries {
     part.mesh = mesh;
     part.material = material;
     part.position = position;
+    part.mirror = track.mirror;
     add(scene.parts, "parts", part);
   }
 

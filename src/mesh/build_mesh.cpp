@@ -10,6 +10,7 @@
 #include "mesh/rail.hpp"
 #include "mesh/roller.hpp"
 #include "mesh/wheel.hpp"
+#include "mesh/wheelset.hpp"
 
 namespace railwave {
 
@@ -31,6 +32,8 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return cylinder_mesh(source);
     case scene::MeshType::fishplate:
       return fishplate_mesh(source);
+    case scene::MeshType::wheelset:
+      return wheelset_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
 }

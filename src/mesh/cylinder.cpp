@@ -1,19 +1,12 @@
 #include "mesh/cylinder.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "mesh/mesh_checks.hpp"
+#include "mesh/round_core.hpp"
 
 namespace railwave {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-/// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner is
-/// as flat as it would be at either.
-constexpr double bulge = 0.4;
-
-using Point = std::array<double, 2>;
 
 void check(const scene::MeshSource& source) {
   const scene::CylinderMesh& c = source.cylinder;
@@ -28,27 +21,10 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-/// Point of the disc that lies in the direction of (u, v), a point of the square from -1 to 1, equal angles for equal ways
-/// along the square's sides.
-Point on_disc(double u, double v, double radius) {
-  const bool along_x = std::fabs(u) >= std::fabs(v);
-  const double far = along_x ? u : v, near = along_x ? v : u;
-  if (far == 0) return {0, 0};
-  const double angle = pi / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
-  return along_x ? Point{a, b} : Point{b, a};
-}
-
-/// A point of the core; it is the more bulged the farther out.
-Point in_core(double u, double v, double radius) {
-  const Point round = on_disc(u, v, radius);
-  const double share = bulge * std::max(std::fabs(u), std::fabs(v)), straight = radius / std::sqrt(2.0);
-  return {(1 - share) * straight * u + share * round[0], (1 - share) * straight * v + share * round[1]};
-}
-
 /// Nodes and quadrilaterals of the cross-section, counter-clockwise; those of the skin have it between their second and
 /// third corner.
 struct Disc {
-  std::vector<Point> nodes;
+  std::vector<RoundPoint> nodes;
   std::vector<std::array<int, 4>> cells;
   int first_skin_node = 0, first_skin_cell = 0;
 };
@@ -59,16 +35,11 @@ Disc disc(const scene::CylinderMesh& c) {
   const auto place = [n](int i) { return 2.0 * i / n - 1; };
   Disc disc;
   for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) disc.nodes.push_back(in_core(place(i), place(j), c.core_share * c.radius));
+    for (int i = 0; i <= n; ++i) disc.nodes.push_back(in_round_core(place(i), place(j), c.core_share * c.radius));
   for (int j = 0; j < n; ++j)
     for (int i = 0; i < n; ++i) disc.cells.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
 
-  // Counter-clockwise along the core's sides.
-  std::vector<std::array<int, 2>> side;
-  for (int k = 0; k < n; ++k) side.push_back({k, 0});
-  for (int k = 0; k < n; ++k) side.push_back({n, k});
-  for (int k = 0; k < n; ++k) side.push_back({n - k, n});
-  for (int k = 0; k < n; ++k) side.push_back({0, n - k});
+  const auto side = core_outline(n, n);
   std::vector<int> inner;
   for (const auto& [i, j] : side) inner.push_back(number(i, j));
   for (int ring = 1; ring <= c.ring_divisions; ++ring) {
@@ -78,10 +49,10 @@ Disc disc(const scene::CylinderMesh& c) {
     disc.first_skin_cell = static_cast<int>(disc.cells.size());
     for (int k = 0; k < around; ++k) {
       const double u = place(side[k][0]), v = place(side[k][1]);
-      const Point from = in_core(u, v, c.core_share * c.radius), to = on_disc(u, v, c.radius);
+      const RoundPoint from = in_round_core(u, v, c.core_share * c.radius), to = on_disc(u, v, c.radius);
       outer.push_back(static_cast<int>(disc.nodes.size()));
       disc.nodes.push_back(ring == c.ring_divisions ? to
-                                                    : Point{(1 - share) * from[0] + share * to[0], (1 - share) * from[1] + share * to[1]});
+                                                    : RoundPoint{(1 - share) * from[0] + share * to[0], (1 - share) * from[1] + share * to[1]});
     }
     for (int k = 0; k < around; ++k)
       disc.cells.push_back({inner[k], outer[k], outer[(k + 1) % around], inner[(k + 1) % around]});

@@ -18,8 +18,12 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-void check(const scene::MeshSource& source) {
-  const scene::WheelMesh& w = source.wheel;
+/// Levels of coarsening towards the bore.
+int wheel_levels(const scene::WheelMesh& w) { return 9 * w.zone_size <= w.core_size ? 3 : 2; }
+
+}  // namespace
+
+void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& w) {
   MeshChecks checks(source);
   const double depth = w.zone_size * (w.zone_layers + transition_height);
   checks.expect(w.profile == "S1002" || w.profile == "cone", "profile", w.profile, "\"S1002\" or \"cone\"");
@@ -58,22 +62,22 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-}  // namespace
+Stations wheel_stations(const scene::WheelMesh& w) {
+  const StationPlan around{w.zone_start, w.zone_start + w.zone_length, w.zone_size, w.growth, w.coarse_size, w.core_size,
+                           wheel_levels(w), w.path_start.value_or(w.zone_start),
+                           w.path_start ? *w.path_start + w.path_length : w.zone_start, w.path_size};
+  return periodic_stations(around, 2 * pi * w.radius);
+}
 
-Mesh wheel_mesh(const scene::MeshSource& source) {
-  check(source);
-  const scene::WheelMesh& w = source.wheel;
-  const bool lower_transition = 9 * w.zone_size <= w.core_size;
+WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& w) {
+  check_wheel_mesh(source, w);
   SectionMesh section;
   try {
-    section = wheel_section(w, lower_transition);
+    section = wheel_section(w, wheel_levels(w) == 3);
   } catch (const std::invalid_argument& problem) {
     throw InputError(place_of(source) + problem.what());
   }
-  const StationPlan around{w.zone_start, w.zone_start + w.zone_length, w.zone_size, w.growth, w.coarse_size, w.core_size,
-                           lower_transition ? 3 : 2, w.path_start.value_or(w.zone_start),
-                           w.path_start ? *w.path_start + w.path_length : w.zone_start, w.path_size};
-  const Stations stations = periodic_stations(around, 2 * pi * w.radius);
+  const Stations stations = wheel_stations(w);
 
   const double radius = w.radius;
   const auto place = [radius](Point2 p, double arc) {
@@ -91,7 +95,14 @@ Mesh wheel_mesh(const scene::MeshSource& source) {
   for (int n = 0; n < static_cast<int>(mesh.nodes.size()); ++n)
     if (std::abs(mesh.nodes[n][0]) < 1e-9 * radius && mesh.nodes[n][2] < 0) centre.push_back(n);
   if (!centre.empty()) mesh.node_sets["centre_section"] = centre;
-  return std::move(extrusion.mesh);
+  WheelBody body;
+  body.bore_line = section.node_sets["bore"];
+  body.bore_stations = stations.levels.back();
+  for (int station : body.bore_stations) body.bore_angles.push_back(stations.position[station] / radius);
+  body.extrusion = std::move(extrusion);
+  return body;
 }
+
+Mesh wheel_mesh(const scene::MeshSource& source) { return wheel_body(source, source.wheel).extrusion.mesh; }
 
 }  // namespace railwave

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "case/scene.hpp"
+#include "mesh/extrusion.hpp"
+#include "mesh/grading.hpp"
 #include "mesh/mesh.hpp"
 
 namespace railwave {
@@ -10,5 +14,23 @@ namespace railwave {
 /// Node sets bore and centre_section (the lower half's plane x = 0, when a layer lies there); surfaces tread (contact band
 /// over the zone and a margin) and running_surface; element set zone. Throws InputError if the parameters don't fit.
 Mesh wheel_mesh(const scene::MeshSource& source);
+
+/// A wheel with what an axle needs to go on from its bore.
+struct WheelBody {
+  Extrusion extrusion;
+  std::vector<int> bore_line;        ///< section nodes from low to high y
+  std::vector<int> bore_stations;    ///< at which the bore has nodes
+  std::vector<double> bore_angles;   ///< rad, of these
+};
+
+/// Throws InputError if the parameters don't fit.
+/// @param source whose name and line complaints begin with; @param wheel its parameters
+WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& wheel);
+
+/// Throws InputError if the parameters don't fit.
+void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& wheel);
+
+/// Layers round a wheel; those of the last level reach the bore.
+Stations wheel_stations(const scene::WheelMesh& wheel);
 
 }  // namespace railwave

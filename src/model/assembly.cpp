@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/mirror.hpp"
 #include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
 #include "model/beams.hpp"
@@ -127,6 +128,19 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
     for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
 }
 
+/// Turns parts with an angle of attack about their origins.
+void turn_parts(const scene::Scene& scene, Assembly& assembly) {
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    const scene::Part& part = scene.parts[p];
+    if (part.angle_of_attack == 0) continue;
+    const auto& range = assembly.parts[p];
+    for (int n = range.first_node; n < range.first_node + range.node_count; ++n) {
+      const Vec3 arm = turned_with(part, difference(assembly.nodes[n], part.position));
+      for (int i = 0; i < 3; ++i) assembly.nodes[n][i] = part.position[i] + arm[i];
+    }
+  }
+}
+
 template <class Map>
 std::vector<std::string> names_of(const Map& map) {
   std::vector<std::string> names;
@@ -135,6 +149,18 @@ std::vector<std::string> names_of(const Map& map) {
 }
 
 }  // namespace
+
+Vec3 turned_with(const scene::Part& part, const Vec3& v) {
+  const double c = std::cos(part.angle_of_attack), s = std::sin(part.angle_of_attack);
+  return {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
+}
+
+Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v) {
+  const std::string own = name.substr(0, name.find('.'));
+  for (const scene::Part& part : scene.parts)
+    if (part.name == own) return turned_with(part, v);
+  return v;
+}
 
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
                         const std::string& name, const std::vector<std::string>& known) {
@@ -171,6 +197,7 @@ Assembly assemble(const scene::Scene& scene) {
   Assembly assembly;
   for (const scene::Part& part : scene.parts) {
     Mesh mesh = mesh_of(scene, part);
+    if (part.mirror) mirror(mesh);
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += part.position[i];
     Assembly::PartRange range;
@@ -192,6 +219,7 @@ Assembly assemble(const scene::Scene& scene) {
     assembly.nodes.push_back(point.position);
   }
   add_node_sets(scene, assembly);
+  turn_parts(scene, assembly);
   for (const scene::Contact& contact : scene.contacts)
     if (contact.close_gap) close_gap(scene, contact, assembly);
   lay_beams(scene, assembly);

@@ -26,7 +26,9 @@ std::map<int, HeldDirections> held_directions(const scene::Scene& scene, const A
       for (int a = 0; a < 3; ++a)
         if (constraint.fixed[a]) add_direction(held[n], constraint.axes[a]);
   for (const scene::PrescribedMotion& motion : scene.prescribed_motions)
-    for (int n : find_node_set(scene, assembly, motion, "target", motion.target)) hold(held[n]);
+    for (int n : find_node_set(scene, assembly, motion, "target", motion.target))
+      for (int a = 0; a < 3; ++a)
+        if (motion.directions[a]) add_direction(held[n], motion.axes[a]);
   return held;
 }
 

@@ -101,7 +101,7 @@ void build_load(Collector& collector, const scene::Load& load) {
   } else if (load.type == scene::LoadType::torque) {
     arrays.set = collector.set(load, "target", load.target);
     arrays.torque = static_cast<int>(collector.torque_set.size());
-    const Vec3& a = load.axis;
+    const Vec3 a = turned_with_part_of(model.scene, load.target, load.axis);
     collector.torque_axis.push_back(scaled(1 / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), a));
     collector.torque_set.push_back(arrays.set);
     if (collector.torque_set.size() > TorqueArrays::most)

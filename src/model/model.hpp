@@ -130,10 +130,12 @@ struct ContactPair {
   double segment_size = 0;             ///< m, the largest segment's diagonal
 };
 
-/// A node set that moves as a rigid motion says.
+/// A node set that moves as a rigid motion says, in the directions that are prescribed.
 struct PrescribedSet {
   const scene::PrescribedMotion* motion = nullptr;
-  const scene::Curve* curve = nullptr;  ///< null: constant 1
+  const scene::Curve* curve = nullptr;  ///< of the velocities; null: constant 1
+  const scene::Curve* displacement_curve = nullptr;
+  double held[3][3] = {};               ///< sum of d d^T over the prescribed directions d
   Vec3 centre{};                        ///< m, of the rotation, undeformed
   Array<int*> nodes;
   Array<double*> work;                  ///< J, by node of the set

@@ -44,7 +44,7 @@ void set_initial_motion(Model& model) {
       // A point mass is moved along, not turned, unless beams end on it.
       const auto& nodes = model.assembly.node_sets.at(name);
       const bool turns = nodes.size() > 1 || beam_node_of(model, nodes) >= 0;
-      const Vec3 w = turns ? motion.angular_velocity : Vec3{0, 0, 0};
+      const Vec3 w = turns ? turned_with_part_of(model.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
       for (int n : nodes) {
         if (model.beams && model.beams->number[n] >= 0)
           for (int i = 0; i < 3; ++i) spin[n][i] += w[i];

@@ -164,8 +164,8 @@ std::vector<Vec3> centrifugal_field(const Model& model) {
   std::vector<int> points = model.assembly.point_nodes;
   std::sort(points.begin(), points.end());
   for (const scene::InitialMotion& motion : model.scene.initial_motions) {
-    const Vec3& w = motion.angular_velocity;
     for (const std::string& name : motion.parts) {
+      const Vec3 w = turned_with_part_of(model.scene, name, motion.angular_velocity);
       const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
       for (int n : model.assembly.node_sets.at(name)) {
         const bool beam_ends = model.beams && model.beams->number[n] >= 0;

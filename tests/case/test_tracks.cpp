@@ -169,3 +169,22 @@ TEST_CASE("a joint's mistakes are told with what would do", "[case]") {
   TemporaryCase other("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\n" + track_case(""));
   says(mistakes_of(other.path()), "[meshes.p] rail: 'b' is no mesh of type \"rail\"");
 }
+
+TEST_CASE("a mirrored track has the same parts, mirrored, and the same connectors and constraints", "[case]") {
+  TemporaryCase plain(track_case("position = [0, 0.756, 0]\n")), mirrored(track_case("position = [0, -0.756, 0]\nmirror = true\n"));
+  const auto left = read_case(plain.path()), right = read_case(mirrored.path());
+  REQUIRE(left.parts.size() == right.parts.size());
+  for (std::size_t k = 0; k < left.parts.size(); ++k) {
+    CHECK_FALSE(left.parts[k].mirror);
+    CHECK(right.parts[k].mirror);
+    CHECK(right.parts[k].position[0] == left.parts[k].position[0]);
+    CHECK(right.parts[k].position[1] == -left.parts[k].position[1]);
+    CHECK(right.parts[k].mesh == left.parts[k].mesh);
+  }
+  // The mirrored sleeper's y_min is the side that looks to the centre of the track, at y = 0.
+  for (std::size_t k = 0; k < left.constraints.size(); ++k) CHECK(right.constraints[k].target == left.constraints[k].target);
+  for (std::size_t k = 0; k < left.connectors.size(); ++k) {
+    CHECK(right.connectors[k].stiffness == left.connectors[k].stiffness);
+    CHECK(right.connectors[k].area == left.connectors[k].area);
+  }
+}

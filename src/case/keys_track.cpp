@@ -66,7 +66,7 @@ std::vector<Key> joint_keys() {
       key("fishplates", &Track::fishplates,
           "a joint at the gap: fishplates `NAME_fishplate_left` (towards -y) and `NAME_fishplate_right` over both rails, and bolts, beams "
           "`NAME_bolt_1` ..., from a point beyond one plate to one beyond the other, `NAME_bolt_1_left` and `NAME_bolt_1_right`; beams of the "
-          "points' names spread each head over the nodes `bolt_1` of the plate. Bolts don't touch the web"),
+          "points' names spread each head over the nodes `bolt_1` of the plate. Bolts don't touch the web; plates have stiffness hourglass control"),
       key("fishplate_fit", &Track::fishplate_fit, "glued to the rails, or in contact; ties and contacts have the plates' names, behind the gap with _2")
           .one_of({"tie", "contact"}),
       key("fishplate_friction", &Track::fishplate_friction, "Coulomb coefficient of that contact").within(at_least(0)),

@@ -47,8 +47,8 @@ force = [0, 0, -5e4]
 [gravity]
 acceleration = [0, 0, -9.81]
 [settle]
-tolerance = 1e-5
-max_steps = 100000
+method = "newton"
+tolerance = 1e-6
 [time]
 end = 1e-5
 )";

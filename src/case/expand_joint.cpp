@@ -45,14 +45,10 @@ void add_plate(TrackEntries& entries, const std::string& material, RailSide side
   plate.gap_start = *track.gap_position - 0.5 * track.gap;
   plate.gap_end = *track.gap_position + 0.5 * track.gap;
   entries.add(scene.meshes, "meshes", mesh);
-  scene::Part part;
-  part.name = part.mesh = mesh.name;
-  part.material = track.fishplate_material.empty() ? material : track.fishplate_material;
-  part.position = track.position;
+  entries.add_part(mesh.name, mesh.name, track.fishplate_material.empty() ? material : track.fishplate_material, track.position);
   // Bolts press on single nodes, and go on doing so: viscous control would give way for ever.
-  part.hourglass = scene::HourglassType::stiffness;
-  part.hourglass_coefficient = 0.05;
-  entries.add(scene.parts, "parts", part);
+  scene.parts.back().hourglass = scene::HourglassType::stiffness;
+  scene.parts.back().hourglass_coefficient = 0.05;
 
   for (const char* behind : {"", "_2"}) {
     const auto fit = [&](auto one) {

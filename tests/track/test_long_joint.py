@@ -65,7 +65,7 @@ class OverTheGap(unittest.TestCase):
         self.assertEqual(len(self.bolts), 4)
         for force in self.bolts.values():
             self.assertLess(abs(force[0] / 12.5e3 - 1), 0.01)
-            self.assertLess(np.max(np.abs(force / 12.5e3 - 1)), 0.5)
+            self.assertLess(np.max(np.abs(force / 12.5e3 - 1)), 0.1)
 
     def test_energy_is_kept(self):
         largest = max(np.max(np.abs(self.energy[name])) for name in ("internal", "external_work"))

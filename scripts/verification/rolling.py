@@ -15,7 +15,7 @@ from verification.setting import RADIUS, Outcome, rolling_motion, steady, zone
 DATA = pathlib.Path(__file__).resolve().parents[2] / "data" / "contact"
 SPEED, HEIGHT, WAY, RADIUS_ACROSS = 40.0, 0.4598815, 0.050, 0.30
 # The pressed roller rolls freely on a radius that is smaller by this share, which `free` finds: half-spaces know nothing of it.
-FREE_ROLLING = 0.0
+FREE_ROLLING = 4.28e-5
 # Longitudinal, lateral, spin (1/m); friction. Some 55 % of the patch slip. Little friction lets little spin do that: the
 # roller, which turns with it on its way, stays almost straight.
 PURE = {"longitudinal": ((0.0040, 0, 0), 0.45), "lateral": ((0, 0.0045, 0), 0.45), "spin": ((0, 0, 0.35), 0.20)}

@@ -14,7 +14,6 @@
 #include "mesh/section_smoothing.hpp"
 
 namespace railwave {
-
 namespace {
 
 constexpr double widest_ring_at_side = 0.016;  // leaves the core and its wings room above the head's underside
@@ -44,14 +43,15 @@ class RailSectionBuilder {
     set_ideal_shapes(section_, size());
     smooth_section(section_);
     match_outline();
-    name_fishing_lines();
     return std::move(section_);
   }
 
  private:
   double size() const { return plan_.zone_size; }
+  std::vector<int>& fishing_line(int which, int side) {
+    return section_.lines[fishing_lines[which] + std::string(side == 0 ? "_left" : "_right")];
+  }
   double ring_depth() const { return size() * (plan_.zone_layers + transition_height); }
-
   double side_depth() const { return std::min(ring_depth(), widest_ring_at_side); }
 
   /// Arc length from the crown's middle to the point whose inclined lateral coordinate is y.
@@ -187,8 +187,8 @@ class RailSectionBuilder {
       under[side].push_back(section_.add_fixed_node(curve.end()));
     }
     for (int side = 0; side < 2; ++side) {
-      fishing_[side][0] = ring_end_[side];
-      fishing_[side][0].insert(fishing_[side][0].end(), under[side].begin() + 1, under[side].end());
+      auto& line = fishing_line(0, side) = ring_end_[side];
+      line.insert(line.end(), under[side].begin() + 1, under[side].end());
     }
     web_line_ = straight_line(section_, under[0].back(), under[1].back(), even_fractions(web));
     std::vector<int> bottom = under[0];
@@ -214,7 +214,7 @@ class RailSectionBuilder {
       for (std::size_t i = 1; i + 1 < fractions.size(); ++i)
         sides[side].push_back(section_.add_curve_node(half_[side].web, length * fractions[i]));
       sides[side].push_back(section_.add_fixed_node(section_.curves[half_[side].web].end()));
-      fishing_[side][1] = sides[side];
+      fishing_line(1, side) = sides[side];
     }
     const auto bottom = straight_line(section_, sides[0].back(), sides[1].back(), even_fractions(plan_.web_columns));
     fill_block(section_, web_line_, rows, {}, sides[0], sides[1], bottom, 1);
@@ -250,7 +250,7 @@ class RailSectionBuilder {
       const int columns = std::max(2, static_cast<int>(std::round(top_curve.length / (1.3 * plan_.section_size))));
       const int upper = section_.add_fixed_node(toe.begin()), lower = section_.add_fixed_node({toe.end().y, 0});
       std::vector<int> top = section_.add_curve_line(side_line[side].front(), half_[side].foot_top, columns, upper);
-      fishing_[side][2] = top;
+      fishing_line(2, side) = top;
       const std::vector<int> toe_line{upper, section_.add_curve_node(half_[side].toe, toe.length / 2), lower};
       if (side == 0) {
         std::reverse(top.begin(), top.end());
@@ -279,11 +279,6 @@ class RailSectionBuilder {
     match_outline_area(section_, sample_closed(joined({reversed(half), mirrored(half)}), 5e-5), kept);
   }
 
-  void name_fishing_lines() {
-    for (int side = 0; side < 2; ++side)
-      for (int i = 0; i < 3; ++i) section_.lines[fishing_lines[i] + std::string(side == 0 ? "_left" : "_right")] = fishing_[side][i];
-  }
-
   RailSectionPlan plan_;
   RailOutline outline_;
   Curve head_;  ///< from the head's lower left corner over the crown to the lower right one
@@ -295,7 +290,6 @@ class RailSectionBuilder {
   std::vector<Row> rows_, core_rows_;
   std::vector<BlockRow> ring_;
   std::vector<int> ring_end_[2], outer_[2], core_side_[2], core_top_, web_line_;
-  std::array<std::vector<int>, 3> fishing_[2];  ///< nodes from the head's lower corner to the toe, by `fishing_lines`
 };
 
 }  // namespace

@@ -96,8 +96,8 @@ TEST_CASE("a glued joint settles: its bolts have their pretension, the ballast c
   check_settled(model);
   const auto [before, behind] = deflections(model);
   INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
-  CHECK(before < behind);
-  CHECK(behind < 0.8 * before);
+  CHECK(behind / before < 1);
+  CHECK(behind / before > 0.985);
 }
 
 TEST_CASE("plates in contact carry the load over as well, with more give", "[long]") {
@@ -106,6 +106,6 @@ TEST_CASE("plates in contact carry the load over as well, with more give", "[lon
   check_settled(model);
   const auto [before, behind] = deflections(model);
   INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
-  CHECK(before < behind);
-  CHECK(behind < 0.5 * before);
+  CHECK(behind / before < 0.985);
+  CHECK(behind / before > 0.9);
 }

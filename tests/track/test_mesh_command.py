@@ -139,6 +139,16 @@ class MeshCommand(unittest.TestCase):
         self.assertIn("model-mesh.png", done.stdout)
         with open(self.path("model-mesh.png"), "rb") as file:
             self.assertEqual(file.read(4), b"\x89PNG")
+        place = [sys.executable, os.path.join(ROOT, "scripts", "picture"), "--mesh", "model.h5", "--reach", "0.2"]
+        done = run(*place, "--around", "0.2,0.1,0.2", folder=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("model-place.png", done.stdout)
+        done = run(*place, "--around", "9,9,9", folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has no element within 0.2 m of (9, 9, 9)", done.stderr)
+        done = run(*place, "--around", "here", folder=self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("three numbers are wanted", done.stderr)
         with h5py.File(self.path("other.h5"), "w"):
             pass
         done = run(sys.executable, os.path.join(ROOT, "scripts", "picture"), "--mesh", "other.h5", folder=self.folder)

@@ -248,16 +248,12 @@ void check_motion(void* entry, EntryCheck& check) {
   }
 }
 
-void check_prescribed(void* entry, EntryCheck& check) {
-  const auto& motion = *static_cast<scene::PrescribedMotion*>(entry);
-  if (check.given("displacement") != check.given("displacement_curve")) {
-    const bool without = check.given("displacement");
-    check.complain(without ? "displacement" : "displacement_curve",
-                   without ? "has no effect without displacement_curve, which says when; give that too, or leave displacement out"
-                           : "has no effect without displacement; give that too, or leave displacement_curve out");
-  }
-  if (check.sound({"directions"}) && !motion.directions[0] && !motion.directions[1] && !motion.directions[2])
-    check.complain("directions", "names no direction, so that nothing is prescribed; name some, or leave the section out");
+void check_prescribed(void* /*entry*/, EntryCheck& check) {
+  const bool displacement = check.given("displacement"), when = check.given("displacement_curve");
+  if (displacement && !when)
+    check.complain("displacement", "has no effect without displacement_curve, which says when; give that too, or leave displacement out");
+  if (when && !displacement)
+    check.complain("displacement_curve", "has no effect without displacement; give that too, or leave displacement_curve out");
 }
 
 void check_tie(void* entry, EntryCheck& check) {

@@ -56,12 +56,11 @@ void check_oscillator(const char* name, scene::Scene scene, const Oscillator& th
   std::vector<double> u;
   march(model, model.step_count, [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at(what))[axis]); });
   const double frequency = angular_frequency(u, model.step_size), decay = decay_rate(u, model.step_size);
-  INFO(name << ": " << frequency / (2 * M_PI) << " Hz, theory " << theory.frequency() / (2 * M_PI) << " Hz (" << 100 * (frequency / theory.frequency() - 1)
-            << " %); decay " << decay << " 1/s, theory " << theory.decay() << " 1/s (" << 100 * (decay / theory.decay() - 1) << " %)");
+  const auto percent = [](double found, double expected) { return 100 * (found / expected - 1); };
+  WARN(name << ": " << frequency / (2 * M_PI) << " Hz, theory " << theory.frequency() / (2 * M_PI) << " Hz (" << percent(frequency, theory.frequency())
+            << " %); decay " << decay << " 1/s, theory " << theory.decay() << " 1/s (" << percent(decay, theory.decay()) << " %)");
   CHECK_THAT(frequency, WithinRel(theory.frequency(), 1e-3));
   CHECK_THAT(decay, WithinRel(theory.decay(), 0.01));
-  WARN(name << ": " << frequency / (2 * M_PI) << " Hz, theory " << theory.frequency() / (2 * M_PI) << " Hz (" << 100 * (frequency / theory.frequency() - 1)
-            << " %); decay " << decay << " 1/s, theory " << theory.decay() << " 1/s (" << 100 * (decay / theory.decay() - 1) << " %)");
 }
 
 void hold_other_directions(scene::Scene& scene, const std::string& what, int axis) {
@@ -148,6 +147,9 @@ TEST_CASE("oscillator: a sleeper on its ballast", "[oscillators]") {
     keep(scene.constraints, {"track_bed_1", "track_centre_1"});
     const scene::Sleeper sleeper = case_file::sleeper_of(scene, kind);
     const auto material = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.name == scene.parts[0].material; });
+    // Dashpots take the velocity of half a step before: with share of critical d that is a mass less by the share d omega step. A sleeper
+    // alone would allow 20 us, 0.2 % off in frequency; runs go at the rail's step, a tenth of a microsecond or some.
+    scene.time.step = 2e-6;
     const double mass = material->density * *sleeper.width * *sleeper.half_length * *sleeper.height;
     check_oscillator((std::string("ballast, ") + kind).c_str(), scene, {mass, *sleeper.ballast_stiffness, *sleeper.ballast_damping}, "track_sleeper_1", 2);
   }

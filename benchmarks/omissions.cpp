@@ -71,6 +71,7 @@ std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std:
   prepared->name = variant.name;
   try {
     scene::Scene scene = rolling_scene(overrides);
+    scene.settle.method = scene::SettleMethod::relaxation;
     scene.settle.max_steps = options.settle_steps;
     variant.change(scene);
     build_model(scene, assembly, prepared->model);

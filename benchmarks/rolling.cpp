@@ -88,6 +88,7 @@ bool work(const Options& options, Records& records) {
     scene::Scene scene = rolling_scene(overrides);
     if (!options.settle) {
       scene.settle.active = options.settle_steps > 0;
+      scene.settle.method = scene::SettleMethod::relaxation;
       scene.settle.max_steps = options.settle_steps;
     }
     Assembly assembly = assemble(scene);

@@ -50,6 +50,7 @@ struct PressedCylinder {
     hold(made, "upper.far", {false, false, true});
     hold(made, "lower.far", {true, false, true});
     made.settle.active = true;
+    made.settle.method = scene::SettleMethod::relaxation;
     made.settle.tolerance = 2e-3;
     made.settle.max_steps = 20000;
     return made;

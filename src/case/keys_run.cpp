@@ -27,8 +27,9 @@ Section settle_section() {
   section.keys = {
       key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
       key("method", &Settle::method,
-          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held")
-          .one_of({"newton", "relaxation"}),
+          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held; `automatic` is "
+          "Newton's method, and relaxation from the start again where that does not settle")
+          .one_of({"automatic", "newton", "relaxation"}),
       key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),

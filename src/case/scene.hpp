@@ -352,12 +352,13 @@ struct Tie : Place {
   std::optional<double> max_distance;  ///< m from the master's faces; absent: a tenth of the face's shorter diagonal
 };
 
-enum class SettleMethod { newton, relaxation };
+/// automatic: Newton's method, and relaxation where that finds no equilibrium.
+enum class SettleMethod { automatic, newton, relaxation };
 
 /// Static equilibrium before the run; absent: the run starts from the undeformed mesh.
 struct Settle {
   bool active = false;
-  SettleMethod method = SettleMethod::relaxation;
+  SettleMethod method = SettleMethod::automatic;
   double tolerance = 1e-3;         ///< residual force over applied force at which it counts as settled
   int max_steps = 20000;
   bool friction = true;            ///< false: contacts are frictionless while the scene settles

@@ -1,9 +1,12 @@
 #include "solve/settle.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "case/error.hpp"
 #include "kernels/block_sum.hpp"
 #include "kernels/relaxation.hpp"
 #include "mesh/hexahedron.hpp"
@@ -110,7 +113,7 @@ class SettlingFriction {
   std::vector<double> own_;
 };
 
-SettleReport settle_by_relaxation(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle_by_relaxation(Model& model, int most_steps, const std::function<bool(const SettleReport&)>& go_on) {
   SettleReport report;
   const auto stages = force_stages(model);
   const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
@@ -122,7 +125,7 @@ SettleReport settle_by_relaxation(Model& model, const std::function<bool(const S
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;
-  for (report.steps = 0; report.steps < wish.max_steps; ++report.steps) {
+  for (report.steps = 0; report.steps < most_steps; ++report.steps) {
     model.step = report.steps;
     for (const Stage& stage : stages) stage.run(instant);
     Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
@@ -154,6 +157,39 @@ SettleReport settle_by_relaxation(Model& model, const std::function<bool(const S
   hold_ends(model, update.unbalanced);
   tighten_beams(model, false);
   return report;
+}
+
+/// Newton's method; where that finds no equilibrium, relaxation from where both began.
+SettleReport settle_automatically(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+  const StaticState start = take_static_state(model);
+  SettleReport newton;
+  bool stopped = false;
+  try {
+    newton = settle_by_newton(model, [&](const SettleReport& so_far) {
+      newton.steps = so_far.steps;
+      stopped = stopped || !go_on(so_far);
+      return !stopped;
+    });
+    if (newton.settled || stopped) return newton;
+  } catch (const InputError& error) {
+    newton.adrift = error.what();
+  }
+  lay_static_state(model, start);
+  SettleReport report = settle_by_relaxation(model, model.scene.settle.max_steps - newton.steps, go_on);
+  report.steps += newton.steps;
+  if (!report.settled) report.adrift = newton.adrift;
+  report.remarks.push_back(fmt::format("Newton's method did not settle it in {} evaluations{}{}; then it was left to relaxation, which holds "
+                                       "point masses where they are", newton.steps, newton.adrift.empty() ? "" : ": ", newton.adrift));
+  return report;
+}
+
+SettleReport settle_by(scene::SettleMethod method, Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+  switch (method) {
+    case scene::SettleMethod::automatic: return settle_automatically(model, go_on);
+    case scene::SettleMethod::newton: return settle_by_newton(model, go_on);
+    case scene::SettleMethod::relaxation: break;
+  }
+  return settle_by_relaxation(model, model.scene.settle.max_steps, go_on);
 }
 
 }  // namespace
@@ -190,8 +226,7 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
   SettleReport report;
   {
     const SettlingFriction friction(model, model.scene.settle.friction);
-    const bool newton = model.scene.settle.method == scene::SettleMethod::newton;
-    report = newton ? settle_by_newton(model, go_on) : settle_by_relaxation(model, go_on);
+    report = settle_by(model.scene.settle.method, model, go_on);
   }
   // The run starts from what a file of the state would hold, and from nothing else.
   lay_static_state(model, take_static_state(model));

@@ -18,10 +18,11 @@ struct SettleReport {
   std::string adrift;     ///< where it didn't settle: what is not in equilibrium as a whole; empty: nothing, or not known
   std::string taken_from;  ///< file that the settled state comes from; nothing was computed then
   std::string begun_from;  ///< file of an unfinished state from which it went on
-  std::vector<std::string> remarks;  ///< on the files of settled states
+  std::vector<std::string> remarks;  ///< on the method, and on the files of settled states
 };
 
-/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.hpp) or by dynamic relaxation with kinetic damping (velocities are reset at every
+/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.hpp), and where that finds none or the case asks for it
+/// by dynamic relaxation with kinetic damping (velocities are reset at every
 /// peak of the kinetic energy) and a little local damping: the state from which the run starts. Bodies that
 /// will rotate (initial_motion) are loaded by the centrifugal field of that rotation, so that the start of rolling does
 /// not ring. In a relaxation point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.

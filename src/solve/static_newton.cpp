@@ -1,13 +1,8 @@
 #include "solve/static_newton.hpp"
 
-#include <fmt/format.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "case/error.hpp"
 #include "kernels/block_sum.hpp"
 #include "model/beams.hpp"
 #include "model/host_copy.hpp"
@@ -16,6 +11,7 @@
 #include "solve/settle_parts.hpp"
 #include "solve/static_coarse.hpp"
 #include "solve/static_contact.hpp"
+#include "solve/static_drift.hpp"
 #include "solve/static_tangent.hpp"
 #include "solve/static_unknowns.hpp"
 
@@ -67,7 +63,7 @@ class Newton {
     contact_.keep();
     Measure now = evaluate();
     if (contact_.any()) shift_ = most_shift;
-    refuse_drifting_points(now);
+    refuse_drifting_points(model_, residual_.residual, now.applied);
     double best = 1e300;
     int idle = 0;
     for (;; ++report_.iterations) {
@@ -93,7 +89,7 @@ class Newton {
       if (!find_step(now)) break;
       now = go(now.unbalance);
     }
-    if (!report_.settled) report_.adrift = what_drifts(now);
+    if (!report_.settled) report_.adrift = what_drifts(model_, residual_.residual, now.applied);
     hold_ends();
     tighten_beams(model_, false);
     return report_;
@@ -230,61 +226,6 @@ class Newton {
     if (model_.ends.nodes.empty()) return;
     Kokkos::parallel_for("static_reaction", nodes(), StaticReaction{residual_, image_});
     railwave::hold_ends(model_, image_);
-  }
-
-  /// A point mass has no shape to lean on: springs and constraints must hold it against its load.
-  void refuse_drifting_points(const Measure& now) const {
-    const auto residual = to_host(residual_.residual);
-    SpringCollector springs(model_);
-    springs.add_connectors();
-    for (std::size_t k = 0; k < model_.assembly.point_nodes.size(); ++k) {
-      const int n = model_.assembly.point_nodes[k];
-      if (model_.beams && model_.beams->number[n] >= 0) continue;
-      Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-      for (std::size_t s = 0; s < springs.count(); ++s)
-        for (int j = springs.first()[s]; j < springs.first()[s + 1]; ++j)
-          if (springs.node()[j] == n) {
-            const Eigen::Vector3d d(springs.share()[j].data());
-            held += springs.stiffness()[s] * d * d.transpose();
-          }
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
-      for (int m = 0; m < 3; ++m) {
-        const Eigen::Vector3d direction = eigen.eigenvectors().col(m);
-        const double force = direction.dot(Eigen::Vector3d(residual(n, 0), residual(n, 1), residual(n, 2)));
-        if (eigen.eigenvalues()[m] > 1e-9 * eigen.eigenvalues()[2]) continue;
-        if (std::fabs(force) <= model_.scene.settle.tolerance * now.applied) continue;
-        const scene::PointMass& point = model_.scene.points[k];
-        throw InputError(fmt::format(
-            "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), where no "
-            "connector is stiff; give one a stiffness there, preload it by that force, or constrain the point",
-            model_.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
-      }
-    }
-  }
-
-  /// The part or beam on which the largest force is left, if that is more than rounding leaves of deformation.
-  std::string what_drifts(const Measure& now) const {
-    const auto residual = to_host(residual_.residual);
-    std::string worst;
-    double largest = model_.scene.settle.tolerance * now.applied;
-    const auto look = [&](const std::string& what, const std::vector<int>& nodes) {
-      Vec3 sum{};
-      for (int n : nodes)
-        for (int i = 0; i < 3; ++i) sum[i] += residual(n, i);
-      const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
-      if (!(size > largest)) return;
-      largest = size;
-      worst = fmt::format("{} is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not met "
-                          "what will", what, sum[0], sum[1], sum[2]);
-    };
-    for (const auto& part : model_.assembly.parts) {
-      std::vector<int> nodes(part.node_count);
-      std::iota(nodes.begin(), nodes.end(), part.first_node);
-      look("part '" + part.name + "'", nodes);
-    }
-    for (const Assembly::BeamChain& chain : model_.assembly.beam_chains)
-      look("a beam of '" + model_.scene.beams[chain.beam].name + "'", chain.nodes);
-    return worst;
   }
 
   Model& model_;

@@ -30,7 +30,7 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
     const std::string trouble = states->keep(model, state);
     if (!trouble.empty()) remarks.push_back("the settled state could not be kept: " + trouble);
   }
-  report.remarks = remarks;
+  report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
   report.begun_from = begun_from;
   return report;
 }

@@ -199,3 +199,30 @@ TEST_CASE("what hangs on beams that nothing holds is named", "[static]") {
   CHECK_FALSE(report.settled);
   CHECK(report.adrift.find("'block'") != std::string::npos);
 }
+
+TEST_CASE("unless told otherwise a scene settles by Newton's method, and by relaxation where a point mass would drift away", "[static]") {
+  scene::Scene scene = block_between_ends();
+  scene.settle.active = true;
+  scene.settle.tolerance = 1e-6;
+  scene.settle.max_steps = 100000;
+  {
+    Model model;
+    build_model(scene, model);
+    const SettleReport report = settle_whole(model);
+    CHECK(report.settled);
+    CHECK(report.iterations > 0);
+    CHECK(report.remarks.empty());
+  }
+  scene.points.push_back(massless("body", {0.1, 0.025, 0.5}));
+  scene.points.back().mass = 10;
+  scene.gravity = {0, 0, -9.81};
+  Model model;
+  build_model(scene, model);
+  const SettleReport report = settle_whole(model);
+  CHECK(report.settled);
+  CHECK(report.iterations == 0);
+  REQUIRE(report.remarks.size() == 1);
+  CHECK(report.remarks[0].find("[points.body]") != std::string::npos);
+  CHECK(report.remarks[0].find("holds point masses") != std::string::npos);
+  for (double u : node_field(model, NodeField::displacement, model.assembly.point_nodes).values) CHECK(u == 0);
+}

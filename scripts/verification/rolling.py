@@ -101,7 +101,10 @@ def exact_set(letter, hertz, force, solution):
     else:
         scale, source = hertz.a / Hertz(row["normal_N"], RADIUS, RADIUS_ACROSS).a, "CONTACT"
         grid = (grid[0] * scale, grid[1] * scale, grid[2] * scale)
-    return Exact(np.hypot(*wished) / 0.45 / row["normal_N"], np.arctan2(*wished[::-1]), given, np.hypot(*found), row["adhesion_share"], grid, source)
+    # Of the normal force that came out: at the set's own these creepages leave another share.
+    at_set = SteadyRolling(Hertz(row["normal_N"], RADIUS, RADIUS_ACROSS), 0.45, solution.creepages, solution.cells)
+    stick = row["adhesion_share"] * solution.stick_share / at_set.stick_share
+    return Exact(np.hypot(*wished) / 0.45 / row["normal_N"], np.arctan2(*wished[::-1]), given, np.hypot(*found), stick, grid, source)
 
 
 def exact_pure(name, hertz, force, solution):

@@ -68,22 +68,11 @@ def run(*arguments, folder):
 def blocks(path, time=None):
     """Grids by name, as ParaView's reader finds them, and its complaints; None without that reader."""
     try:
-        from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-        from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+        import vtk_reader
     except ImportError:
         return None, ""
-    complaints = vtkStringOutputWindow()
-    vtkOutputWindow.SetInstance(complaints)
-    reader = vtkXdmfReader()
-    reader.SetFileName(path)
-    reader.UpdateInformation()
-    if time is None:
-        reader.Update()
-    else:
-        reader.UpdateTimeStep(time)
-    data = reader.GetOutputDataObject(0)
-    found = {data.GetMetaData(i).Get(data.NAME()).split("[")[0]: data.GetBlock(i) for i in range(data.GetNumberOfBlocks())}
-    return found, complaints.GetOutput() or ""
+    reader, complaints = vtk_reader.opened(path)
+    return vtk_reader.grids(reader, time), complaints.GetOutput() or ""
 
 
 class Beams(unittest.TestCase):

@@ -13,10 +13,10 @@ SKIPPED = 77  # ctest shows this exit status as "skipped"
 
 try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
     from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON, VTK_QUAD, vtkDataObject
     from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
-    from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+    from vtk_reader import grids as blocks
+    from vtk_reader import opened
 except ImportError as error:
     print("\n" + "=" * 80)
     print(f"NOT TESTED: the XDMF companion. {sys.executable} has no VTK with the XDMF reader ({error}).")
@@ -27,24 +27,10 @@ except ImportError as error:
 
 def read(path):
     """The reader, the output times, and what the reader complained of while it was asked."""
-    complaints = vtkStringOutputWindow()
-    vtkOutputWindow.SetInstance(complaints)
-    reader = vtkXdmfReader()
-    reader.SetFileName(path)
-    reader.UpdateInformation()
+    reader, complaints = opened(path)
     info = reader.GetOutputInformation(0)
     key = vtkStreamingDemandDrivenPipeline.TIME_STEPS()
     return reader, [info.Get(key, i) for i in range(info.Length(key))], complaints
-
-
-def blocks(reader, time):
-    reader.UpdateTimeStep(time)
-    data = reader.GetOutputDataObject(0)
-    found = {}
-    for i in range(data.GetNumberOfBlocks()):
-        name = data.GetMetaData(i).Get(data.NAME())
-        found[name.split("[")[0]] = data.GetBlock(i)
-    return found
 
 
 def array(data, name):

@@ -115,18 +115,7 @@ TEST_CASE("Newton's method settles tied blocks, with a gap between them or none"
 
 TEST_CASE("stress goes through a tie unchanged when Newton's method has settled it", "[static]") {
   const TiedBlocks blocks;
-  scene::Scene scene = blocks.scene(1e-5);
-  for (const char* part : {"coarse", "fine"}) {
-    hold(scene, std::string(part) + ".x_min", {true, false, false});
-    hold(scene, std::string(part) + ".y_min", {false, true, false});
-  }
-  hold(scene, "coarse.z_min", {false, false, true});
-  scene::Load load;
-  load.name = "pull";
-  load.type = scene::LoadType::traction;
-  load.target = "fine.z_max";
-  load.traction = {0, 0, 1e6};
-  scene.loads.push_back(load);
+  scene::Scene scene = blocks.pulled();
   Model model;
   settled(scene, scene::SettleMethod::newton, 1e-8, model);
   const auto stress = element_stress(model, all_elements(model)).values;

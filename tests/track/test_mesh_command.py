@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 ROOT = os.environ["RAILWAVE_SOURCE_DIR"]
+sys.path.insert(0, os.path.join(ROOT, "tests", "output"))
 PROGRAM = os.path.join(os.environ["RAILWAVE_BIN_DIR"], "railwave")
 
 CASE = """
@@ -115,17 +116,11 @@ class MeshCommand(unittest.TestCase):
 
     def test_paraview_reads_it(self):
         try:
-            from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
-            from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
+            import vtk_reader
         except ImportError:
             self.skipTest("no VTK with the XDMF reader")
-        complaints = vtkStringOutputWindow()
-        vtkOutputWindow.SetInstance(complaints)
-        reader = vtkXdmfReader()
-        reader.SetFileName(self.path("model.xdmf"))
-        reader.Update()
-        data = reader.GetOutputDataObject(0)
-        found = {data.GetMetaData(i).Get(data.NAME()): data.GetBlock(i) for i in range(data.GetNumberOfBlocks())}
+        reader, complaints = vtk_reader.opened(self.path("model.xdmf"))
+        found = vtk_reader.grids(reader)
         self.assertEqual(complaints.GetOutput() or "", "")
         self.assertEqual(found["below"].GetNumberOfCells(), 8)
         self.assertIsNotNone(found["below"].GetCellData().GetArray("step_ratio"))

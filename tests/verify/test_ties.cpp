@@ -11,18 +11,7 @@ namespace {
 
 /// Largest deviation of the settled blocks' stress from the one under uniaxial traction along z, relative to it.
 double patch_error(const TiedBlocks& blocks) {
-  scene::Scene scene = blocks.scene(1e-5);
-  for (const char* part : {"coarse", "fine"}) {
-    hold(scene, std::string(part) + ".x_min", {true, false, false});
-    hold(scene, std::string(part) + ".y_min", {false, true, false});
-  }
-  hold(scene, "coarse.z_min", {false, false, true});
-  scene::Load load;
-  load.name = "pull";
-  load.type = scene::LoadType::traction;
-  load.target = "fine.z_max";
-  load.traction = {0, 0, 1e6};
-  scene.loads.push_back(load);
+  scene::Scene scene = blocks.pulled();
   scene.settle.active = true;
   scene.settle.tolerance = 1e-8;
   scene.settle.max_steps = 100000;

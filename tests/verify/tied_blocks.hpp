@@ -32,6 +32,23 @@ struct TiedBlocks {
     made.ties.push_back(tie);
     return made;
   }
+
+  /// Pulled along z with 1 MPa, free to contract: the stress is uniaxial everywhere.
+  scene::Scene pulled() const {
+    scene::Scene made = scene(1e-5);
+    for (const char* part : {"coarse", "fine"}) {
+      hold(made, std::string(part) + ".x_min", {true, false, false});
+      hold(made, std::string(part) + ".y_min", {false, true, false});
+    }
+    hold(made, "coarse.z_min", {false, false, true});
+    scene::Load load;
+    load.name = "pull";
+    load.type = scene::LoadType::traction;
+    load.target = "fine.z_max";
+    load.traction = {0, 0, 1e6};
+    made.loads.push_back(load);
+    return made;
+  }
 };
 
 /// Masses as the scheme uses them.

@@ -1,13 +1,10 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
+#include <sstream>
 
-#include <unistd.h>
-
-#include "case/read_case.hpp"
 #include "solve/beams.hpp"
+#include "tests/case/temporary_case.hpp"
 #include "tests/verify/march.hpp"
 
 using namespace railwave;
@@ -21,8 +18,8 @@ constexpr double weight = 5e4;
 
 /// The joint on its two timber sleepers alone, as coarse as it may be, a weight on the rail's end before the gap.
 scene::Scene joint(const std::string& keys, const std::string& settle) {
-  const auto path = std::filesystem::temp_directory_path() / ("railwave_joint_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(path) << R"([tracks.track]
+  std::ostringstream text;
+  text << R"([tracks.track]
 start = -0.4
 end = 0.4
 gap_position = 0
@@ -51,9 +48,7 @@ acceleration = [0, 0, -9.81]
 [time]
 end = 1e-5
 )";
-  scene::Scene scene = read_case(path.string());
-  std::filesystem::remove(path);
-  return scene;
+  return read_case(test::TemporaryCase(text.str()).path());
 }
 
 double ballast_force(const Model& model) {

@@ -1,13 +1,10 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
+#include <sstream>
 
 #include "case/expand_tracks.hpp"
-#include "case/read_case.hpp"
+#include "tests/case/temporary_case.hpp"
 #include "tests/verify/march.hpp"
 
 using namespace railwave;
@@ -85,11 +82,9 @@ scene::Scene held_block() {
 
 /// A track of one sleeper of that kind under a short rail.
 scene::Scene one_sleeper(const std::string& kind) {
-  const auto path = std::filesystem::temp_directory_path() / ("railwave_sleeper_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(path) << "[tracks.track]\nstart = -0.3\nend = 0.3\nzone_start = -0.05\nzone_end = 0.05\nsleeper = \"" << kind << "\"\n[time]\nend = 1\n";
-  scene::Scene scene = read_case(path.string());
-  std::filesystem::remove(path);
-  return scene;
+  std::ostringstream text;
+  text << "[tracks.track]\nstart = -0.3\nend = 0.3\nzone_start = -0.05\nzone_end = 0.05\nsleeper = \"" << kind << "\"\n[time]\nend = 1\n";
+  return read_case(test::TemporaryCase(text.str()).path());
 }
 
 template <class Entry>

@@ -1,11 +1,8 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <filesystem>
-#include <fstream>
+#include <sstream>
 
-#include <unistd.h>
-
-#include "case/read_case.hpp"
+#include "tests/case/temporary_case.hpp"
 #include "tests/track/beam_on_supports.hpp"
 #include "tests/verify/march.hpp"
 
@@ -18,8 +15,8 @@ namespace {
 
 /// A short half track of table 4.1, as coarse as it may be, with a vertical load on the rail above or between sleepers.
 scene::Scene loaded_track(const std::string& load_place, double force) {
-  const auto path = std::filesystem::temp_directory_path() / ("railwave_track_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(path) << R"([tracks.track]
+  std::ostringstream text;
+  text << R"([tracks.track]
 start = -2.4
 end = 2.4
 first_sleeper = -2.1
@@ -44,9 +41,7 @@ max_steps = 60000
 [time]
 end = 1e-5
 )";
-  scene::Scene scene = read_case(path.string());
-  std::filesystem::remove(path);
-  return scene;
+  return read_case(test::TemporaryCase(text.str()).path());
 }
 
 void check_deflection(double load_place, const std::string& box) {

@@ -170,7 +170,7 @@ struct FishplateMesh {
   double end = 0.3;
   double thickness = 0.02;         ///< m, from the web's thinnest place outwards
   double clearance = 0;            ///< m, between web and plate
-  std::optional<double> size;      ///< m, elements along x; absent: 3 zone_size of the rail
+  std::optional<double> size;      ///< m, elements along x; absent: 3 zone_size of the rail, 1 where it reaches the layers of that size
   std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
 };
 

@@ -95,7 +95,8 @@ void add_bolt(TrackEntries& entries, const std::string& material, double x, int 
     const Vec3 middle = placed(track, x, side, outside, z);
     // However coarse the plate is, some nodes must be under the head.
     const Vec3 half{std::max(head_reach * d, 0.51 * track.fishplate_size.value_or(3 * track.rail.zone_size)), wide, std::max(head_reach * d, 0.75 * track.rail.section_size)};
-    for (int i = 0; i < 3; ++i) head.box[0][i] = middle[i] - half[i], head.box[1][i] = middle[i] + half[i];
+    head.box.emplace();
+    for (int i = 0; i < 3; ++i) (*head.box)[0][i] = middle[i] - half[i], (*head.box)[1][i] = middle[i] + half[i];
     // Both plates have a set of this name.
     head.line = track.line;
     scene.node_sets.push_back(head);

@@ -50,6 +50,10 @@ double curve_value(const scene::Curve* curve, double time) {
       return 0.5 * (1 - std::cos(M_PI * (time - curve->start) / curve->duration));
     }
     case scene::CurveType::table: return table_value(curve->points, time);
+    case scene::CurveType::half_sine: {
+      const double since = time - curve->start;
+      return since <= 0 || since >= curve->duration ? 0.0 : std::sin(M_PI * since / curve->duration);
+    }
   }
   return 1;
 }
@@ -68,6 +72,13 @@ double curve_integral(const scene::Curve* curve, double time) {
       return primitive(time) - primitive(0);
     }
     case scene::CurveType::table: return table_integral(curve->points, time);
+    case scene::CurveType::half_sine: {
+      const auto primitive = [&](double t) {
+        const double since = std::min(std::max(t - curve->start, 0.0), curve->duration);
+        return curve->duration / M_PI * (1 - std::cos(M_PI * since / curve->duration));
+      };
+      return primitive(time) - primitive(0);
+    }
   }
   return time;
 }

@@ -39,13 +39,13 @@ void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
     std::vector<int> nodes;
     int nearest = candidates.front();
     for (int n : candidates) {
-      if (distance(set.box, assembly.nodes[n]) <= slack) nodes.push_back(n);
-      if (distance(set.box, assembly.nodes[n]) < distance(set.box, assembly.nodes[nearest])) nearest = n;
+      if (distance(*set.box, assembly.nodes[n]) <= slack) nodes.push_back(n);
+      if (distance(*set.box, assembly.nodes[n]) < distance(*set.box, assembly.nodes[nearest])) nearest = n;
     }
     if (nodes.empty())
       throw InputError(fmt::format("{} box: no node of '{}' is in it; the nearest is at {} m, {:.4g} m away", where,
                                    of_surface ? set.part + "." + set.surface : set.part, text_of(assembly.nodes[nearest]),
-                                   distance(set.box, assembly.nodes[nearest])));
+                                   distance(*set.box, assembly.nodes[nearest])));
     std::sort(nodes.begin(), nodes.end());
     if (of_surface) {
       std::vector<Face> faces;

@@ -91,7 +91,7 @@ struct CarriedListedUpdate {
     const bool special = node.node < 0;
     const CarrierStep& carrier = advance.nodes.carrier(own.carrier);
     const int r = special ? wide.extra(n) : -1;
-    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows(rows.extra.loaded_of_row(r));
+    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows.gather<1>(rows.extra.loaded_of_row(r));
     float a[3];
     advance.acceleration(advance.nodes.node(n).inverse_mass, acceleration.force(node), a);
     if (special) {

@@ -19,7 +19,7 @@ struct ListedNodeUpdate {
     const double inverse_mass = 1.0 / advance.nodes.mass(n);
     const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
     const int r = node.node < 0 ? advance.nodes.extra(n) : -1;
-    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows(rows.extra.loaded_of_row(r));
+    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows.gather<1>(rows.extra.loaded_of_row(r));
     Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
     if (node.node < 0) a = acceleration.constrain(n, a);
     advance.move(n, a, x, v);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/batches.hpp"
 #include "kernels/connector.hpp"
 #include "kernels/extra_force.hpp"
 #include "kernels/torque.hpp"
@@ -14,11 +15,15 @@ struct RowLoads {
   Array<const double* [3]> position, velocity;
   double elapsed;  ///< s since the last step
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(i); }
+
+  /// @tparam batch one where a kernel does much else: batches take registers
+  template <int batch>
+  KOKKOS_INLINE_FUNCTION void gather(const int i) const {
     const LoadedRow loaded = extra.loaded(i);
-    Vector3 sum{{0, 0, 0}};
-    for (int k = loaded.first; k < loaded.last; ++k) sum = sum + value(extra.shares(k), loaded.node);
+    const Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last, [&](int k) { return value(extra.shares(k), loaded.node); });
     for (int c = 0; c < 3; ++c) extra.sum.load(loaded.row, c) = sum[c];
+    if (torques.count > 0) book_torques(loaded);
   }
 
   KOKKOS_INLINE_FUNCTION Vector3 value(const RowShare& share, int node) const {
@@ -26,9 +31,14 @@ struct RowLoads {
     if (share.law < connectors.count) return share.weight * row(connectors.force, share.law);
     const int t = share.law - connectors.count;
     const Vector3 arm = row(position, node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
-    const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
-    set_contribution(extra, velocity, share.contribution, force, elapsed);
-    return force;
+    return (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
+  }
+
+  KOKKOS_INLINE_FUNCTION void book_torques(const LoadedRow& loaded) const {
+    for (int k = loaded.first; k < loaded.last; ++k) {
+      const RowShare share = extra.shares(k);
+      if (share.law >= connectors.count) set_contribution(extra, velocity, share.contribution, value(share, loaded.node), elapsed);
+    }
   }
 };
 
@@ -44,18 +54,36 @@ struct SetLoads {
   template <class Member>
   KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
     const int rank = team.team_rank(), size = team.team_size();
-    for (int c = rank; c < static_cast<int>(sets.sets.chunks.extent(0)); c += size) sets.sum_chunk(c);
+    for (int c = rank; c < chunk_count(); c += size) sets.sum_chunk(c);
     team.team_barrier();
-    for (int k = rank; k < sets.sets.moving * NodeSets::values; k += size) sets.add_chunks(k);
+    for (int k = rank; k < sum_count(); k += size) sets.add_chunks(k);
     team.team_barrier();
-    const int laws = connectors.connectors.count + torques.torques.count;
-    for (int k = rank; k < laws; k += size) {
-      if (k < connectors.connectors.count) connectors(k);
-      else torques(k - connectors.connectors.count);
-    }
+    for (int k = rank; k < law_count(); k += size) law(k);
     team.team_barrier();
-    for (int k = rank; k < row_count; k += size) rows(k);
+    for (int k = rank; k < row_count; k += size) rows.template gather<1>(k);
   }
+
+  KOKKOS_INLINE_FUNCTION int chunk_count() const { return static_cast<int>(sets.sets.chunks.extent(0)); }
+  KOKKOS_INLINE_FUNCTION int sum_count() const { return sets.sets.moving * NodeSets::values; }
+  KOKKOS_INLINE_FUNCTION int law_count() const { return connectors.connectors.count + torques.torques.count; }
+  KOKKOS_INLINE_FUNCTION void law(int k) const {
+    if (k < connectors.connectors.count) connectors(k);
+    else torques(k - connectors.connectors.count);
+  }
+};
+
+/// The same work where the sets are too many for a team: one of these after another, each in a launch of its own.
+struct SetChunks {
+  SetLoads all;
+  KOKKOS_INLINE_FUNCTION void operator()(const int c) const { all.sets.sum_chunk(c); }
+};
+struct SetSums {
+  SetLoads all;
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const { all.sets.add_chunks(k); }
+};
+struct SetLaws {
+  SetLoads all;
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const { all.law(k); }
 };
 
 }  // namespace railwave

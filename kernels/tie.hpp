@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/batches.hpp"
 #include "kernels/carried_nodes.hpp"
 
 /// Ties between meshes that need not match. A slave node keeps its place over a face of the master,
@@ -32,13 +33,19 @@ struct alignas(16) TiedPlace {
   }
 };
 
+/// What a master node has of a slave.
+struct alignas(16) TieShare {
+  int slave, unused;
+  double weight, slope_xi, slope_eta;  ///< of the node in the slave's face
+};
+
 struct TieArrays {
   int slave_count = 0, master_count = 0;
   Array<TiedPlace*> places;        ///< by slave
   Array<int*> master_nodes;
   Array<int*> master_rows;         ///< of the extra forces
   Array<int*> first_share;         ///< master_count + 1
-  Array<int* [2]> shares;          ///< slave, and which corner of its face the master node is
+  Array<TieShare*> shares;
   Array<double* [9]> passed_on;    ///< N by slave: its force; what turns the face's normal, for slopes along xi and eta
   Array<double* [3]> before;       ///< m, where the slave is at the present instant
 
@@ -81,14 +88,14 @@ struct TieGather {
   Array<double* [3]> sum;       ///< N
 
   KOKKOS_INLINE_FUNCTION void operator()(const int m) const {
-    Vector3 total = row(sum, target(m));
-    for (int i = ties.first_share(m); i < ties.first_share(m + 1); ++i) {
-      const int s = ties.shares(i, 0), corner = ties.shares(i, 1);
-      const TiedPlace& tied = ties.places(s);
+    const Vector3 total = add_in_batches<batch_of_few_threads>(row(sum, target(m)), ties.first_share(m), ties.first_share(m + 1), [&](int i) {
+      const TieShare share = ties.shares(i);
+      Vector3 part;
       for (int k = 0; k < 3; ++k)
-        total[k] += tied.weight[corner] * ties.passed_on(s, k) + tied.slope_xi[corner] * ties.passed_on(s, 3 + k) +
-                    tied.slope_eta[corner] * ties.passed_on(s, 6 + k);
-    }
+        part[k] = share.weight * ties.passed_on(share.slave, k) + share.slope_xi * ties.passed_on(share.slave, 3 + k) +
+                  share.slope_eta * ties.passed_on(share.slave, 6 + k);
+      return part;
+    });
     for (int k = 0; k < 3; ++k) sum(target(m), k) = total[k];
   }
 };

@@ -214,14 +214,15 @@ void build_tie_arrays(Model& model) {
   for (const TiedPlace& tied : ties.places) ties.masters.insert(ties.masters.end(), tied.face, tied.face + 4);
   std::sort(ties.masters.begin(), ties.masters.end());
   ties.masters.erase(std::unique(ties.masters.begin(), ties.masters.end()), ties.masters.end());
-  std::vector<std::vector<std::array<int, 2>>> of_master(ties.masters.size());
+  std::vector<std::vector<TieShare>> of_master(ties.masters.size());
   for (std::size_t s = 0; s < ties.places.size(); ++s)
     for (int k = 0; k < 4; ++k) {
-      const auto place = std::lower_bound(ties.masters.begin(), ties.masters.end(), ties.places[s].face[k]);
-      of_master[place - ties.masters.begin()].push_back({static_cast<int>(s), k});
+      const TiedPlace& tied = ties.places[s];
+      const auto place = std::lower_bound(ties.masters.begin(), ties.masters.end(), tied.face[k]);
+      of_master[place - ties.masters.begin()].push_back({static_cast<int>(s), 0, tied.weight[k], tied.slope_xi[k], tied.slope_eta[k]});
     }
   std::vector<int> first{0};
-  std::vector<std::array<int, 2>> shares;
+  std::vector<TieShare> shares;
   for (const auto& own : of_master) {
     shares.insert(shares.end(), own.begin(), own.end());
     first.push_back(static_cast<int>(shares.size()));

@@ -2,6 +2,16 @@
 
 namespace railwave {
 
+bool few_sets(const Model& model) {
+  constexpr int most_sums = 2048;
+  return model.sets.moving * NodeSets::values <= most_sums;
+}
+
+bool few_rows(const Model& model) {
+  constexpr int most_rows = 4096;
+  return few_sets(model) && model.extra.loaded_count <= most_rows;
+}
+
 bool go_together(const Model& model, const Instant& instant) {
   if (!on_device || !instant.advancing || instant.settling || model.contacts.size() != 1) return false;
   if (model.contacts.front().law.active) return false;
@@ -12,7 +22,8 @@ bool go_together(const Model& model, const Instant& instant) {
 bool sets_go_along(const Model& model, const Instant& instant) {
   // Ties and non-reflecting ends must find the loads where they add to them.
   const bool added_to = model.ties.arrays.active() || model.ends.arrays.count > 0;
-  return go_together(model, instant) && model.sets.moving > 0 && model.subcycling.levels == 1 && model.prescribed.empty() && !added_to;
+  return go_together(model, instant) && model.sets.moving > 0 && few_sets(model) && model.subcycling.levels == 1 &&
+         model.prescribed.empty() && !added_to;
 }
 
 RowLoads row_loads(const Model& model, double elapsed) {
@@ -30,7 +41,7 @@ SetLoads set_loads(const Model& model, const Instant& instant) {
   for (const LoadArrays& load : model.loads)
     if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
   const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
-  const bool here = !sets_go_along(model, instant) && model.extra.loaded_count <= most_rows_of_a_team;
+  const bool here = !sets_go_along(model, instant) && few_rows(model);
   return {motion, connectors, torques, row_loads(model, instant.elapsed), here ? model.extra.loaded_count : 0};
 }
 

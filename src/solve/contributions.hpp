@@ -6,8 +6,10 @@
 
 namespace railwave {
 
-/// More rows than this are not for one team.
-inline constexpr int most_rows_of_a_team = 4096;
+/// Whether the sets of connectors and torques are few enough for one team, which spares launches; and with them the rows that
+/// feel these.
+bool few_sets(const Model& model);
+bool few_rows(const Model& model);
 
 /// What contact's springs and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at the
 /// parts, and where such elements take every step. Not springs of any law but the plain one.

@@ -92,18 +92,26 @@ Stage load_stage(const Model& model, const LoadArrays& load) {
 using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
 using RowRange = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 
-/// Connectors, torques, and the gather of all loads: one launch, or two where many nodes are loaded.
+/// Sums over sets, and what follows from them.
+void launch_set_loads(const Model& model, const SetLoads& all) {
+  if (few_sets(model)) return Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), all);
+  Kokkos::parallel_for("set_chunks", RowRange(0, all.chunk_count()), SetChunks{all});
+  Kokkos::parallel_for("set_sums", RowRange(0, all.sum_count()), SetSums{all});
+  Kokkos::parallel_for("set_laws", RowRange(0, all.law_count()), SetLaws{all});
+}
+
+/// Connectors, torques, and the gather of all loads: one launch where they are few.
 Stage set_load_stage(Model& model) {
-  const bool sets = model.sets.moving > 0, many = model.extra.loaded_count > most_rows_of_a_team;
+  const bool sets = model.sets.moving > 0, rows_are_left = !sets || !few_rows(model);
   std::string name = model.extra.contribution_count > 0 ? "gather of loads" : "clearing of loads";
   if (model.torques.count > 0) name = "torques, " + name;
   if (model.connectors.arrays.count > 0) name = "connectors, " + name;
-  return {name, [&model, sets, many](const Instant& instant) {
+  return {name, [&model, sets, rows_are_left](const Instant& instant) {
             model.rows_are_due = sets_go_along(model, instant);
             model.rows_elapsed = instant.elapsed;
             if (model.rows_are_due) return;
-            if (sets) Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), set_loads(model, instant));
-            if (!sets || many)
+            if (sets) launch_set_loads(model, set_loads(model, instant));
+            if (rows_are_left)
               Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
           }};
 }

@@ -21,24 +21,32 @@ struct RowLoads {
   template <int batch>
   KOKKOS_INLINE_FUNCTION void gather(const int i) const {
     const LoadedRow loaded = extra.loaded(i);
-    const Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last, [&](int k) { return value(extra.shares(k), loaded.node); });
+    Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last, [&](int k) { return without_torque(extra.shares(k)); });
+    if (torques.count > 0) sum = sum + torque_forces(loaded);
     for (int c = 0; c < 3; ++c) extra.sum.load(loaded.row, c) = sum[c];
-    if (torques.count > 0) book_torques(loaded);
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 value(const RowShare& share, int node) const {
-    if (share.law == RowShare::given) return row(extra.contribution, share.contribution);
-    if (share.law < connectors.count) return share.weight * row(connectors.force, share.law);
-    const int t = share.law - connectors.count;
-    const Vector3 arm = row(position, node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
-    return (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
+  /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
+  KOKKOS_INLINE_FUNCTION Vector3 without_torque(const RowShare& share) const {
+    const bool given = share.law == RowShare::given || connectors.count == 0, torque = !given && share.law >= connectors.count;
+    const int c = given ? share.contribution : torque ? 0 : share.law;
+    const auto& from = given ? extra.contribution : connectors.force;
+    return (torque ? 0.0 : share.weight) * row(from, c);
   }
 
-  KOKKOS_INLINE_FUNCTION void book_torques(const LoadedRow& loaded) const {
+  /// Gives the contributions of torques their values.
+  KOKKOS_INLINE_FUNCTION Vector3 torque_forces(const LoadedRow& loaded) const {
+    Vector3 sum{{0, 0, 0}};
     for (int k = loaded.first; k < loaded.last; ++k) {
       const RowShare share = extra.shares(k);
-      if (share.law >= connectors.count) set_contribution(extra, velocity, share.contribution, value(share, loaded.node), elapsed);
+      if (share.law < connectors.count) continue;
+      const int t = share.law - connectors.count;
+      const Vector3 arm = row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
+      const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
+      set_contribution(extra, velocity, share.contribution, force, elapsed);
+      sum = sum + force;
     }
+    return sum;
   }
 };
 

@@ -19,11 +19,11 @@ using MemorySpace = ExecutionSpace::memory_space;
 template <class T>
 using Array = Kokkos::View<T, MemorySpace>;
 
-using Range = Kokkos::RangePolicy<ExecutionSpace>;
-
 /// In a policy: the functor goes to a GPU as a kernel argument. A large one Kokkos would else copy to constant memory, and
 /// each launch would wait for the copy before.
 using AsArgument = Kokkos::Experimental::WorkItemProperty::HintLightWeight_t;
+
+using Range = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 
 /// An uninitialised array; for arrays that a kernel or a copy fills whole.
 template <class T, class... Extents>

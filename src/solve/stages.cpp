@@ -90,14 +90,13 @@ Stage load_stage(const Model& model, const LoadArrays& load) {
 }
 
 using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
-using RowRange = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 
 /// Sums over sets, and what follows from them.
 void launch_set_loads(const Model& model, const SetLoads& all) {
   if (few_sets(model)) return Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), all);
-  Kokkos::parallel_for("set_chunks", RowRange(0, all.chunk_count()), SetChunks{all});
-  Kokkos::parallel_for("set_sums", RowRange(0, all.sum_count()), SetSums{all});
-  Kokkos::parallel_for("set_laws", RowRange(0, all.law_count()), SetLaws{all});
+  Kokkos::parallel_for("set_chunks", Range(0, all.chunk_count()), SetChunks{all});
+  Kokkos::parallel_for("set_sums", Range(0, all.sum_count()), SetSums{all});
+  Kokkos::parallel_for("set_laws", Range(0, all.law_count()), SetLaws{all});
 }
 
 /// Connectors, torques, and the gather of all loads: one launch where they are few.
@@ -112,7 +111,7 @@ Stage set_load_stage(Model& model) {
             if (model.rows_are_due) return;
             if (sets) launch_set_loads(model, set_loads(model, instant));
             if (rows_are_left)
-              Kokkos::parallel_for("row_loads", RowRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
+              Kokkos::parallel_for("row_loads", Range(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
           }};
 }
 
@@ -158,7 +157,7 @@ void advance_in_phase(const Model& model, const NodeAdvance& advance_node) {
   update.acceleration.phase = phase;
   if (model.patches_have_advanced) update.listed = model.listed_nodes;
   const int count = model.patches_have_advanced ? model.subcycling.listed_end[phase] : model.nodes.count;
-  if (count > 0) Kokkos::parallel_for("paced_nodes", RowRange(0, count), update);
+  if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
 }
 
 /// Nodes in single precision.
@@ -167,7 +166,7 @@ void advance_carried(const Model& model, double step) {
     for (const ElementGroup& group : model.elements)
       launch_patches(group.patches, CarriedPatchUpdate{group.patches, carried_advance(model, group.carried, step),
                                                        model.partial.narrow, group.first_partial});
-  Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
+  Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
                        CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, step), model.listed_nodes,
                                            model.carried.listed_arm, row_loads(model, model.rows_elapsed), model.rows_are_due});
 }
@@ -226,11 +225,11 @@ void advance(Model& model, double step) {
   if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
   else if (model.carried.active()) advance_carried(model, step);
   else if (model.patches_have_advanced)
-    Kokkos::parallel_for("listed_nodes", RowRange(0, static_cast<int>(model.listed_nodes.extent(0))),
+    Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
                          ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,
                                           row_loads(model, model.rows_elapsed), model.rows_are_due});
   else
-    Kokkos::parallel_for("node_update", RowRange(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
+    Kokkos::parallel_for("node_update", Range(0, model.nodes.count), NodeUpdate{model.acceleration(), advance_node});
   if (model.ties.arrays.active()) follow_ties(model, step, model.carried.active());
   model.patches_have_advanced = model.rows_are_due = false;
   ++model.step;

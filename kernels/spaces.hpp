@@ -25,6 +25,9 @@ using AsArgument = Kokkos::Experimental::WorkItemProperty::HintLightWeight_t;
 
 using Range = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 
+/// For few threads: few of them a block, so that all of a GPU's multiprocessors share the work.
+using SpreadRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
+
 /// An uninitialised array; for arrays that a kernel or a copy fills whole.
 template <class T, class... Extents>
 Array<T> unset_array(const char* label, Extents... extents) {

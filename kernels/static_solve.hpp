@@ -166,14 +166,19 @@ struct CoarseRestrict {
   CoarseModes modes;
   NodeVector r;
   Array<double*> y;
-  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
-    const int a = k / CoarseModes::of_aggregate, m = k % CoarseModes::of_aggregate;
+  /// One team for each entry of y.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int k = team.league_rank(), a = k / CoarseModes::of_aggregate, m = k % CoarseModes::of_aggregate;
     double sum = 0;
-    for (int p = modes.first(a); p < modes.first(a + 1); ++p) {
-      const int n = modes.node(p);
-      for (int i = 0; i < 3; ++i) sum += modes.mode(n, 3 * m + i) * r(n, i);
-    }
-    y(k) = sum;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, modes.first(a), modes.first(a + 1)),
+        [&](int p, double& part) {
+          const int n = modes.node(p);
+          for (int i = 0; i < 3; ++i) part += modes.mode(n, 3 * m + i) * r(n, i);
+        },
+        sum);
+    if (team.team_rank() == 0) y(k) = sum;
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/batches.hpp"
 #include "kernels/element_modes.hpp"
 #include "kernels/hourglass.hpp"
 #include "kernels/nodes.hpp"
@@ -110,11 +111,15 @@ struct SpringForce {
   TangentSprings springs;
   NodeVector displacement;
   double inverse_time;  ///< 1/tau, 1/s
-  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+  /// One team: a spring between sets has many nodes.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int s = team.league_rank();
     double stretch = 0;
-    for (int k = springs.first(s); k < springs.first(s + 1); ++k)
-      stretch += dot(row(springs.share, k), row(displacement, springs.node(k)));
-    springs.force(s) = (springs.stiffness(s) + inverse_time * springs.damping(s)) * stretch;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, springs.first(s), springs.first(s + 1)),
+        [&](int k, double& sum) { sum += dot(row(springs.share, k), row(displacement, springs.node(k))); }, stretch);
+    if (team.team_rank() == 0) springs.force(s) = (springs.stiffness(s) + inverse_time * springs.damping(s)) * stretch;
   }
 };
 
@@ -138,9 +143,9 @@ struct AddSprings {
   NodeVector sum;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = springs.with_springs(i);
-    Vector3 f = row(sum, n);
-    for (int k = springs.first_of_node(i); k < springs.first_of_node(i + 1); ++k)
-      f = f + springs.force(springs.spring_of_node(k)) * row(springs.share_of_node, k);
+    const Vector3 f = add_in_batches<batch_of_few_threads>(
+        row(sum, n), springs.first_of_node(i), springs.first_of_node(i + 1),
+        [&](int k) { return springs.force(springs.spring_of_node(k)) * row(springs.share_of_node, k); });
     for (int c = 0; c < 3; ++c) sum(n, c) = f[c];
   }
 };

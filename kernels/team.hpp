@@ -16,6 +16,10 @@ inline constexpr bool on_device = true;
 inline constexpr bool on_device = false;
 #endif
 
+/// For long sums, each by a team: SumTeams(sums, threads_of_sum).
+using SumTeams = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
+inline constexpr int threads_of_sum = on_device ? 32 : 1;
+
 inline constexpr std::size_t scratch_alignment = 16;
 
 /// The team's scratch memory for `count` values, aligned for loads of 16 bytes.

@@ -94,7 +94,7 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
   const TieArrays& ties = model.ties.arrays;
   if (ties.active())
-    Kokkos::parallel_for("tangent_ties", Range(0, ties.slave_count), TieMotion{ties, model.nodes.position, displacement_});
+    Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count), TieMotion{ties, model.nodes.position, displacement_});
   const double speed = largest_initial_speed(model.scene);
   std::vector<ElementStiffness> stiffness;
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
@@ -109,8 +109,8 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   }
   tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
   if (ties.active()) {
-    Kokkos::parallel_for("tangent_tie_force", Range(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
-    Kokkos::parallel_for("tangent_tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_nodes, image_});
+    Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
+    Kokkos::parallel_for("tangent_tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_nodes, image_});
   }
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});

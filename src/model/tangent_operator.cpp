@@ -30,8 +30,8 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
   Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});
   if (springs_.count == 0) return;
-  Kokkos::parallel_for("tangent_springs", Range(0, springs_.count), SpringForce{springs_, u, inverse_time});
-  Kokkos::parallel_for("tangent_add_springs", Range(0, springs_.node_count), AddSprings{springs_, f});
+  Kokkos::parallel_for("tangent_springs", SumTeams(springs_.count, threads_of_sum), SpringForce{springs_, u, inverse_time});
+  Kokkos::parallel_for("tangent_add_springs", SpreadRange(0, springs_.node_count), AddSprings{springs_, f});
 }
 
 std::size_t TangentOperator::bytes() const {

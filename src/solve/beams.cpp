@@ -11,13 +11,13 @@ Stage beam_stage(Model& model) {
             BeamForce force{stage.arrays, model.nodes.position, model.extra.contribution, instant.settling, instant.elapsed};
             for (std::size_t l = 0; l < stage.moments.size(); ++l)
               force.given[l] = curve_value(stage.moments[l]->curve, instant.time) * stage.moments[l]->load->moment;
-            Kokkos::parallel_for("beam_force", Range(0, stage.arrays.count + stage.arrays.moment_count), force);
+            Kokkos::parallel_for("beam_force", SpreadRange(0, stage.arrays.count + stage.arrays.moment_count), force);
           }};
 }
 
 void advance_rotations(const Model& model, double step) {
   const BeamArrays& beams = model.beams->arrays;
-  Kokkos::parallel_for("beam_rotations", Range(0, beams.node_count), BeamRotationUpdate{{beams}, model.velocity_lag + 0.5 * step, step});
+  Kokkos::parallel_for("beam_rotations", SpreadRange(0, beams.node_count), BeamRotationUpdate{{beams}, model.velocity_lag + 0.5 * step, step});
 }
 
 void add_beam_energies(const Model& model, double step, EnergyAccount& energy) {

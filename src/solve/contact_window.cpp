@@ -249,7 +249,7 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   pair.next_near_look = model.step + steps;
   const double interval = static_cast<double>(steps) * instant.step;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
-  Kokkos::parallel_for("contact_look", ContactRange(0, pair.window.count),
+  Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
                                    interval, static_cast<double>(steps) * sudden, pair.missed});
 }

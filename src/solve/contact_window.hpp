@@ -5,9 +5,6 @@
 
 namespace railwave {
 
-/// Few threads a block, so that few nodes spread over all of a GPU's multiprocessors.
-using ContactRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
-
 /// Keeps a pair's window true, at two distances. The window lists the slave nodes that could touch the master in the next
 /// hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out of it the
 /// nodes that can touch in the next few dozen steps are picked on the device, nothing returning to the host. All others

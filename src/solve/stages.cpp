@@ -94,9 +94,9 @@ using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, A
 /// Sums over sets, and what follows from them.
 void launch_set_loads(const Model& model, const SetLoads& all) {
   if (few_sets(model)) return Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), all);
-  Kokkos::parallel_for("set_chunks", Range(0, all.chunk_count()), SetChunks{all});
-  Kokkos::parallel_for("set_sums", Range(0, all.sum_count()), SetSums{all});
-  Kokkos::parallel_for("set_laws", Range(0, all.law_count()), SetLaws{all});
+  Kokkos::parallel_for("set_chunks", SpreadRange(0, all.chunk_count()), SetChunks{all});
+  Kokkos::parallel_for("set_sums", SpreadRange(0, all.sum_count()), SetSums{all});
+  Kokkos::parallel_for("set_laws", SpreadRange(0, all.law_count()), SetLaws{all});
 }
 
 /// Connectors, torques, and the gather of all loads: one launch where they are few.
@@ -111,7 +111,7 @@ Stage set_load_stage(Model& model) {
             if (model.rows_are_due) return;
             if (sets) launch_set_loads(model, set_loads(model, instant));
             if (rows_are_left)
-              Kokkos::parallel_for("row_loads", Range(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
+              Kokkos::parallel_for("row_loads", SpreadRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
           }};
 }
 
@@ -121,7 +121,7 @@ Stage non_reflecting_stage(Model& model) {
             if (instant.settling) return;
             NonReflectingForce force{model.ends.arrays, model.paced_acceleration(), model.velocity_lag, instant.elapsed};
             force.acceleration.phase = model.subcycling.phase(model.step);
-            Kokkos::parallel_for("non_reflecting", Range(0, model.ends.arrays.count), force);
+            Kokkos::parallel_for("non_reflecting", SpreadRange(0, model.ends.arrays.count), force);
           }};
 }
 
@@ -139,7 +139,7 @@ Stage contact_stage(Model& model, ContactPair& pair) {
           [&model, &pair](const Instant& instant) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;
-            const ContactRange range(0, pair.window.count);
+            const SpreadRange range(0, pair.window.count);
             if (pair.contact->normals == scene::ContactNormals::smooth)
               Kokkos::parallel_for("contact_force", range,
                                    contact_force<Friction, SmoothNormals>(model, pair, contact_law(model, pair, instant)));
@@ -176,14 +176,14 @@ void advance_carried(const Model& model, double step) {
 Stage tie_stage(Model& model) {
   return {"ties", [&model](const Instant&) {
             const TieArrays& ties = model.ties.arrays;
-            Kokkos::parallel_for("tie_force", Range(0, ties.slave_count), TieForce{ties, model.acceleration().force});
-            Kokkos::parallel_for("tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
+            Kokkos::parallel_for("tie_force", SpreadRange(0, ties.slave_count), TieForce{ties, model.acceleration().force});
+            Kokkos::parallel_for("tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
           }};
 }
 
 void follow_ties(const Model& model, double step, bool carried) {
   const TieFollow follow{model.ties.arrays, model.nodes, step};
-  const Range slaves(0, model.ties.arrays.slave_count);
+  const SpreadRange slaves(0, model.ties.arrays.slave_count);
   if (carried) Kokkos::parallel_for("ties", slaves, CarriedTieFollow{follow, carried_advance(model, {}, step).nodes, model.ties.carrier});
   else Kokkos::parallel_for("ties", slaves, follow);
 }

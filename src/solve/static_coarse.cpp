@@ -246,7 +246,7 @@ void StaticCoarse::factor(const SpringCollector& springs) {
 }
 
 void StaticCoarse::precondition(const NodeVector& r, const NodeVector& z) const {
-  Kokkos::parallel_for("coarse_restrict", Range(0, count_ * modes), CoarseRestrict{on_device_, r, coarse_});
+  Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes, threads_of_sum), CoarseRestrict{on_device_, r, coarse_});
   const auto host = to_host(coarse_);
   Eigen::Map<Eigen::VectorXd> y(host.data(), count_ * modes);
   y = factors_->solve(y).eval();

@@ -67,7 +67,7 @@ std::vector<double> pressing_forces(const ContactPair& pair) {
 
 template <class Normals>
 void press_pair(const Model& model, const ContactPair& pair, const AugmentedLaw& law) {
-  const ContactRange range(0, pair.window.count);
+  const SpreadRange range(0, pair.window.count);
   if (pair.arrays.friction > 0) Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, law));
   else Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, law));
 }

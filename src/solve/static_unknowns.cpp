@@ -82,14 +82,14 @@ std::vector<Vec3> StaticUnknowns::positions() const {
 
 void StaticUnknowns::lead_slaves(const NodeVector& motion) const {
   const TieArrays& ties = model_.ties.arrays;
-  if (ties.active()) Kokkos::parallel_for("static_ties", Range(0, ties.slave_count), TieMotion{ties, model_.nodes.position, motion});
+  if (ties.active()) Kokkos::parallel_for("static_ties", SpreadRange(0, ties.slave_count), TieMotion{ties, model_.nodes.position, motion});
 }
 
 void StaticUnknowns::pass_on(const NodeVector& force) const {
   const TieArrays& ties = model_.ties.arrays;
   if (!ties.active()) return;
-  Kokkos::parallel_for("static_tie_force", Range(0, ties.slave_count), TieMotionForce{ties, model_.nodes.position, force});
-  Kokkos::parallel_for("static_tie_gather", Range(0, ties.master_count), TieGather{ties, ties.master_nodes, force});
+  Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model_.nodes.position, force});
+  Kokkos::parallel_for("static_tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_nodes, force});
 }
 
 }  // namespace railwave

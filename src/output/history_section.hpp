@@ -13,9 +13,10 @@ namespace railwave {
 /// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
 class HistorySection {
  public:
-  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements.
+  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
+  /// that is known.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
-                 const std::vector<std::pair<std::string, int>>& beams = {});
+                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }

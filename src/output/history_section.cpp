@@ -23,7 +23,8 @@ void HistorySection::Column<T>::write(hsize_t rows) {
 
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                                const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams,
-                               const std::vector<LoadNames>& loads, const std::vector<std::string>& askers) {
+                               const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
+                               const std::vector<std::string>& askers) {
   const hdf5::Group history = root.create_group("history");
   times_.dataset = history.create_growing<double>("time", {}, blocks);
   steps_.dataset = history.create_growing<long>("step", {}, blocks);
@@ -46,6 +47,8 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   for (const std::string& name : sets) {
     const hdf5::Group group = set_groups.create_group(name);
     if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty()) group.set_attribute("asked_by", askers[set]);
+    if (const std::size_t set = sets_.size(); set < positions.size())
+      group.write<double>("position", {positions[set].begin(), positions[set].end()}, {3});
     sets_.push_back({{vector_in(group, "displacement"), {}}, {vector_in(group, "velocity"), {}}, {vector_in(group, "acceleration"), {}}});
   }
   if (!loads.empty()) {

@@ -21,11 +21,11 @@ struct LoadNames {
 /// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
 class HistorySection {
  public:
-  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; loads; what in the
-  /// case asked for each set, if known.
+  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
+  /// that is known; loads; what in the case asked for each set, if known.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
-                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<LoadNames>& loads = {},
-                 const std::vector<std::string>& askers = {});
+                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {},
+                 const std::vector<LoadNames>& loads = {}, const std::vector<std::string>& askers = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "solve/beams.hpp"
 
@@ -57,6 +58,19 @@ std::string asked_by(const scene::Scene& scene, const std::string& set) {
   return probe && probe->part == part ? "probe " + probe->name : std::string();
 }
 
+/// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
+Vec3 undeformed_position(const Model& model, int set) {
+  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
+  const auto all = to_host(model.sets.nodes);
+  const auto weight = to_host(model.sets.weight);
+  const std::vector<int> nodes(all.data() + begin, all.data() + end);
+  const auto position = node_field(model, NodeField::position, nodes).values, displacement = node_field(model, NodeField::displacement, nodes).values;
+  Vec3 mean{};
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < 3; ++i) mean[i] += weight(begin + static_cast<int>(k)) * (position[3 * k + i] - displacement[3 * k + i]);
+  return mean;
+}
+
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -88,6 +102,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
 
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
+  for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
   writer_ = std::make_unique<BackgroundWriter>(path_, description_);
 }
 

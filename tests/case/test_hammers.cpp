@@ -75,7 +75,7 @@ TEST_CASE("a hammer may strike what a track makes", "[case]") {
 
 TEST_CASE("names of hammers and probes that are taken are told", "[case]") {
   TemporaryCase file(small_case + blow + "[probes.blow]\npart = \"cube\"\nposition = [0, 0, 0]\n");
-  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("[probes.blow]: makes the node set 'cube.blow', which is there already (line 13); rename one"));
+  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("[probes.blow]: makes the node set 'cube.blow', which is there already (line 12); rename one"));
   TemporaryCase load(small_case + blow + "[loads.blow]\ntype = \"nodal_force\"\ntarget = \"cube.z_max\"\nforce = [0, 0, 1]\n");
   CHECK_THAT(mistakes_of(load.path()), ContainsSubstring("[hammers.blow]: makes [loads.blow], which is there already"));
 }

@@ -130,7 +130,7 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   if (complaints.empty()) expand_tracks(scene, complaints);
   else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
   fit_fishplates(scene, complaints);
-  read_curves(scene, complaints);
+  if (complaints.empty()) read_curves(scene, complaints);
   if (complaints.empty()) expand_hammers(scene, complaints);
   if (document.complete) {
     check_references(reading.names, scene, reading.unsure, complaints);

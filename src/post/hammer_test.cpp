@@ -16,6 +16,15 @@ namespace {
 /// Share of the largest response that may be left at the end of the record.
 constexpr double died_away = 0.02;
 
+/// Samples of a blow: with n of them in half a sine wave the trapezoidal rule is off by 0.82/n^2.
+constexpr double fewest_struck = 12;
+
+double struck_samples(const std::vector<double>& force) {
+  double most = 0;
+  for (const double one : force) most = std::max(most, std::fabs(one));
+  return static_cast<double>(std::count_if(force.begin(), force.end(), [&](double one) { return std::fabs(one) > 1e-3 * most; }));
+}
+
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v[0], v[1], v[2]); }
 
 bool fits(const char* pattern, const char* name) {
@@ -172,16 +181,21 @@ FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const 
   const auto samples = static_cast<std::size_t>(std::lround(duration_ / interval_));
   std::vector<Blow> blows;
   for (const ResultsReader& results : results_) {
+    const std::string along = vector_text(response.direction);
     HistorySeries series = read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction)),
-                                                   fmt::format("{}.acceleration.{}", response.set, vector_text(response.direction))}});
+                                                   fmt::format("{}.displacement.{}", response.set, along), fmt::format("{}.velocity.{}", response.set, along),
+                                                   fmt::format("{}.acceleration.{}", response.set, along)}});
     for (const std::string& text : series.notes) note(notes, text);
     for (HistoryChannel& channel : series.channels) channel.values.resize(samples);
-    Blow blow{std::move(series.channels[0].values), std::move(series.channels[1].values)};
-    const double most = largest(blow.response, 0), left = largest(blow.response, samples - samples / 20) * settings.window_end;
+    auto &force = series.channels[0].values, &displacement = series.channels[1].values;
+    const auto &velocity = series.channels[2].values, &acceleration = series.channels[3].values;
+    const double most = largest(acceleration, 0), left = largest(acceleration, samples - samples / 20) * settings.window_end;
     if (left > died_away * most)
       note(notes, fmt::format("{}: {:.2g} % of the largest acceleration is left at the end, which smears sharp peaks: lengthen time.end, or take --window exponential", response.set,
                               100 * left / most));
-    blows.push_back(std::move(blow));
+    if (const auto few = struck_samples(force); few < fewest_struck)
+      note(notes, fmt::format("the blow has {} samples, fewer than {}: its spectrum is not certain by {:.1g} %; shorten output.history_interval", few, fewest_struck, 82.0 / (few * few)));
+    blows.push_back({std::move(force), std::move(displacement), velocity.front(), velocity.back()});
   }
   const auto wanted = static_cast<std::size_t>(std::ceil(1 / (settings.resolution * interval_)));
   return frequency_response(blows, interval_, quick_length(std::max(samples, wanted)), decay(settings));

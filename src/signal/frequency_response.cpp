@@ -1,16 +1,33 @@
 #include "signal/frequency_response.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace railwave {
 namespace {
 
-std::vector<Complex> windowed_spectrum(const std::vector<double>& values, double interval, std::size_t length, double decay) {
-  if (decay == 0) return real_spectrum(values, length);
-  std::vector<double> weighted(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) weighted[i] = values[i] * std::exp(-decay * interval * static_cast<double>(i));
-  return real_spectrum(weighted, length);
+/// Integral of values exp(-s t) at s = decay + i w, by the trapezoidal rule.
+std::vector<Complex> transform(std::vector<double> values, double interval, std::size_t length, double decay) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] *= interval * std::exp(-decay * interval * static_cast<double>(i));
+  values.front() *= 0.5;
+  values.back() *= 0.5;
+  return real_spectrum(values, length);
+}
+
+std::vector<Complex> acceleration(const Blow& blow, double interval, std::size_t length, double decay) {
+  std::vector<double> moved = blow.displacement;
+  const double start = moved.front(), duration = interval * static_cast<double>(moved.size() - 1);
+  for (double& one : moved) one -= start;
+  const double end = moved.back();
+  std::vector<Complex> result = transform(std::move(moved), interval, length, decay);
+  const auto frequency = spectrum_frequencies(length, interval);
+  for (std::size_t k = 0; k < result.size(); ++k) {
+    const Complex s(decay, 2 * M_PI * frequency[k]);
+    result[k] = s * s * result[k] + (blow.last_velocity + s * end) * std::exp(-s * duration) - blow.first_velocity;
+  }
+  return result;
 }
 
 }  // namespace
@@ -23,8 +40,8 @@ FrequencyResponse frequency_response(const std::vector<Blow>& blows, double inte
   std::vector<Complex> cross(count);
   std::vector<double> input(count), output(count);
   for (const Blow& blow : blows) {
-    if (blow.force.size() != blow.response.size()) throw std::logic_error("force and response of a blow have different lengths");
-    const auto force = windowed_spectrum(blow.force, interval, length, decay), response = windowed_spectrum(blow.response, interval, length, decay);
+    if (blow.force.size() != blow.displacement.size() || blow.force.empty()) throw std::logic_error("force and displacement of a blow have different lengths");
+    const auto force = transform(blow.force, interval, length, decay), response = acceleration(blow, interval, length, decay);
     for (std::size_t k = 0; k < count; ++k) {
       cross[k] += std::conj(force[k]) * response[k];
       input[k] += std::norm(force[k]);
@@ -38,7 +55,7 @@ FrequencyResponse frequency_response(const std::vector<Blow>& blows, double inte
     if (input[k] > 0) result.value[k] = cross[k] / input[k];
     const double power = input[k] * output[k];
     if (blows.size() > 1) result.coherence[k] = power > 0 ? std::min(1.0, std::norm(cross[k]) / power) : 0;
-    result.force[k] = interval * std::sqrt(input[k] / static_cast<double>(blows.size()));
+    result.force[k] = std::sqrt(input[k] / static_cast<double>(blows.size()));
   }
   return result;
 }

@@ -7,22 +7,26 @@
 
 namespace railwave {
 
-/// One blow: force and response at the same even times.
+/// One blow: force and displacement at the same even times, and the velocity at the first and the last of them.
 struct Blow {
-  std::vector<double> force;     ///< N
-  std::vector<double> response;  ///< m/s2
+  std::vector<double> force;          ///< N
+  std::vector<double> displacement;   ///< m
+  double first_velocity = 0, last_velocity = 0;  ///< m/s
 };
 
 struct FrequencyResponse {
   std::vector<double> frequency;   ///< Hz, even
-  std::vector<Complex> value;      ///< response over force; 0 where there is no force
+  std::vector<Complex> value;      ///< acceleration over force, m/s2/N; 0 where there is no force
   std::vector<double> coherence;   ///< 1 by definition of a single blow
   std::vector<double> force;       ///< N s, root of the mean square of the blows' spectra
 };
 
-/// H1 = mean of F* A over mean of F* F, with the coherence |mean F* A|^2 / (mean |F|^2 mean |A|^2) (Bendat and Piersol).
+/// Acceleration over force, H1 = mean of F* A over mean of F* F, with the coherence |mean F* A|^2 / (mean |F|^2 mean |A|^2) (Bendat and
+/// Piersol). The acceleration's transform over the record, of length T, is made of the displacement by parts,
+///   A(s) = [v exp(-s t)]_0^T + s [u exp(-s t)]_0^T + s^2 U(s),
+/// for a mesh's own vibrations above half the sampling rate fold back into sampled accelerations, but hardly into displacements.
 /// With an exponential window, by exp(-decay t) on force and response alike, it is the response at the complex frequency
-/// decay + i w exactly: a mode of pole -d + i w_d shows up with d + decay.
+/// s = decay + i w exactly: a mode of pole -d + i w_d shows up with d + decay.
 /// @param interval s, between samples
 /// @param length of the transform; zeros follow the samples
 /// Throws std::logic_error for blows of different lengths, or none.

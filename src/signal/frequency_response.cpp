@@ -16,16 +16,33 @@ std::vector<Complex> transform(std::vector<double> values, double interval, std:
   return real_spectrum(values, length);
 }
 
+/// The cubic through displacement and velocity at both ends of the record, from 0: u = a t + b t^2 + c t^3.
+struct Trend {
+  double a = 0, b = 0, c = 0, duration = 0;
+
+  Trend(double end, double first_velocity, double last_velocity, double over) : a(first_velocity), duration(over) {
+    b = 3 * end / (over * over) - (2 * first_velocity + last_velocity) / over;
+    c = -2 * end / (over * over * over) + (first_velocity + last_velocity) / (over * over);
+  }
+  double at(double t) const { return t * (a + t * (b + t * c)); }
+  /// Integral of its acceleration times exp(-s t).
+  Complex acceleration(Complex s) const {
+    if (std::abs(s) * duration < 1e-9) return 2 * b * duration + 3 * c * duration * duration;
+    const Complex end = std::exp(-s * duration), whole = (1.0 - end) / s;
+    return 2 * b * whole + 6 * c * (whole - duration * end) / s;
+  }
+};
+
 std::vector<Complex> acceleration(const Blow& blow, double interval, std::size_t length, double decay) {
-  std::vector<double> moved = blow.displacement;
-  const double start = moved.front(), duration = interval * static_cast<double>(moved.size() - 1);
-  for (double& one : moved) one -= start;
-  const double end = moved.back();
-  std::vector<Complex> result = transform(std::move(moved), interval, length, decay);
+  std::vector<double> rest = blow.displacement;
+  const double start = rest.front();
+  const Trend trend(rest.back() - start, blow.first_velocity, blow.last_velocity, interval * static_cast<double>(rest.size() - 1));
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= start + trend.at(interval * static_cast<double>(i));
+  std::vector<Complex> result = transform(std::move(rest), interval, length, decay);
   const auto frequency = spectrum_frequencies(length, interval);
   for (std::size_t k = 0; k < result.size(); ++k) {
     const Complex s(decay, 2 * M_PI * frequency[k]);
-    result[k] = s * s * result[k] + (blow.last_velocity + s * end) * std::exp(-s * duration) - blow.first_velocity;
+    result[k] = s * s * result[k] + trend.acceleration(s);
   }
   return result;
 }

@@ -125,6 +125,8 @@ void add_hammer_commands(CLI::App& app, ResponseRequest& frf, DecayRequest& deca
   rate->add_option("--from", decay.from, "Hz; default 100");
   rate->add_option("--to", decay.to, "Hz; default 5000");
   rate->add_option("--resolution", decay.resolution, "largest distance of two lines, Hz; default 1");
+  rate->add_option("--window", decay.window, "none (default) or exponential");
+  rate->add_option("--window-end", decay.window_end, "what the exponential window comes down to at the end; default 0.05");
   rate->add_option("--csv", decay.csv, "also write the rates, and the levels along the row, as CSV");
   rate->callback([&] { code = decay_command(decay, std::cout); });
 }

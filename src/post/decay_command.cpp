@@ -65,10 +65,9 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
 int decay_command(const DecayRequest& request, std::ostream& out) {
   if (!(request.from > 0 && request.from < request.to)) throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
   const HammerTest test(request.results, request.input);
-  std::vector<std::string> notes;
-  const auto probes = probes_of(test, request, notes);
-  ResponseSettings settings;
-  settings.resolution = request.resolution;
+  SignalNotes notes;
+  const auto probes = probes_of(test, request, notes.texts);
+  const ResponseSettings settings = ResponseSettings::of(request.resolution, request.window, request.window_end);
   std::vector<PlacedResponse> places;
   std::vector<double> frequency;
   double reliable = 0;
@@ -99,7 +98,7 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
   }
   if (short_row) out << fmt::format("note: a row so long tells no rates below {:.2g} dB/m; those below 1.5 times that are too high\n", rates.front().least);
   if (weak) out << fmt::format("note: above {:.0f} Hz the force's spectrum is more than 20 dB below its beginning: strike with a shorter blow\n", reliable);
-  for (const std::string& text : notes) out << "note: " << text << '\n';
+  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
   if (request.csv) {
     try {
       write_whole_file(*request.csv, fmt::to_string(csv));

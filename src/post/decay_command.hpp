@@ -15,6 +15,8 @@ struct DecayRequest {
   std::string direction;              ///< as of `railwave frf`; empty: that of the force
   double from = 100, to = 5000;       ///< Hz
   double resolution = 1;              ///< Hz
+  std::string window = "none";        ///< or exponential
+  double window_end = 0.05;           ///< what the exponential window comes down to
   std::optional<std::string> csv;
 };
 

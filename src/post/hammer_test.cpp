@@ -56,6 +56,21 @@ bool by_number(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+ResponseSettings ResponseSettings::of(double resolution, const std::string& window, double window_end) {
+  if (window != "none" && window != "exponential") throw InputError(fmt::format("--window {}: must be none or exponential", window));
+  if (!(window_end > 0 && window_end < 1)) throw InputError(fmt::format("--window-end {}: must be above 0 and below 1", window_end));
+  if (!(resolution > 0)) throw InputError(fmt::format("--resolution {}: must be above 0 Hz", resolution));
+  return {resolution, window == "exponential" ? window_end : 1};
+}
+
+std::vector<std::string> SignalNotes::told() const {
+  std::vector<std::string> all = texts;
+  if (left_share > 0)
+    all.push_back(fmt::format("up to {:.2g} % of the largest acceleration is left at the end (at {}), which smears sharp peaks: lengthen time.end, or take --window exponential",
+                              100 * left_share, left_at));
+  return all;
+}
+
 HammerTest::HammerTest(const std::vector<std::string>& files, const std::string& load) {
   if (files.empty()) throw InputError("no results file was named");
   for (const std::string& file : files) results_.emplace_back(file);
@@ -177,7 +192,7 @@ std::vector<HammerResponse> HammerTest::all() const {
 
 double HammerTest::decay(const ResponseSettings& settings) const { return -std::log(settings.window_end) / duration_; }
 
-FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const ResponseSettings& settings, std::vector<std::string>& notes) const {
+FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const ResponseSettings& settings, SignalNotes& notes) const {
   const auto samples = static_cast<std::size_t>(std::lround(duration_ / interval_));
   std::vector<Blow> blows;
   for (const ResultsReader& results : results_) {
@@ -185,16 +200,14 @@ FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const 
     HistorySeries series = read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction)),
                                                    fmt::format("{}.displacement.{}", response.set, along), fmt::format("{}.velocity.{}", response.set, along),
                                                    fmt::format("{}.acceleration.{}", response.set, along)}});
-    for (const std::string& text : series.notes) note(notes, text);
+    for (const std::string& text : series.notes) note(notes.texts, text);
     for (HistoryChannel& channel : series.channels) channel.values.resize(samples);
     auto &force = series.channels[0].values, &displacement = series.channels[1].values;
     const auto &velocity = series.channels[2].values, &acceleration = series.channels[3].values;
-    const double most = largest(acceleration, 0), left = largest(acceleration, samples - samples / 20) * settings.window_end;
-    if (left > died_away * most)
-      note(notes, fmt::format("{}: {:.2g} % of the largest acceleration is left at the end, which smears sharp peaks: lengthen time.end, or take --window exponential", response.set,
-                              100 * left / most));
+    const double left = largest(acceleration, samples - samples / 20) / largest(acceleration, 0) * settings.window_end;
+    if (left > died_away && left > notes.left_share) notes.left_share = left, notes.left_at = response.set;
     if (const auto few = struck_samples(force); few < fewest_struck)
-      note(notes, fmt::format("the blow has {} samples, fewer than {}: its spectrum is not certain by {:.1g} %; shorten output.history_interval", few, fewest_struck, 82.0 / (few * few)));
+      note(notes.texts, fmt::format("the blow has {} samples, fewer than {}: its spectrum is not certain by {:.1g} %; shorten output.history_interval", few, fewest_struck, 82.0 / (few * few)));
     blows.push_back({std::move(force), std::move(displacement), velocity.front(), velocity.back()});
   }
   const auto wanted = static_cast<std::size_t>(std::ceil(1 / (settings.resolution * interval_)));

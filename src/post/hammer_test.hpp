@@ -27,8 +27,20 @@ struct HammerResponse {
 
 /// How responses are made of histories.
 struct ResponseSettings {
+  /// Throws InputError naming the option that is out of range. `window` is "none" or "exponential".
+  static ResponseSettings of(double resolution, const std::string& window, double window_end);
+
   double resolution = 1;         ///< Hz, at most, between two lines; zeros are added for that
   double window_end = 1;         ///< what the exponential window comes down to at the end; 1: none
+};
+
+/// What the user should know of the signals.
+struct SignalNotes {
+  std::vector<std::string> texts;   ///< each once
+  double left_share = 0;            ///< of the largest acceleration at the end, where that is too much
+  std::string left_at;              ///< set
+
+  std::vector<std::string> told() const;
 };
 
 /// One or several runs (blows) of the same hammer test.
@@ -50,8 +62,8 @@ class HammerTest {
   /// All history sets of the files that hammers or probes asked for, else all, along the force; the struck one first.
   std::vector<HammerResponse> all() const;
 
-  /// Accelerance. `notes` gets what the user should know of the signals, each once.
-  FrequencyResponse accelerance(const HammerResponse& response, const ResponseSettings& settings, std::vector<std::string>& notes) const;
+  /// Accelerance; adds to the notes.
+  FrequencyResponse accelerance(const HammerResponse& response, const ResponseSettings& settings, SignalNotes& notes) const;
 
   /// m, where the set lies; nothing in files of older programs.
   std::optional<Eigen::Vector3d> place(const std::string& set) const;

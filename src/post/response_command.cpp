@@ -29,9 +29,6 @@ int integrations(const ResponseRequest& request) {
 void check(const ResponseRequest& request) {
   if (integrations(request) == static_cast<int>(quantities.size()))
     throw InputError(fmt::format("--quantity {}: must be accelerance, mobility or receptance; {}", request.quantity, suggestion(request.quantity, quantities)));
-  if (request.window != "none" && request.window != "exponential") throw InputError(fmt::format("--window {}: must be none or exponential", request.window));
-  if (!(request.window_end > 0 && request.window_end < 1)) throw InputError(fmt::format("--window-end {}: must be above 0 and below 1", request.window_end));
-  if (!(request.resolution > 0)) throw InputError(fmt::format("--resolution {}: must be above 0 Hz", request.resolution));
   if (!(request.prominence > 0)) throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
   if (request.from && request.to && !(*request.from < *request.to)) throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
   for (const auto& file : {request.csv, request.hdf5})
@@ -137,9 +134,7 @@ void write_file(const std::string& path, const HammerTest& test, const ResponseR
 int response_command(const ResponseRequest& request, std::ostream& out) {
   check(request);
   const HammerTest test(request.results, request.input);
-  ResponseSettings settings;
-  settings.resolution = request.resolution;
-  if (request.window == "exponential") settings.window_end = request.window_end;
+  const ResponseSettings settings = ResponseSettings::of(request.resolution, request.window, request.window_end);
   const double decay = test.decay(settings);
 
   std::vector<HammerResponse> places;
@@ -147,7 +142,7 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
     for (const HammerResponse& place : test.find(text)) places.push_back(place);
   if (request.responses.empty()) places = test.all();
 
-  std::vector<std::string> notes;
+  SignalNotes notes;
   std::vector<Told> all;
   double reliable = 0;
   for (const HammerResponse& place : places) {
@@ -167,7 +162,7 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
     all.push_back(std::move(told));
   }
   for (const Told& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
-  for (const std::string& text : notes) out << "note: " << text << '\n';
+  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
   try {
     if (request.csv) write_whole_file(*request.csv, csv(all));
     if (request.hdf5) write_file(*request.hdf5, test, request, all);

@@ -1,8 +1,10 @@
 #include "output/results_file.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
+#include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "solve/beams.hpp"
 
@@ -30,6 +32,45 @@ class ModelFields : public FieldSource {
   const Model& model_;
 };
 
+template <class Entry>
+const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
+  const bool torque = load.type == scene::LoadType::torque;
+  Vec3 direction = torque ? load.axis : load.type == scene::LoadType::nodal_force ? load.force : load.type == scene::LoadType::traction ? load.traction : Vec3{};
+  const double length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+  if (length > 0)
+    for (double& one : direction) one /= length;
+  return {load.name, load.target, torque, named(scene.hammers, load.name) != nullptr, direction};
+}
+
+std::string asked_by(const scene::Scene& scene, const std::string& set) {
+  const auto dot = set.find('.');
+  if (dot == std::string::npos) return {};
+  const std::string part = set.substr(0, dot), name = set.substr(dot + 1);
+  if (const auto* hammer = named(scene.hammers, name); hammer && hammer->part == part) return "hammer " + name;
+  const auto* probe = named(scene.probes, name);
+  if (!probe && name.find('_') != std::string::npos) probe = named(scene.probes, name.substr(0, name.rfind('_')));
+  return probe && probe->part == part ? "probe " + probe->name : std::string();
+}
+
+/// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
+Vec3 undeformed_position(const Model& model, int set) {
+  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
+  const auto all = to_host(model.sets.nodes);
+  const auto weight = to_host(model.sets.weight);
+  const std::vector<int> nodes(all.data() + begin, all.data() + end);
+  const auto position = node_field(model, NodeField::position, nodes).values, displacement = node_field(model, NodeField::displacement, nodes).values;
+  Vec3 mean{};
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < 3; ++i) mean[i] += weight(begin + static_cast<int>(k)) * (position[3 * k + i] - displacement[3 * k + i]);
+  return mean;
+}
+
 std::string text_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -52,6 +93,8 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.history_sets = scene.output.history_sets;
   for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
   for (const auto& chain : assembly.beam_chains) description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
+  for (const auto& set : scene.output.history_sets) description_.history_askers.push_back(asked_by(scene, set));
+  for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
   check_results_place(path_);
@@ -59,6 +102,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
 
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
+  for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
   writer_ = std::make_unique<BackgroundWriter>(path_, description_);
 }
 

@@ -86,6 +86,14 @@ std::vector<std::string> ResultsReader::contacts() const {
   }
 }
 
+hdf5::Group ResultsReader::history() const {
+  try {
+    return file_.root().group("history");
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
+  }
+}
+
 std::string ResultsReader::slave_surface(const std::string& contact) const {
   try {
     return file_.root().group("contact").group(contact).group("slave").text_attribute("surface");

@@ -32,6 +32,9 @@ class ResultsReader {
   /// if there is no such set.
   std::vector<Eigen::Vector3d> set_velocity(const std::string& set, const std::vector<double>& times) const;
 
+  /// Group /history. Throws InputError if there is none.
+  hdf5::Group history() const;
+
   /// State number `index` of contact_times(). Throws InputError if the file lacks a part of it.
   ContactState contact_state(const std::string& contact, std::size_t index) const;
 

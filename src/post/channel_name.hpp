@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railwave {
+
+/// Where in /history a channel's numbers are.
+struct ChannelPlace {
+  std::string group;      ///< set, contact, beam, load or energy
+  std::string owner;      ///< the set's, contact's, beam's or load's name; empty: energy
+  std::string quantity;   ///< the dataset
+  int element = 0;        ///< of a beam
+  bool vector = false;    ///< three numbers a sample, of which `direction` takes one
+  std::optional<Eigen::Vector3d> direction;  ///< unit; absent: the length of the vector
+  std::string direction_text;
+
+  std::string name() const;  ///< as the command line calls it
+  std::string unit() const;
+};
+
+/// What a file has: names of its sets, contacts, beams, energies and loads (those with a force).
+struct ChannelNames {
+  std::vector<std::string> sets, contacts, beams, energies, loads;
+
+  /// Every channel without its direction.
+  std::vector<std::string> all() const;
+};
+
+/// Finds what read_history() calls `text`: one list of places for each channel, whose mean it is. Throws InputError.
+/// @param file the results file, for complaints
+std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, const ChannelNames& names, const std::string& file);
+
+}  // namespace railwave

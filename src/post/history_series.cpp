@@ -1,0 +1,175 @@
+#include "post/history_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "case/error.hpp"
+#include "post/channel_name.hpp"
+
+namespace railwave {
+namespace {
+
+/// Share of the usual distance by which samples may be off and still count as evenly spaced: far above the rounding of times.
+constexpr double even = 1e-6;
+
+constexpr std::size_t fewest = 4;
+
+ChannelNames names_in(const hdf5::Group& history) {
+  const auto names = [&](const char* group) { return history.has(group) ? history.group(group).names() : std::vector<std::string>{}; };
+  std::vector<std::string> loads;
+  for (const std::string& load : names("load"))
+    if (history.group("load").group(load).has("force")) loads.push_back(load);
+  return {names("set"), names("contact"), names("beam"), names("energy"), loads};
+}
+
+hdf5::Group group_of(const hdf5::Group& history, const ChannelPlace& place) {
+  return place.owner.empty() ? history.group(place.group) : history.group(place.group).group(place.owner);
+}
+
+/// All samples of one place.
+std::vector<double> read(const hdf5::Group& history, const ChannelPlace& place) {
+  const hdf5::Dataset dataset = group_of(history, place).dataset(place.quantity);
+  const hdf5::Shape shape = dataset.shape();
+  std::vector<double> raw;
+  if (place.quantity == "nodes_in_contact" || place.quantity == "nodes_slipping") {
+    const auto counts = dataset.read<long>();
+    return {counts.begin(), counts.end()};
+  }
+  raw = dataset.read<double>();
+  if (!place.vector) return raw;
+  const std::size_t row = shape.size() == 3 ? 3 * static_cast<std::size_t>(shape[1]) : 3;
+  if (3 * static_cast<std::size_t>(place.element) + 3 > row)
+    throw InputError(fmt::format("channel '{}': the beam has {} elements, counted from 0", place.name(), row / 3));
+  std::vector<double> values(raw.size() / row);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Eigen::Vector3d vector(raw.data() + i * row + 3 * static_cast<std::size_t>(place.element));
+    values[i] = place.direction ? place.direction->dot(vector) : vector.norm();
+  }
+  return values;
+}
+
+HistoryChannel read_mean(const hdf5::Group& history, const std::vector<ChannelPlace>& places) {
+  HistoryChannel channel;
+  channel.unit = places.front().unit();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  bool placed = true;
+  std::string owners;
+  for (const ChannelPlace& place : places) {
+    const auto values = read(history, place);
+    if (channel.values.empty()) channel.values.assign(values.size(), 0.0);
+    channel.values.resize(std::min(channel.values.size(), values.size()));
+    for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] += values[i] / static_cast<double>(places.size());
+    const hdf5::Group group = group_of(history, place);
+    placed = placed && place.group == "set" && group.has("position");
+    if (placed) position += Eigen::Vector3d(group.dataset("position").read<double>().data()) / static_cast<double>(places.size());
+    owners += (owners.empty() ? "" : "+") + place.owner;
+  }
+  if (placed) channel.position = position;
+  ChannelPlace named = places.front();
+  named.owner = owners;
+  channel.name = named.name();
+  return channel;
+}
+
+/// Brings all channels to even times.
+void space_evenly(HistorySeries& series, std::vector<double> times, const std::string& file) {
+  const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("histories of {}: {}", file, why)); };
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (!(times[i] > times[i - 1]))
+      refuse(fmt::format("time does not ascend from sample {} ({} s) to the next ({} s): the file is damaged, or put together from several runs", i - 1, times[i - 1], times[i]));
+  std::vector<double> distances(times.size() - 1);
+  for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = times[i + 1] - times[i];
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+  const double usual = distances[distances.size() / 2];
+
+  // The run's last sample is at its end, wherever that falls.
+  const auto off = [&](std::size_t i, double interval) { return std::fabs(times[i + 1] - times[i] - interval) > even * interval; };
+  if (times.size() > fewest && times[times.size() - 1] - times[times.size() - 2] < (1 - even) * usual) times.pop_back();
+  double least = usual, most = usual;
+  bool uneven = false;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    least = std::min(least, times[i + 1] - times[i]);
+    most = std::max(most, times[i + 1] - times[i]);
+    uneven = uneven || off(i, usual);
+  }
+  if (most > 2 * usual) refuse(fmt::format("a gap of {:.4g} s among samples {:.4g} s apart; choose times without it by --from and --to", most, usual));
+  series.start = times.front();
+  series.interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  if (uneven) {
+    series.notes.push_back(fmt::format("the run changed its step: samples {:.6g} to {:.6g} s apart were moved to every {:.6g} s by cubic interpolation", least, most, series.interval));
+  }
+  for (HistoryChannel& channel : series.channels) {
+    channel.values.resize(times.size());
+    if (uneven) channel.values = resampled(times, channel.values, series.start, series.interval, times.size());
+  }
+}
+
+HistorySeries read(const ResultsReader& results, const HistoryRequest& request) {
+  const hdf5::Group history = results.history();
+  const ChannelNames names = names_in(history);
+  HistorySeries series;
+  for (const std::string& text : request.channels) {
+    auto found = find_channels(text, names, results.path());
+    if (request.average) {
+      std::vector<ChannelPlace> all;
+      for (const auto& places : found) all.insert(all.end(), places.begin(), places.end());
+      found = {all};
+    }
+    for (const auto& places : found) series.channels.push_back(read_mean(history, places));
+  }
+  auto times = history.dataset("time").read<double>();
+  // A kill in the middle of a flush may leave arrays longer than the times.
+  for (const HistoryChannel& channel : series.channels) times.resize(std::min(times.size(), channel.values.size()));
+  const std::string whole = times.empty() ? "none at all" : fmt::format("they go from {:.6g} s to {:.6g} s", times.front(), times.back());
+  const auto first = std::lower_bound(times.begin(), times.end(), request.from) - times.begin();
+  const auto last = std::upper_bound(times.begin(), times.end(), request.to) - times.begin();
+  if (last - first < static_cast<std::ptrdiff_t>(fewest))
+    throw InputError(fmt::format("{} has {} history samples from {} s to {} s, of which {} are wanted at least; {}", results.path(), std::max<std::ptrdiff_t>(0, last - first),
+                                 request.from, request.to, fewest, whole));
+  times = {times.begin() + first, times.begin() + last};
+  for (HistoryChannel& channel : series.channels) {
+    channel.values = {channel.values.begin() + first, channel.values.begin() + last};
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      if (!std::isfinite(channel.values[i]))
+        throw InputError(fmt::format("channel '{}' of {} is no number at t = {:.6g} s: the run went wrong there; leave that out by --to", channel.name, results.path(), times[i]));
+  }
+  space_evenly(series, std::move(times), results.path());
+  return series;
+}
+
+}  // namespace
+
+std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start, double interval, std::size_t count) {
+  if (times.size() < fewest || times.size() != values.size()) throw std::logic_error("cubic interpolation needs four samples");
+  std::vector<double> result(count);
+  std::size_t before = 0;  // the sample at or before the time
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = start + static_cast<double>(i) * interval;
+    while (before + 2 < times.size() && times[before + 1] <= time) ++before;
+    const std::size_t first = std::min(before > 0 ? before - 1 : 0, times.size() - 4);
+    for (std::size_t a = first; a < first + 4; ++a) {
+      double weight = 1;
+      for (std::size_t b = first; b < first + 4; ++b)
+        if (a != b) weight *= (time - times[b]) / (times[a] - times[b]);
+      result[i] += weight * values[a];
+    }
+  }
+  return result;
+}
+
+HistorySeries read_history(const ResultsReader& results, const HistoryRequest& request) {
+  try {
+    return read(results, request);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: histories: {}", results.path(), error.what()));
+  }
+}
+
+std::vector<std::string> history_channels(const ResultsReader& results) { return names_in(results.history()).all(); }
+
+}  // namespace railwave

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/batches.hpp"
 #include "kernels/carried_nodes.hpp"
+#include "kernels/team.hpp"
 
 /// Ties between meshes that need not match. A slave node keeps its place over a face of the master,
 ///   x_s = sum N_k x_k + d n,
@@ -87,16 +87,20 @@ struct TieGather {
   Array<const int*> target;     ///< by master: row of the sum
   Array<double* [3]> sum;       ///< N
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int m) const {
-    const Vector3 total = add_in_batches<batch_of_few_threads>(row(sum, target(m)), ties.first_share(m), ties.first_share(m + 1), [&](int i) {
-      const TieShare share = ties.shares(i);
-      Vector3 part;
-      for (int k = 0; k < 3; ++k)
-        part[k] = share.weight * ties.passed_on(share.slave, k) + share.slope_xi * ties.passed_on(share.slave, 3 + k) +
+  /// One team for each component of each master node: where the masters are coarse, they have many slaves.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int m = team.league_rank() / 3, k = team.league_rank() % 3;
+    double total = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, ties.first_share(m), ties.first_share(m + 1)),
+        [&](int i, double& part) {
+          const TieShare share = ties.shares(i);
+          part += share.weight * ties.passed_on(share.slave, k) + share.slope_xi * ties.passed_on(share.slave, 3 + k) +
                   share.slope_eta * ties.passed_on(share.slave, 6 + k);
-      return part;
-    });
-    for (int k = 0; k < 3; ++k) sum(target(m), k) = total[k];
+        },
+        total);
+    if (team.team_rank() == 0) sum(target(m), k) += total;
   }
 };
 

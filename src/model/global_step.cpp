@@ -110,7 +110,7 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
   if (ties.active()) {
     Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
-    Kokkos::parallel_for("tangent_tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_nodes, image_});
+    Kokkos::parallel_for("tangent_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_nodes, image_});
   }
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});

@@ -177,7 +177,7 @@ Stage tie_stage(Model& model) {
   return {"ties", [&model](const Instant&) {
             const TieArrays& ties = model.ties.arrays;
             Kokkos::parallel_for("tie_force", SpreadRange(0, ties.slave_count), TieForce{ties, model.acceleration().force});
-            Kokkos::parallel_for("tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_rows, model.extra.sum.load});
+            Kokkos::parallel_for("tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_rows, model.extra.sum.load});
           }};
 }
 

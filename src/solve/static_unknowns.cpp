@@ -89,7 +89,7 @@ void StaticUnknowns::pass_on(const NodeVector& force) const {
   const TieArrays& ties = model_.ties.arrays;
   if (!ties.active()) return;
   Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model_.nodes.position, force});
-  Kokkos::parallel_for("static_tie_gather", SpreadRange(0, ties.master_count), TieGather{ties, ties.master_nodes, force});
+  Kokkos::parallel_for("static_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_nodes, force});
 }
 
 }  // namespace railwave

@@ -7,6 +7,7 @@
 
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
+#include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/stages.hpp"
 
@@ -55,6 +56,18 @@ void describe_step(const Model& model, std::ostream& out) {
   for (const std::string& line : describe_subcycling(model)) out << "  subcycling: " << line << '\n';
 }
 
+void describe_places(const Model& model, std::ostream& out) {
+  const auto placed = placed_sets(model.scene, model.assembly);
+  if (placed.empty()) return;
+  out << "Sets by position, hammers and probes\n";
+  for (const PlacedSet& one : placed) {
+    const Vec3& at = model.assembly.nodes[one.nearest];
+    out << fmt::format("  {}.{}: {} node{}, the nearest at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part, one.set->name, one.count,
+                       one.count == 1 ? "" : "s", at[0], at[1], at[2], 1e3 * one.distance);
+    if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
+  }
+}
+
 }  // namespace
 
 void describe_run(Model& model, std::ostream& out) {
@@ -74,6 +87,7 @@ void describe_run(Model& model, std::ostream& out) {
   out << fmt::format("  in all: {} elements, {} nodes\n", model.element_count(), model.node_count());
   if (!model.scene.connectors.empty())
     out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
+  describe_places(model, out);
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,

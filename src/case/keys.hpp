@@ -39,6 +39,9 @@ Section track_section();
 
 Section beam_section();  // keys_beams.cpp
 
+Section hammer_section();  // keys_hammers.cpp
+Section probe_section();
+
 Section curve_section();  // keys_actions.cpp
 Section load_section();
 Section connector_section();

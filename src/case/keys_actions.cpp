@@ -91,18 +91,27 @@ Section curve_section() {
   using scene::Curve;
   auto section = named_section("curves", "curve", &Scene::curves, "Factors that change with time, for loads.");
   section.keys = {
-      key("type", &Curve::type, "its shape; `constant` is 1 at all times")
-          .one_of({"constant", "cosine_ramp", "table"})
+      key("type", &Curve::type, "its shape; `constant` is 1 at all times; `half_sine` is a blow: half a sine wave from 0 to 1 and back")
+          .one_of({"constant", "cosine_ramp", "table", "half_sine"})
           .needed(),
-      key("start", &Curve::start, "when the ramp begins: 0 before").in("s").only({"cosine_ramp"}),
+      key("start", &Curve::start, "when the ramp, or the blow, begins: 0 before").in("s").only({"cosine_ramp", "half_sine"}),
       key("duration", &Curve::duration, "how long it rises from 0 to 1, as half a cosine wave")
           .in("s")
           .within(above(0))
           .needed()
           .only({"cosine_ramp"}),
+      key("duration", &Curve::duration, "how long the blow lasts; its spectrum has fallen by 3 dB at 0.59 and by 10 dB at 1.02 over that, and is nothing at 1.5 over that")
+          .in("s")
+          .within(above(0))
+          .needed()
+          .only({"half_sine"}),
       key("points", &Curve::points,
           "pairs [time in s, factor] with increasing time; straight lines between, constant before and after")
-          .needed()
+          .otherwise("none: give `file`")
+          .only({"table"}),
+      key("file", &Curve::file, "CSV with such pairs, one in a line, of a measured blow for instance; lines before the first that don't begin with a number are left out")
+          .path()
+          .otherwise("none: give `points`")
           .only({"table"}),
   };
   section.rule = check_curve;

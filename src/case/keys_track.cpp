@@ -13,12 +13,15 @@ Section node_set_section() {
                                "Nodes of a part picked by where they are; the set is `part.NAME`, with the part given here.");
   section.keys = {
       key("part", &NodeSet::part, "whose nodes").names(whole_part).needed(),
-      key("box", &NodeSet::box, "where they are, in the scene's axes with the part at its `position`, before any `close_gap`; the sides count as inside").in("m").needed(),
+      key("box", &NodeSet::box, "where they are, in the scene's axes with the part at its `position`, before any `close_gap`; the sides count as inside").in("m").otherwise("none: give `position`"),
+      key("position", &NodeSet::position, "instead of a box: nodes near this place, in the same axes").in("m").otherwise("none: give `box`"),
+      key("radius", &NodeSet::radius, "how near; the nearest node is in the set however far it is").in("m").within(at_least(0)),
       key("surface", &NodeSet::surface,
-          "only nodes of this surface of the part, such as z_max; its faces with all four nodes in the box are a surface of the set's "
+          "only nodes of this surface of the part, such as z_max; its faces with all four nodes in the set are a surface of the set's "
           "name too")
           .otherwise("nodes inside count too"),
   };
+  section.rule = check_node_set;
   return section;
 }
 

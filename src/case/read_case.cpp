@@ -4,10 +4,12 @@
 #include <set>
 
 #include "case/document.hpp"
+#include "case/expand_hammers.hpp"
 #include "case/expand_tracks.hpp"
 #include "case/fit_fishplates.hpp"
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
+#include "case/read_curves.hpp"
 #include "case/read_entry.hpp"
 #include "case/static_text.hpp"
 #include "case/suggest.hpp"
@@ -128,6 +130,8 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   if (complaints.empty()) expand_tracks(scene, complaints);
   else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
   fit_fishplates(scene, complaints);
+  if (complaints.empty()) read_curves(scene, complaints);
+  if (complaints.empty()) expand_hammers(scene, complaints);
   if (document.complete) {
     check_references(reading.names, scene, reading.unsure, complaints);
     check_scene(scene, complaints);

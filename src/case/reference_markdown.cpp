@@ -77,7 +77,7 @@ end = 1e-3
 `tread` and `head` are where bodies usually touch: the contact band over the solution zone, and a margin around it.
 `running_surface` goes all along the wheel or rail; `zone` is the solution zone; `centre_section` is the wheel's plane x = 0
 below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names. `[node_sets.NAME]` makes
-more of them, of the nodes in a box. A surface is a set of its nodes too.
+more of them, of the nodes in a box or near a place. A surface is a set of its nodes too.
 
 ## A track
 
@@ -97,6 +97,26 @@ box = [[-0.01, -0.02, 0], [0.01, 0.02, 1]]
 [output]
 history_sets = ["track_rail.struck", "track_sleeper_9.z_max"]
 ```
+
+## A hammer test
+
+```toml
+[hammers.mid_span]                   # struck: node set track_rail.mid_span, a load, its history
+part = "track_rail"
+surface = "running_surface"
+position = [0, 0, 0.16]
+peak = 1e3
+duration = 0.2e-3                    # up to 5 kHz
+
+[probes.row]                         # answers: track_rail.row_1 to track_rail.row_8
+part = "track_rail"
+surface = "running_surface"
+position = [0.3, 0, 0.16]
+count = 8
+spacing = [0.6, 0, 0]
+```
+
+`railwave frf` makes accelerances of them, `railwave decay` the track's decay rate; [hammer.md](hammer.md) shows both.
 
 # Sections and keys
 

@@ -230,7 +230,12 @@ void check_contact(void* entry, EntryCheck& check) {
 
 void check_curve(void* entry, EntryCheck& check) {
   const auto& curve = *static_cast<scene::Curve*>(entry);
-  if (!check.sound({"type", "points"})) return;
+  if (!check.sound({"type", "points", "file"})) return;
+  if (curve.type == scene::CurveType::table && check.given("points") == check.given("file")) {
+    check.complain("points", check.given("file") ? "has no effect beside file; leave one of them out"
+                                                 : "is missing; must be a list of pairs [[time, value], ...], unless file is given");
+    return;
+  }
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const double before = curve.points[i - 1][0], time = curve.points[i][0];
     if (time > before) continue;

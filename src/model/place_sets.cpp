@@ -23,7 +23,25 @@ double distance(const scene::Box& box, const Vec3& x) {
   return std::sqrt(squared);
 }
 
+double distance(const Vec3& a, const Vec3& b) {
+  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/// How far a node is from what the set asks for, m: outside its box, or from its position.
+double distance(const scene::NodeSet& set, const Vec3& x) { return set.box ? distance(*set.box, x) : distance(*set.position, x); }
+
 std::string text_of(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
+
+/// Longest edge of the elements around a node, m.
+double size_around(const Assembly& assembly, int node) {
+  constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+  double longest = 0;
+  for (const auto& element : assembly.elements) {
+    if (std::find(element.begin(), element.end(), node) == element.end()) continue;
+    for (const auto& edge : edges) longest = std::max(longest, distance(assembly.nodes[element[edge[0]]], assembly.nodes[element[edge[1]]]));
+  }
+  return longest;
+}
 
 }  // namespace
 
@@ -36,12 +54,14 @@ void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
     const bool of_surface = !set.surface.empty();
     if (of_surface) find_surface(scene, assembly, set, "surface", set.part + "." + set.surface);
     const auto& candidates = assembly.node_sets.at(of_surface ? set.part + "." + set.surface : set.part);
+    const double reach = set.box ? slack : set.radius + slack;
     std::vector<int> nodes;
     int nearest = candidates.front();
     for (int n : candidates) {
-      if (distance(*set.box, assembly.nodes[n]) <= slack) nodes.push_back(n);
-      if (distance(*set.box, assembly.nodes[n]) < distance(*set.box, assembly.nodes[nearest])) nearest = n;
+      if (distance(set, assembly.nodes[n]) <= reach) nodes.push_back(n);
+      if (distance(set, assembly.nodes[n]) < distance(set, assembly.nodes[nearest])) nearest = n;
     }
+    if (nodes.empty() && set.position) nodes.push_back(nearest);
     if (nodes.empty())
       throw InputError(fmt::format("{} box: no node of '{}' is in it; the nearest is at {} m, {:.4g} m away", where,
                                    of_surface ? set.part + "." + set.surface : set.part, text_of(assembly.nodes[nearest]),
@@ -58,6 +78,29 @@ void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
     }
     assembly.node_sets[name] = std::move(nodes);
   }
+}
+
+std::vector<PlacedSet> placed_sets(const scene::Scene& scene, const Assembly& assembly) {
+  std::vector<PlacedSet> result;
+  for (const scene::NodeSet& set : scene.node_sets) {
+    if (!set.position) continue;
+    const auto& nodes = assembly.node_sets.at(set.part + "." + set.name);
+    PlacedSet placed{&set, static_cast<int>(nodes.size()), nodes.front(), 0, {}};
+    for (int n : nodes)
+      if (distance(set, assembly.nodes[n]) < distance(set, assembly.nodes[placed.nearest])) placed.nearest = n;
+    placed.distance = distance(set, assembly.nodes[placed.nearest]);
+    const double size = size_around(assembly, placed.nearest);
+    const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const scene::Contact& contact) {
+      return contact.close_gap && contact.slave.rfind(set.part + ".", 0) == 0;  // to where it touches, after sets were made
+    });
+    if (placed.distance > set.radius + size && !moved)
+      placed.warning = fmt::format("{}.{} (line {}) is asked for at {} m, but the nearest node{} is {:.3g} m away, at {} m, farther than an element's size ({:.3g} m): see "
+                                   "whether the position is meant in the scene's axes",
+                                   set.part, set.name, set.line, text_of(*set.position), set.surface.empty() ? "" : " of " + set.surface,
+                                   placed.distance, text_of(assembly.nodes[placed.nearest]), size);
+    result.push_back(placed);
+  }
+  return result;
 }
 
 }  // namespace railwave

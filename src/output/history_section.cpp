@@ -23,7 +23,8 @@ void HistorySection::Column<T>::write(hsize_t rows) {
 
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                                const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams,
-                               const std::vector<Vec3>& positions) {
+                               const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
+                               const std::vector<std::string>& askers) {
   const hdf5::Group history = root.create_group("history");
   times_.dataset = history.create_growing<double>("time", {}, blocks);
   steps_.dataset = history.create_growing<long>("step", {}, blocks);
@@ -45,9 +46,21 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   const hdf5::Group set_groups = history.create_group("set");
   for (const std::string& name : sets) {
     const hdf5::Group group = set_groups.create_group(name);
+    if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty()) group.set_attribute("asked_by", askers[set]);
     if (const std::size_t set = sets_.size(); set < positions.size())
       group.write<double>("position", {positions[set].begin(), positions[set].end()}, {3});
     sets_.push_back({{vector_in(group, "displacement"), {}}, {vector_in(group, "velocity"), {}}, {vector_in(group, "acceleration"), {}}});
+  }
+  if (!loads.empty()) {
+    const hdf5::Group load_groups = history.create_group("load");
+    for (const LoadNames& load : loads) {
+      const hdf5::Group group = load_groups.create_group(load.name);
+      group.set_attribute("target", load.target);
+      group.set_attribute("hammer", load.hammer ? 1L : 0L);
+      if (load.direction != Vec3{}) group.write("direction", std::vector<double>(load.direction.begin(), load.direction.end()), {3});
+      if (load.torque) loads_.push_back({true, {group.create_growing<double>("moment", {}, blocks), {}}});
+      else loads_.push_back({false, {vector_in(group, "force"), {}}});
+    }
   }
   if (beams.empty()) return;
   const hdf5::Group beam_groups = history.create_group("beam");
@@ -59,8 +72,9 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
 }
 
 void HistorySection::add(const HistorySample& sample) {
-  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size())
-    throw std::logic_error("a history sample has other contacts, sets or beams than the results file was made for");
+  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size() ||
+      (!loads_.empty() && sample.loads.size() != loads_.size()))
+    throw std::logic_error("a history sample has other contacts, sets, beams or loads than the results file was made for");
   times_.values.push_back(sample.time);
   steps_.values.push_back(sample.step);
   for (std::size_t i = 0; i < std::size(energy_terms); ++i) energies_[i].values.push_back(sample.energy.*energy_terms[i].value);
@@ -79,6 +93,10 @@ void HistorySection::add(const HistorySample& sample) {
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     push(beams_[i].force.values, sample.beams[i].force);
     push(beams_[i].moment.values, sample.beams[i].moment);
+  }
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    if (loads_[i].torque) loads_[i].value.values.push_back(sample.loads[i].moment);
+    else push(loads_[i].value.values, sample.loads[i].force);
   }
 }
 
@@ -101,6 +119,7 @@ void HistorySection::write_values() {
     beam.force.write(rows);
     beam.moment.write(rows);
   }
+  for (auto& load : loads_) load.value.write(rows);
   steps_.write(rows);
 }
 

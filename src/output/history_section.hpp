@@ -9,14 +9,23 @@
 
 namespace railwave {
 
-/// Group /history of a results file: energies, contact forces, mean motions and section forces of beams against time. Samples are kept in memory
+/// A load whose force, or moment, is written.
+struct LoadNames {
+  std::string name, target;
+  bool torque = false;
+  bool hammer = false;       ///< made of one of [hammers.NAME]
+  Vec3 direction{};          ///< of the force, where it doesn't turn; of a torque's axis
+};
+
+/// Group /history of a results file: energies, contact forces, mean motions, loads and section forces of beams against time. Samples are kept in memory
 /// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
 class HistorySection {
  public:
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
-  /// that is known.
+  /// that is known; loads; what in the case asked for each set, if known.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
-                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {});
+                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {},
+                 const std::vector<LoadNames>& loads = {}, const std::vector<std::string>& askers = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
@@ -42,12 +51,18 @@ class HistorySection {
     Column<double> force, moment;
   };
 
+  struct LoadColumn {
+    bool torque;
+    Column<double> value;  ///< force, three a row, or moment
+  };
+
   Column<double> times_;
   Column<long> steps_;
   std::vector<Column<double>> energies_;
   std::vector<ContactColumns> contacts_;
   std::vector<MotionColumns> sets_;
   std::vector<BeamColumns> beams_;
+  std::vector<LoadColumn> loads_;
 };
 
 }  // namespace railwave

@@ -1,5 +1,6 @@
 #include "output/results_file.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -30,6 +31,32 @@ class ModelFields : public FieldSource {
  private:
   const Model& model_;
 };
+
+template <class Entry>
+const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
+  const bool torque = load.type == scene::LoadType::torque;
+  Vec3 direction = torque ? load.axis : load.type == scene::LoadType::nodal_force ? load.force : load.type == scene::LoadType::traction ? load.traction : Vec3{};
+  const double length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+  if (length > 0)
+    for (double& one : direction) one /= length;
+  return {load.name, load.target, torque, named(scene.hammers, load.name) != nullptr, direction};
+}
+
+std::string asked_by(const scene::Scene& scene, const std::string& set) {
+  const auto dot = set.find('.');
+  if (dot == std::string::npos) return {};
+  const std::string part = set.substr(0, dot), name = set.substr(dot + 1);
+  if (const auto* hammer = named(scene.hammers, name); hammer && hammer->part == part) return "hammer " + name;
+  const auto* probe = named(scene.probes, name);
+  if (!probe && name.find('_') != std::string::npos) probe = named(scene.probes, name.substr(0, name.rfind('_')));
+  return probe && probe->part == part ? "probe " + probe->name : std::string();
+}
 
 /// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
 Vec3 undeformed_position(const Model& model, int set) {
@@ -66,6 +93,8 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.history_sets = scene.output.history_sets;
   for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
   for (const auto& chain : assembly.beam_chains) description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
+  for (const auto& set : scene.output.history_sets) description_.history_askers.push_back(asked_by(scene, set));
+  for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
   check_results_place(path_);

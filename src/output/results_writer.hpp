@@ -31,7 +31,9 @@ struct RunDescription {
   std::vector<ContactNames> contacts;
   std::vector<std::string> history_sets;
   std::vector<Vec3> history_positions;     ///< m, undeformed, of each of these; or none
+  std::vector<std::string> history_askers; ///< "hammer NAME" or "probe NAME" of each of these, or empty; or none at all
   std::vector<std::pair<std::string, int>> beams;  ///< names, numbers of elements
+  std::vector<LoadNames> loads;
   std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress, plastic_strain
   std::vector<OutputSet> sets;
 };

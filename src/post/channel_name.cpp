@@ -23,6 +23,7 @@ constexpr Quantity of_sets[] = {{"displacement", "m", true}, {"velocity", "m/s",
 constexpr Quantity of_contacts[] = {{"normal_force", "N", true}, {"tangential_force", "N", true}, {"master_force", "N", true}, {"nodes_in_contact", "1", false},
                                     {"nodes_slipping", "1", false}};
 constexpr Quantity of_beams[] = {{"force", "N", true}, {"moment", "N m", true}};
+constexpr Quantity of_loads[] = {{"force", "N", true}};
 constexpr const char* directions = "x, y, z, size (the vector's length) or a vector such as 1,0,0.05";
 
 /// What is asked for, and in which file, for complaints.
@@ -168,6 +169,7 @@ std::string ChannelPlace::unit() const {
   const auto from = [&](const Quantity* begin, const Quantity* end) { return std::string(find(begin, end, quantity)->unit); };
   if (group == "set") return from(std::begin(of_sets), std::end(of_sets));
   if (group == "contact") return from(std::begin(of_contacts), std::end(of_contacts));
+  if (group == "load") return from(std::begin(of_loads), std::end(of_loads));
   if (group == "beam") return from(std::begin(of_beams), std::end(of_beams));
   return "J";
 }
@@ -181,6 +183,7 @@ std::vector<std::string> ChannelNames::all() const {
   add(sets, "", names_of(of_sets), "");
   add(contacts, "contact.", names_of(of_contacts), "");
   add(beams, "beam.", names_of(of_beams), ".0");
+  add(loads, "load.", names_of(of_loads), "");
   for (const std::string& energy : energies) result.push_back("energy." + energy);
   return result;
 }
@@ -192,6 +195,7 @@ std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, co
   const bool set = std::any_of(names.sets.begin(), names.sets.end(), [&](const std::string& name) { return begins(name + '.'); });
   if (!set && begins("contact.")) return {{owned("contact", text.substr(8), names.contacts, of_contacts, asked)}};
   if (!set && begins("beam.")) return {{owned("beam", text.substr(5), names.beams, of_beams, asked)}};
+  if (!set && begins("load.")) return {{owned("load", text.substr(5), names.loads, of_loads, asked)}};
   if (!set && begins("energy.")) {
     ChannelPlace place;
     place.group = "energy";

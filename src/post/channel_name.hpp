@@ -9,8 +9,8 @@ namespace railwave {
 
 /// Where in /history a channel's numbers are.
 struct ChannelPlace {
-  std::string group;      ///< set, contact, beam or energy
-  std::string owner;      ///< the set's, contact's or beam's name; empty: energy
+  std::string group;      ///< set, contact, beam, load or energy
+  std::string owner;      ///< the set's, contact's, beam's or load's name; empty: energy
   std::string quantity;   ///< the dataset
   int element = 0;        ///< of a beam
   bool vector = false;    ///< three numbers a sample, of which `direction` takes one
@@ -21,9 +21,9 @@ struct ChannelPlace {
   std::string unit() const;
 };
 
-/// What a file has: names of its sets, contacts, beams and energies.
+/// What a file has: names of its sets, contacts, beams, energies and loads (those with a force).
 struct ChannelNames {
-  std::vector<std::string> sets, contacts, beams, energies;
+  std::vector<std::string> sets, contacts, beams, energies, loads;
 
   /// Every channel without its direction.
   std::vector<std::string> all() const;

@@ -19,7 +19,10 @@ constexpr std::size_t fewest = 4;
 
 ChannelNames names_in(const hdf5::Group& history) {
   const auto names = [&](const char* group) { return history.has(group) ? history.group(group).names() : std::vector<std::string>{}; };
-  return {names("set"), names("contact"), names("beam"), names("energy")};
+  std::vector<std::string> loads;
+  for (const std::string& load : names("load"))
+    if (history.group("load").group(load).has("force")) loads.push_back(load);
+  return {names("set"), names("contact"), names("beam"), names("energy"), loads};
 }
 
 hdf5::Group group_of(const hdf5::Group& history, const ChannelPlace& place) {

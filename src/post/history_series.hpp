@@ -40,6 +40,7 @@ struct HistoryRequest {
 ///   SET.displacement.z, SET.velocity.x, SET.acceleration.0,1,0.05   a history set along an axis or along a vector (made a unit one)
 ///   contact.NAME.normal_force.size, contact.NAME.nodes_in_contact   "size" is the length of the vector
 ///   beam.NAME.moment.ELEMENT.y                                      elements count from 0
+///   load.NAME.force.z                                               of a load, its total
 ///   energy.kinetic
 ///
 /// In SET, * stands for any letters and yields a channel for each set that it finds; names joined by + yield one, the mean of

@@ -11,6 +11,7 @@
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
 #include "solve/beams.hpp"
+#include "solve/load_totals.hpp"
 
 namespace railwave {
 namespace {
@@ -302,6 +303,7 @@ HistorySample take_sample(const Model& model, double step) {
     if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
   if (model.beams) sample.beams = beam_resultants(model);
+  sample.loads = load_totals(model);
   return sample;
 }
 

@@ -48,6 +48,12 @@ struct BeamResultants {
   std::vector<double> moment;  ///< N m: torsion, bending about the second and third axis
 };
 
+/// What one of the scene's loads comes to.
+struct LoadTotals {
+  Vec3 force{};              ///< N; none of a torque
+  double moment = 0;         ///< N m, of a torque about its axis
+};
+
 struct HistorySample {
   double time = 0;
   long step = 0;
@@ -55,6 +61,7 @@ struct HistorySample {
   std::vector<ContactTotals> contacts;   ///< one for each contact of the scene
   std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets
   std::vector<BeamResultants> beams;     ///< one for each of the scene's beams
+  std::vector<LoadTotals> loads;         ///< one for each of the scene's loads
 };
 
 /// How a run ended.

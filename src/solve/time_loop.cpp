@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 
+#include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/account.hpp"
 #include "solve/contact_window.hpp"
@@ -132,6 +133,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
   summary.warnings = late_contacts(model);
+  for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
+    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)
     if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty()) summary.swings.push_back(told);
   summary.completed = summary.reason.empty();

@@ -66,3 +66,17 @@ TEST_CASE("the integral of a curve is what many small rectangles sum to") {
       CHECK_THAT(curve_integral(curve, end), WithinAbs(sum, 2e-3));
     }
 }
+
+TEST_CASE("half a sine wave is a blow from its start for its duration, and its integral two over pi of that") {
+  scene::Curve blow;
+  blow.type = scene::CurveType::half_sine;
+  blow.start = 1e-3;
+  blow.duration = 2e-4;
+  CHECK(curve_value(&blow, 0.5e-3) == 0);
+  CHECK(curve_value(&blow, 1e-3) == 0);
+  CHECK_THAT(curve_value(&blow, 1.05e-3), WithinAbs(std::sqrt(0.5), 1e-12));
+  CHECK_THAT(curve_value(&blow, 1.1e-3), WithinAbs(1, 1e-15));
+  CHECK(curve_value(&blow, 1.2e-3) == 0);
+  CHECK(curve_value(&blow, 1) == 0);
+  CHECK_THAT(curve_integral(&blow, 1), WithinAbs(2 / M_PI * 2e-4, 1e-18));
+}

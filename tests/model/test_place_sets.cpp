@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "case/error.hpp"
+#include "model/place_sets.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;
@@ -54,4 +55,33 @@ TEST_CASE("a set by place without nodes tells the nearest one, and a name that i
   taken.node_sets[0].name = "z_min";
   CHECK_THAT(complaint(taken), ContainsSubstring("the part 'block' has a set 'z_min' already"));
   CHECK_THAT(complaint(scene_with("top", {{{0, 0, 0}, {99, 9, 9}}})), ContainsSubstring("there is no set 'block.top'"));
+}
+
+TEST_CASE("a node set by position has the nodes within its radius, and the nearest one in any case") {
+  scene::Scene scene = scene_with("z_max", {});
+  scene.node_sets[0].box.reset();
+  scene.node_sets[0].position = scene::Vec3{12, 1, 1.2};
+  scene.node_sets[0].radius = 1.1;
+  CHECK(assemble(scene).node_sets.at("block.picked").size() == 5);
+  scene.node_sets[0].radius = 0;
+  const Assembly assembly = assemble(scene);
+  REQUIRE(assembly.node_sets.at("block.picked").size() == 1);
+  CHECK(assembly.nodes[assembly.node_sets.at("block.picked")[0]] == Vec3{12, 1, 1});
+  CHECK(assembly.surfaces.count("block.picked") == 0);
+
+  const auto placed = placed_sets(scene, assembly);
+  REQUIRE(placed.size() == 1);
+  CHECK(placed[0].count == 1);
+  CHECK(std::abs(placed[0].distance - 0.2) < 1e-12);
+  CHECK(placed[0].warning.empty());
+}
+
+TEST_CASE("a position farther from the nearest node than an element is warned of") {
+  scene::Scene scene = scene_with("", {});
+  scene.node_sets[0].box.reset();
+  scene.node_sets[0].position = scene::Vec3{12, 1, 2.5};
+  CHECK_THAT(placed_sets(scene, assemble(scene))[0].warning,
+             ContainsSubstring("block.picked (line 7) is asked for at [12, 1, 2.5] m, but the nearest node is 1.5 m away, at [12, 1, 1] m"));
+  scene.node_sets[0].radius = 0.6;
+  CHECK(placed_sets(scene, assemble(scene))[0].warning.empty());
 }

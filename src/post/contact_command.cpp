@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "output/atomic_file.hpp"
 #include "post/contact_file.hpp"
 #include "post/contact_tables.hpp"
+#include "post/own_file.hpp"
 #include "post/patch_velocity.hpp"
 #include "post/results_reader.hpp"
 
@@ -105,15 +105,6 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
   return tables;
 }
 
-void write_csv(const std::optional<std::string>& file, const std::string& text) {
-  if (!file) return;
-  try {
-    write_whole_file(*file, text);
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("the table was not written: {}", error.what()));
-  }
-}
-
 }  // namespace
 
 int contact_command(const ContactRequest& request, std::ostream& out) {
@@ -136,9 +127,9 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
     for (const auto& [contact, tables] : solved) text += (tables.*table).csv_rows(contact);
     return text;
   };
-  if (request.csv) write_csv(request.csv, csv(&ContactTables::patches));
-  if (request.nodes) write_csv(request.nodes, csv(&ContactTables::nodes));
-  if (request.cuts) write_csv(request.cuts, csv(&ContactTables::cuts));
+  if (request.csv) write_table(*request.csv, csv(&ContactTables::patches));
+  if (request.nodes) write_table(*request.nodes, csv(&ContactTables::nodes));
+  if (request.cuts) write_table(*request.cuts, csv(&ContactTables::cuts));
   if (request.hdf5) write_contact_file(*request.hdf5, results, solved);
   return 0;
 }

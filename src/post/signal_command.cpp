@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "case/suggest.hpp"
 #include "post/own_file.hpp"
 #include "post/signal_report.hpp"
 #include "signal/band_pass.hpp"
@@ -29,7 +28,7 @@ constexpr Kind kinds[] = {{"psd", report_psd}, {"wavelet", report_wavelet}, {"ba
 
 void check(const SignalRequest& request, const ResultsReader& results) {
   if (request.channels.empty())
-    throw InputError(fmt::format("no channel is named: --channel CHANNEL is wanted; {} has {}", request.results, joined(history_channels(results))));
+    throw InputError(fmt::format("no channel is named: --channel CHANNEL is wanted; {} has {}", request.results, history_summary(results)));
   if (!(request.low >= 0 && request.high >= 0 && (request.high == 0 || request.low < request.high)))
     throw InputError(fmt::format("--low {} --high {}: a band is wanted whose upper edge is above the lower one, in Hz", request.low, request.high));
   if (!(request.segment >= 0)) throw InputError(fmt::format("--segment {}: a length above 0 is wanted, in s", request.segment));

@@ -53,7 +53,7 @@ SignalReport report_psd(const SignalInput& input) {
     const double highest = input.request.high > 0 ? input.request.high : psd.frequency.back() + 1;
     const double power = band_power(psd.frequency, psd.density, input.request.low, highest);
     if (channel == channels.front())
-      report.text += fmt::format("{} segments of {} samples, {:.6g} Hz from one frequency to the next\n", psd.segments, psd.segment_length, psd.frequency[1]);
+      report.text += fmt::format("{} {} of {} samples, {:.6g} Hz from one frequency to the next\n", psd.segments, psd.segments == 1 ? "segment" : "segments", psd.segment_length, psd.frequency[1]);
     report.text += fmt::format("{}: root mean square {:.5g} {} {}; peaks", channel->name, std::sqrt(power), channel->unit, band_text(input.request));
     const auto peaks = highest_peaks(psd.frequency, psd.density, input.request);
     for (const std::size_t k : peaks) report.text += fmt::format(" {:.6g} Hz ({:.3g} {})", psd.frequency[k], psd.density[k], columns.back().unit);

@@ -40,6 +40,8 @@ Row row_of(const SignalInput& input) {
   int axis = 0;
   row.along.cwiseAbs().maxCoeff(&axis);
   if (row.along[axis] < 0) row.along = -row.along;
+  for (double& component : row.along)
+    if (std::fabs(component) < 1e-9) component = 0;  // rounding, no direction
   const auto place = [&](const HistoryChannel* channel) { return row.along.dot(*channel->position); };
   std::stable_sort(row.channels.begin(), row.channels.end(), [&](const auto* a, const auto* b) { return place(a) < place(b); });
   for (const HistoryChannel* channel : row.channels) row.distance.push_back(place(channel) - place(row.channels.front()));

@@ -49,9 +49,9 @@ SignalReport report_wavelet(const SignalInput& input) {
       }
     }
   }
-  Table by_time({{"time", "s"}, {"cone_period", "s"}, {"band_power", power_unit}});
+  Table by_time({{"time", "s"}, {"cone_period", "s"}, {"band_power", power_unit}, {"value", channel.unit}});
   const auto band = wavelet.band_power(wavelet.frequency.back(), wavelet.frequency.front());
-  for (std::size_t n = 0; n < input.length(); ++n) by_time.add_row({input.time(n), wavelet.cone[n], band[n]});
+  for (std::size_t n = 0; n < input.length(); ++n) by_time.add_row({input.time(n), wavelet.cone[n], band[n], channel.values[n]});
 
   report.text = fmt::format("{}: {} scales from {:.6g} Hz to {:.6g} Hz, variance {:.5g} {}, lag-1 correlation {:.4f}\n", channel.name, wavelet.scale.size(), wavelet.frequency.back(),
                             wavelet.frequency.front(), variance, power_unit, correlation);

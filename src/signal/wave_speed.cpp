@@ -29,17 +29,25 @@ Peak parabola_peak(double before, double at, double after) {
   return {place, at - 0.25 * (before - after) * place};
 }
 
-/// Lag of the second of two signals behind the first, in samples, and their correlation at it.
-Peak best_lag(const std::vector<Complex>& first, const std::vector<Complex>& second, std::size_t length, double norm) {
+/// Correlation of two signals by the lag of the second, `finer` values a sample, in a circle of twice the signals' length.
+std::vector<double> correlation(const std::vector<Complex>& first, const std::vector<Complex>& second, std::size_t length) {
   // More frequencies without power are values between the samples.
   std::vector<Complex> product(finer * length / 2 + 1);
   for (std::size_t k = 0; k <= (length - 1) / 2; ++k) product[k] = std::conj(first[k]) * second[k] * static_cast<double>(finer);
-  const auto correlation = real_values(product, finer * length);
-  const std::size_t n = correlation.size();
-  const std::size_t at = std::max_element(correlation.begin(), correlation.end()) - correlation.begin();
-  const Peak peak = parabola_peak(correlation[(at + n - 1) % n], correlation[at], correlation[(at + 1) % n]);
-  const double lag = (static_cast<double>(at) + peak.place) / static_cast<double>(finer);
-  return {lag > static_cast<double>(length) / 2 ? lag - static_cast<double>(length) : lag, peak.height / norm};
+  return real_values(product, finer * length);
+}
+
+/// The top that is reached uphill from `at`: lag in samples and height.
+Peak top_from(const std::vector<double>& values, std::size_t at) {
+  const std::size_t n = values.size();
+  while (true) {
+    const double before = values[(at + n - 1) % n], after = values[(at + 1) % n];
+    if (std::max(before, after) <= values[at]) break;
+    at = before > after ? (at + n - 1) % n : (at + 1) % n;
+  }
+  const Peak peak = parabola_peak(values[(at + n - 1) % n], values[at], values[(at + 1) % n]);
+  const double lag = static_cast<double>(at) + peak.place;
+  return {(lag > static_cast<double>(n) / 2 ? lag - static_cast<double>(n) : lag) / static_cast<double>(finer), peak.height};
 }
 
 }  // namespace
@@ -48,14 +56,22 @@ TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, con
   const std::size_t count = signals.size();
   if (count < 2) throw InputError("a wave speed needs two probes at least");
   const std::size_t length = quick_length(2 * signals.front().size());
-  const auto first = real_spectrum(signals.front(), length);
+  std::vector<std::vector<Complex>> spectra;
+  for (const auto& signal : signals) spectra.push_back(real_spectrum(signal, length));
   TimeOfFlight flight;
+  double lag = 0;  // samples, behind the first
   for (std::size_t p = 0; p < count; ++p) {
     const double norm = std::sqrt(energy(signals.front()) * energy(signals[p]));
     if (!(norm > 0)) throw InputError(fmt::format("probe {} of the row does not move", energy(signals[p]) > 0 ? 1 : p + 1));
-    const Peak lag = best_lag(first, real_spectrum(signals[p], length), length, norm);
-    flight.lag.push_back(lag.place * interval);
-    flight.similarity.push_back(lag.height);
+    // From one probe to the next the highest top is the right one; from the first it may be a period off.
+    const auto step = correlation(spectra[p > 0 ? p - 1 : 0], spectra[p], length);
+    lag += top_from(step, static_cast<std::size_t>(std::max_element(step.begin(), step.end()) - step.begin())).place;
+    const auto whole = correlation(spectra.front(), spectra[p], length);
+    const auto n = static_cast<long>(whole.size());
+    const Peak top = top_from(whole, static_cast<std::size_t>(((std::lround(lag * static_cast<double>(finer)) % n) + n) % n));
+    lag = top.place;
+    flight.lag.push_back(lag * interval);
+    flight.similarity.push_back(top.height / norm);
   }
   // Straight line through lags over distances: its slope is one over the speed.
   double mean_x = 0, mean_t = 0, xx = 0, xt = 0, rest = 0;

@@ -8,16 +8,17 @@ namespace railwave {
 
 /// How fast something runs along a row of probes, by when it comes past each.
 struct TimeOfFlight {
-  std::vector<double> lag;      ///< s, of each probe behind the first, from the highest point of their correlation
+  std::vector<double> lag;      ///< s, of each probe behind the first, from a top of their correlation
   std::vector<double> similarity;  ///< that correlation, 1: the same signal but for size
   double speed = 0;             ///< m/s, along the row; below 0: it comes from the other end
   double standard_error = 0;    ///< m/s, from the scatter about the straight line
   double scatter = 0;           ///< s, root mean square of lags about the straight line
 };
 
-/// @param signals of each probe, at the same times
+/// @param signals of each probe, at the same times, along the row
 /// @param distance m, of each probe along the row
 /// Lags are found between samples: the correlation is interpolated as the band-limited function that it is, eightfold, and by a parabola there.
+/// Each is the top nearest to the lag of the probe before and the step from that one on, lest it be a period off.
 /// Throws InputError where a probe does not move or nothing travels.
 TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, const std::vector<double>& distance, double interval);
 

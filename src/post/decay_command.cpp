@@ -1,0 +1,112 @@
+#include "post/decay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <ostream>
+
+#include "case/error.hpp"
+#include "output/atomic_file.hpp"
+#include "post/hammer_test.hpp"
+#include "signal/decay_rate.hpp"
+
+namespace railwave {
+namespace {
+
+/// m; probes nearer to the force than that are at it.
+constexpr double at_force = 1e-3;
+
+struct Probe {
+  double distance;
+  HammerResponse where;
+};
+
+/// Probes along the row, ascending from the force, which comes first; those on its other side are left out.
+std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request, std::vector<std::string>& notes) {
+  const std::string along = request.direction.empty() ? "" : ":" + request.direction;
+  const std::string part = test.input().set.substr(0, test.input().set.find('.'));
+  std::vector<HammerResponse> found;
+  if (request.rows.empty()) {
+    for (const HammerResponse& one : test.all())
+      if (one.set != test.input().set && one.set.compare(0, part.size() + 1, part + ".") == 0) found.push_back(test.find(one.set + along).front());
+  }
+  for (const std::string& row : request.rows)
+    for (const HammerResponse& one : test.find(row + along)) found.push_back(one);
+  const auto struck = test.place(test.input().set);
+  std::vector<Probe> probes{{0, test.find(test.input().set + along).front()}};
+  double side = 0;
+  int left_out = 0;
+  for (const HammerResponse& one : found) {
+    if (one.set == test.input().set) continue;
+    const auto place = test.place(one.set);
+    if (!place || !struck) throw InputError("the results file does not tell where its sets are; repeat the run with this program");
+    const Eigen::Vector3d way = *place - *struck;
+    const double distance = std::fabs(way[0]);
+    if (distance < at_force) continue;
+    if (side == 0) side = way[0] > 0 ? 1 : -1;
+    if (way[0] * side < 0) {
+      ++left_out;
+      continue;
+    }
+    probes.push_back({distance, one});
+  }
+  if (left_out > 0) notes.push_back(fmt::format("{} probes on the other side of the force are left out", left_out));
+  std::sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.distance < b.distance; });
+  probes.erase(std::unique(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return b.distance - a.distance < at_force; }), probes.end());
+  if (probes.size() < 3)
+    throw InputError(fmt::format("a decay rate needs the force and two places beside it along x at least, but has {}; add a row: [probes.NAME] with count and spacing", probes.size() - 1));
+  return probes;
+}
+
+}  // namespace
+
+int decay_command(const DecayRequest& request, std::ostream& out) {
+  if (!(request.from > 0 && request.from < request.to)) throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
+  const HammerTest test(request.results, request.input);
+  SignalNotes notes;
+  const auto probes = probes_of(test, request, notes.texts);
+  const ResponseSettings settings = ResponseSettings::of(request.resolution, request.window, request.window_end);
+  std::vector<PlacedResponse> places;
+  std::vector<double> frequency;
+  double reliable = 0;
+  for (const Probe& probe : probes) {
+    FrequencyResponse response = test.accelerance(probe.where, settings, notes);
+    if (frequency.empty()) frequency = response.frequency, reliable = force_limit(response, 20);
+    places.push_back({probe.distance, std::move(response.value)});
+  }
+  const auto bands = third_octaves(request.from, std::min(request.to, frequency.back()) * 1.13);
+  const auto rates = decay_rates(frequency, places, bands);
+  out << fmt::format("decay rate by EN 15461 of {} along {}: {} places from {:.4g} m to {:.4g} m beside {}\n", probes.front().where.set.substr(0, probes.front().where.set.find('.')),
+                     request.direction.empty() ? "the force" : request.direction, probes.size() - 1, probes[1].distance, probes.back().distance, test.input().load);
+  out << fmt::format("  {:>8} {:>8}\n", "band Hz", "dB/m");
+  bool short_row = false, weak = false;
+  fmt::memory_buffer csv;
+  fmt::format_to(std::back_inserter(csv), "band,centre,low,high,decay_rate,least");
+  for (const Probe& probe : probes) fmt::format_to(std::back_inserter(csv), ",level_{:.6g}", probe.distance);
+  csv.push_back('\n');
+  for (const BandDecay& one : rates) {
+    if (one.band.centre > request.to * 1.001) continue;
+    const bool unsure = one.rate < 1.5 * one.least, thin = one.band.high > reliable;
+    short_row = short_row || unsure;
+    weak = weak || thin;
+    out << fmt::format("  {:>8g} {:>8.3f}{}{}\n", one.band.nominal, one.rate, unsure ? " (row too short)" : "", thin ? " (force weak)" : "");
+    fmt::format_to(std::back_inserter(csv), "{:g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}", one.band.nominal, one.band.centre, one.band.low, one.band.high, one.rate, one.least);
+    for (double level : one.level) fmt::format_to(std::back_inserter(csv), ",{:.4f}", level);
+    csv.push_back('\n');
+  }
+  if (short_row) out << fmt::format("note: a row so long tells no rates below {:.2g} dB/m; those below 1.5 times that are too high\n", rates.front().least);
+  if (weak) out << fmt::format("note: above {:.0f} Hz the force's spectrum is more than 20 dB below its beginning: strike with a shorter blow\n", reliable);
+  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
+  if (request.csv) {
+    try {
+      write_whole_file(*request.csv, fmt::to_string(csv));
+    } catch (const std::exception& error) {
+      throw InputError(fmt::format("the decay rates were not written: {}", error.what()));
+    }
+  }
+  return 0;
+}
+
+}  // namespace railwave

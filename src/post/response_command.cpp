@@ -1,0 +1,177 @@
+#include "post/response_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <ostream>
+
+#include "case/error.hpp"
+#include "case/suggest.hpp"
+#include "output/atomic_file.hpp"
+#include "output/hdf5.hpp"
+#include "post/hammer_test.hpp"
+#include "signal/resonances.hpp"
+
+namespace railwave {
+namespace {
+
+const std::vector<std::string> quantities = {"accelerance", "mobility", "receptance"};
+const std::vector<std::string> units = {"m/s2/N", "m/s/N", "m/N"};
+constexpr const char* file_format = "Railwave frequency responses";
+
+int integrations(const ResponseRequest& request) {
+  return static_cast<int>(std::find(quantities.begin(), quantities.end(), request.quantity) - quantities.begin());
+}
+
+void check(const ResponseRequest& request) {
+  if (integrations(request) == static_cast<int>(quantities.size()))
+    throw InputError(fmt::format("--quantity {}: must be accelerance, mobility or receptance; {}", request.quantity, suggestion(request.quantity, quantities)));
+  if (!(request.prominence > 0)) throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
+  if (request.from && request.to && !(*request.from < *request.to)) throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
+  for (const auto& file : {request.csv, request.hdf5})
+    for (const std::string& results : request.results) {
+      std::error_code none;
+      if (file && std::filesystem::equivalent(*file, results, none))
+        throw InputError(fmt::format("{} is a results file itself, which would be lost: name another file", *file));
+    }
+}
+
+/// A response and the lines of it that are told and written.
+struct Told {
+  HammerResponse where;
+  FrequencyResponse lines;
+  std::vector<Resonance> resonances;
+};
+
+/// Only what lies between the two frequencies.
+FrequencyResponse cut(const FrequencyResponse& whole, double from, double to) {
+  FrequencyResponse part;
+  for (std::size_t k = 0; k < whole.frequency.size(); ++k) {
+    if (whole.frequency[k] < from || whole.frequency[k] > to) continue;
+    part.frequency.push_back(whole.frequency[k]);
+    part.value.push_back(whole.value[k]);
+    part.coherence.push_back(whole.coherence[k]);
+    part.force.push_back(whole.force[k]);
+  }
+  if (part.frequency.size() < 3) throw InputError(fmt::format("from {} Hz to {} Hz there are {} lines; they go up to {:.6g} Hz", from, to, part.frequency.size(), whole.frequency.back()));
+  return part;
+}
+
+double decibels(double amplitude) { return 20 * std::log10(std::max(amplitude, 1e-300)); }
+double degrees(const Complex& value) { return 180 / M_PI * std::arg(value); }
+
+void print(std::ostream& out, const Told& told, const std::string& unit) {
+  out << fmt::format("{} ({})\n", told.where.name, told.where.kind);
+  if (told.resonances.empty()) out << "  no peak or trough\n";
+  else out << fmt::format("  {:>6} {:>10} {:>13} {:>8} {:>10}\n", "", "Hz", unit, "dB", "damping %");
+  for (const Resonance& one : told.resonances)
+    out << fmt::format("  {:>6} {:>10.1f} {:>13.4g} {:>8.1f} {:>10}\n", one.peak ? "peak" : "trough", one.frequency, one.amplitude, decibels(one.amplitude),
+                       one.damping && one.peak ? fmt::format("{:.2f}", 100 * *one.damping) : "-");
+}
+
+std::string csv(const std::vector<Told>& all) {
+  fmt::memory_buffer text;
+  const auto add = std::back_inserter(text);
+  fmt::format_to(add, "response,kind,frequency,amplitude,decibels,phase,real,imaginary,coherence,force_spectrum\n");
+  for (const Told& one : all)
+    for (std::size_t k = 0; k < one.lines.frequency.size(); ++k) {
+      const Complex value = one.lines.value[k];
+      const std::string name = one.where.name.find(',') == std::string::npos ? one.where.name : '"' + one.where.name + '"';
+      fmt::format_to(add, "{},{},{:.10g},{:.10g},{:.6f},{:.6f},{:.10g},{:.10g},{:.8g},{:.8g}\n", name, one.where.kind, one.lines.frequency[k], std::abs(value),
+                     decibels(std::abs(value)), degrees(value), value.real(), value.imag(), one.lines.coherence[k], one.lines.force[k]);
+    }
+  return fmt::to_string(text);
+}
+
+template <class Of>
+void write(const hdf5::Group& group, const char* name, const char* unit, std::size_t count, const Of& value) {
+  std::vector<double> values(count);
+  for (std::size_t k = 0; k < count; ++k) values[k] = value(k);
+  group.write(name, values, {count});
+  group.set_attribute(name, unit);
+}
+
+void write_file(const std::string& path, const HammerTest& test, const ResponseRequest& request, const std::vector<Told>& all) {
+  namespace fs = std::filesystem;
+  if (fs::exists(path)) {
+    bool ours = false;
+    try {
+      const hdf5::File file = hdf5::File::open(path);
+      ours = file.root().has_attribute("format") && file.root().text_attribute("format") == file_format;
+    } catch (const std::exception&) {
+    }
+    if (!ours) throw InputError(fmt::format("{} is there already and is no file that 'railwave frf --hdf5' wrote: name another, or remove it", path));
+  }
+  hdf5::File file = hdf5::File::create(path + ".new");
+  const hdf5::Group root = file.root();
+  root.set_attribute("format", file_format);
+  root.set_attribute("format_version", 1L);
+  root.set_attribute("title", test.title());
+  root.set_attribute("results_files", request.results);
+  root.set_attribute("input", test.input().load);
+  root.set_attribute("quantity", request.quantity);
+  const char* unit = units[static_cast<std::size_t>(integrations(request))].c_str();
+  for (const Told& one : all) {
+    const hdf5::Group group = root.create_group(one.where.name);
+    group.set_attribute("kind", one.where.kind);
+    const FrequencyResponse& lines = one.lines;
+    const std::size_t count = lines.frequency.size();
+    write(group, "frequency", "Hz", count, [&](std::size_t k) { return lines.frequency[k]; });
+    write(group, "real", unit, count, [&](std::size_t k) { return lines.value[k].real(); });
+    write(group, "imaginary", unit, count, [&](std::size_t k) { return lines.value[k].imag(); });
+    write(group, "coherence", "1", count, [&](std::size_t k) { return lines.coherence[k]; });
+    write(group, "force_spectrum", "N s", count, [&](std::size_t k) { return lines.force[k]; });
+  }
+  file.close();
+  fs::rename(path + ".new", path);
+}
+
+}  // namespace
+
+int response_command(const ResponseRequest& request, std::ostream& out) {
+  check(request);
+  const HammerTest test(request.results, request.input);
+  const ResponseSettings settings = ResponseSettings::of(request.resolution, request.window, request.window_end);
+  const double decay = test.decay(settings);
+
+  std::vector<HammerResponse> places;
+  for (const std::string& text : request.responses)
+    for (const HammerResponse& place : test.find(text)) places.push_back(place);
+  if (request.responses.empty()) places = test.all();
+
+  SignalNotes notes;
+  std::vector<Told> all;
+  double reliable = 0;
+  for (const HammerResponse& place : places) {
+    FrequencyResponse whole = test.accelerance(place, settings, notes);
+    if (all.empty()) {
+      const auto& d = test.input().direction;
+      out << fmt::format("input {}: on {} along {:.4g}, {:.4g}, {:.4g}; its spectrum is 3 dB down at {:.0f} Hz, 10 dB at {:.0f} Hz\n", test.input().load, test.input().set,
+                         d[0], d[1], d[2], force_limit(whole, 3), force_limit(whole, 10));
+      out << fmt::format("{} blow{}; {}; lines every {:.4g} Hz\n", test.blows(), test.blows() == 1 ? ", so that the coherence is 1 by definition" : "s, averaged (H1)",
+                         settings.window_end < 1 ? fmt::format("exponential window down to {:.3g}, its damping taken off", settings.window_end) : std::string("no window"),
+                         whole.frequency[1]);
+      reliable = force_limit(whole, 20);
+    }
+    integrate(whole, integrations(request), decay);
+    Told told{place, cut(whole, request.from.value_or(20), request.to.value_or(reliable)), {}};
+    told.resonances = find_resonances(told.lines.frequency, told.lines.value, request.prominence, decay);
+    all.push_back(std::move(told));
+  }
+  for (const Told& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
+  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
+  try {
+    if (request.csv) write_whole_file(*request.csv, csv(all));
+    if (request.hdf5) write_file(*request.hdf5, test, request, all);
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("the frequency responses were not written: {}", error.what()));
+  }
+  return 0;
+}
+
+}  // namespace railwave

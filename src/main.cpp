@@ -13,9 +13,9 @@
 #include "output/results_writer.hpp"
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
-#include "signal_options.hpp"
 #include "post/decay_command.hpp"
 #include "post/response_command.hpp"
+#include "signal_options.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {

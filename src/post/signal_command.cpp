@@ -102,8 +102,9 @@ std::vector<double> in_band(const std::vector<double>& values, const SignalInput
 }
 
 std::string product_unit(const std::string& a, const std::string& b) {
-  if (a == b) return a == "1" ? "1" : fmt::format("({})2", a);
-  return fmt::format("({})({})", a, b);
+  const auto guarded = [](const std::string& unit) { return unit.find_first_of("/ 2") == std::string::npos ? unit : '(' + unit + ')'; };
+  if (a == b) return a == "1" ? "1" : guarded(a) + "2";
+  return guarded(a) + ' ' + guarded(b);
 }
 
 double mean_square(const std::vector<double>& values) {

@@ -48,7 +48,7 @@ std::vector<std::pair<const HistoryChannel*, const HistoryChannel*>> channel_pai
 /// Values in the request's band; as they are where it is open.
 std::vector<double> in_band(const std::vector<double>& values, const SignalInput& input);
 
-/// Unit of a product: "(m/s)2" of a unit with itself.
+/// Unit of a product: "(m/s)2" or "N2" of a unit with itself.
 std::string product_unit(const std::string& a, const std::string& b);
 
 double mean_square(const std::vector<double>& values);

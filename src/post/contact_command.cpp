@@ -1,7 +1,6 @@
 #include "post/contact_command.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -27,11 +26,7 @@ void check(const ContactRequest& request) {
   if (request.rolling_velocity && !(*request.rolling_velocity > 0 && std::isfinite(*request.rolling_velocity)))
     throw InputError(fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
   if (!(request.from <= request.to)) throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
-  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) {
-    std::error_code none;
-    if (file && std::filesystem::equivalent(*file, request.results, none))
-      throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
-  }
+  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) check_is_not(request.results, file);
 }
 
 void print_heading(std::ostream& out) {

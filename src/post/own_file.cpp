@@ -28,10 +28,12 @@ bool is_hdf5(const std::string& path) {
 
 }  // namespace
 
-void write_own_file(const std::string& path, const OwnFormat& format, const ResultsReader& results, const std::function<void(const hdf5::Group&)>& fill) {
+void write_own_file(const std::string& path, const OwnFormat& format, const ResultsReader& results,
+                    const std::function<void(const hdf5::Group&)>& fill) {
   namespace fs = std::filesystem;
   if (fs::exists(path) && !is_of(format, path))
-    throw InputError(fmt::format("{} is there already and is no file that '{}' wrote: name another, or remove it", path, format.command));
+    throw InputError(fmt::format("{} is there already and is no file that '{}' wrote: name another, or remove it", path,
+                                 format.command));
   const std::string beside = path + ".new";
   try {
     hdf5::File file = hdf5::File::create(beside);
@@ -50,8 +52,15 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
   }
 }
 
+void check_is_not(const std::string& results, const std::optional<std::string>& file) {
+  std::error_code none;
+  if (file && std::filesystem::equivalent(*file, results, none))
+    throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
+}
+
 void write_table(const std::string& path, const std::string& text) {
-  if (is_hdf5(path)) throw InputError(fmt::format("{} is an HDF5 file, which would be lost: name another for the table", path));
+  if (is_hdf5(path))
+    throw InputError(fmt::format("{} is an HDF5 file, which would be lost: name another for the table", path));
   try {
     write_whole_file(path, text);
   } catch (const std::exception& error) {

@@ -1,7 +1,6 @@
 #include "post/signal_command.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <ostream>
 
 #include <fmt/format.h>
@@ -23,20 +22,19 @@ struct Kind {
 };
 
 /// In the order of SignalKind.
-constexpr Kind kinds[] = {{"psd", report_psd}, {"wavelet", report_wavelet}, {"bandpass", report_bandpass},
+constexpr Kind kinds[] = {{"psd", report_psd},     {"wavelet", report_wavelet}, {"bandpass", report_bandpass},
                           {"cross", report_cross}, {"ellipse", report_ellipse}, {"speed", report_speed}};
 
 void check(const SignalRequest& request, const ResultsReader& results) {
   if (request.channels.empty())
-    throw InputError(fmt::format("no channel is named: --channel CHANNEL is wanted; {} has {}", request.results, history_summary(results)));
+    throw InputError(fmt::format("no channel is named: --channel CHANNEL is wanted; {} has {}", request.results,
+                                 history_summary(results)));
   if (!(request.low >= 0 && request.high >= 0 && (request.high == 0 || request.low < request.high)))
-    throw InputError(fmt::format("--low {} --high {}: a band is wanted whose upper edge is above the lower one, in Hz", request.low, request.high));
-  if (!(request.segment >= 0)) throw InputError(fmt::format("--segment {}: a length above 0 is wanted, in s", request.segment));
-  for (const auto& file : {request.csv, request.hdf5}) {
-    std::error_code none;
-    if (file && std::filesystem::equivalent(*file, request.results, none))
-      throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
-  }
+    throw InputError(fmt::format("--low {} --high {}: a band is wanted whose upper edge is above the lower one, in Hz",
+                                 request.low, request.high));
+  if (!(request.segment >= 0))
+    throw InputError(fmt::format("--segment {}: a length above 0 is wanted, in s", request.segment));
+  for (const auto& file : {request.csv, request.hdf5}) check_is_not(request.results, file);
 }
 
 SignalInput read(const SignalRequest& request, const ResultsReader& results) {
@@ -85,12 +83,15 @@ std::size_t SignalInput::segment(std::size_t otherwise) const {
 
 std::vector<std::pair<const HistoryChannel*, const HistoryChannel*>> channel_pairs(const SignalInput& input) {
   if (input.entries.size() != 2)
-    throw InputError(fmt::format("{} --channel are given, two are wanted: what is compared, and what with", input.entries.size()));
+    throw InputError(
+        fmt::format("{} --channel are given, two are wanted: what is compared, and what with", input.entries.size()));
   const auto& first = input.entries[0].channels;
   const auto& second = input.entries[1].channels;
   if (first.size() != second.size())
-    throw InputError(fmt::format("'{}' finds {} channels and '{}' {}: as many are wanted, which are compared pair by pair; or make each their mean by --average",
-                                 input.request.channels[0], first.size(), input.request.channels[1], second.size()));
+    throw InputError(
+        fmt::format("'{}' finds {} channels and '{}' {}: as many are wanted, which are compared pair by pair; or make "
+                    "each their mean by --average",
+                    input.request.channels[0], first.size(), input.request.channels[1], second.size()));
   std::vector<std::pair<const HistoryChannel*, const HistoryChannel*>> pairs;
   for (std::size_t i = 0; i < first.size(); ++i) pairs.emplace_back(&first[i], &second[i]);
   return pairs;
@@ -98,11 +99,15 @@ std::vector<std::pair<const HistoryChannel*, const HistoryChannel*>> channel_pai
 
 std::vector<double> in_band(const std::vector<double>& values, const SignalInput& input) {
   const SignalRequest& request = input.request;
-  return request.low > 0 || request.high > 0 ? band_passed(values, input.interval(), {request.low, request.high, request.order}) : values;
+  return request.low > 0 || request.high > 0
+             ? band_passed(values, input.interval(), {request.low, request.high, request.order})
+             : values;
 }
 
 std::string product_unit(const std::string& a, const std::string& b) {
-  const auto guarded = [](const std::string& unit) { return unit.find_first_of("/ 2") == std::string::npos ? unit : '(' + unit + ')'; };
+  const auto guarded = [](const std::string& unit) {
+    return unit.find_first_of("/ 2") == std::string::npos ? unit : '(' + unit + ')';
+  };
   if (a == b) return a == "1" ? "1" : guarded(a) + "2";
   return guarded(a) + ' ' + guarded(b);
 }
@@ -128,9 +133,12 @@ int signal_command(const SignalRequest& request, std::ostream& out) {
   for (const std::string& note : input.entries.front().notes) out << "note: " << note << '\n';
   const Kind& kind = kinds[static_cast<int>(request.kind)];
   const SignalReport report = kind.report(input);
-  out << fmt::format("{} samples every {:.6g} s from {:.6g} s\n", input.length(), input.interval(), input.time(0)) << report.text;
+  out << fmt::format("{} samples every {:.6g} s from {:.6g} s\n", input.length(), input.interval(), input.time(0))
+      << report.text;
   if (request.csv) write_table(*request.csv, report.tables.front().second.csv());
-  if (request.hdf5) write_own_file(*request.hdf5, format, results, [&](const hdf5::Group& root) { fill(root, input, report, kind.name); });
+  if (request.hdf5)
+    write_own_file(*request.hdf5, format, results,
+                   [&](const hdf5::Group& root) { fill(root, input, report, kind.name); });
   return 0;
 }
 

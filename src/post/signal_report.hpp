@@ -17,10 +17,10 @@ struct SignalReport {
     hdf5::Shape shape;
     std::vector<double> values;
   };
-  std::string text;                                         ///< for the screen
-  std::vector<std::pair<std::string, Table>> tables;        ///< the first is the CSV; all are groups of the HDF5 file
-  std::vector<Array> arrays;                                ///< its datasets
-  std::vector<std::pair<std::string, double>> figures;      ///< its attributes
+  std::string text;                                     ///< for the screen
+  std::vector<std::pair<std::string, Table>> tables;    ///< the first is the CSV; all are groups of the HDF5 file
+  std::vector<Array> arrays;                            ///< its datasets
+  std::vector<std::pair<std::string, double>> figures;  ///< its attributes
 };
 
 /// The channels of a request, one series for each of its entries, all at the same times and without their trend.
@@ -32,7 +32,8 @@ struct SignalInput {
   double time(std::size_t n) const { return entries.front().time(n); }
   std::size_t length() const { return entries.front().length(); }
   std::vector<const HistoryChannel*> channels() const;  ///< of all entries
-  std::size_t segment(std::size_t otherwise) const;     ///< samples in one of Welch's segments; `otherwise` where the request leaves it open
+  std::size_t segment(std::size_t otherwise)
+      const;  ///< samples in one of Welch's segments; `otherwise` where the request leaves it open
 };
 
 SignalReport report_psd(const SignalInput& input);
@@ -42,7 +43,8 @@ SignalReport report_cross(const SignalInput& input);
 SignalReport report_ellipse(const SignalInput& input);
 SignalReport report_speed(const SignalInput& input);
 
-/// The two entries of a request that compares channels pair by pair: (first, second). Throws InputError unless there are two of equal numbers.
+/// The two entries of a request that compares channels pair by pair: (first, second). Throws InputError unless there
+/// are two of equal numbers.
 std::vector<std::pair<const HistoryChannel*, const HistoryChannel*>> channel_pairs(const SignalInput& input);
 
 /// Values in the request's band; as they are where it is open.

@@ -21,16 +21,20 @@ double band_gain(const Band& band, double frequency) {
     q = frequency / band.high;
   } else {
     if (frequency == 0) return 0;
-    q = band.high <= 0 ? band.low / frequency : (frequency * frequency - band.low * band.high) / (frequency * (band.high - band.low));
+    q = band.high <= 0 ? band.low / frequency
+                       : (frequency * frequency - band.low * band.high) / (frequency * (band.high - band.low));
   }
   return 1 / (1 + std::pow(std::fabs(q), 2 * band.order));
 }
 
 std::vector<double> band_passed(const std::vector<double>& values, double interval, const Band& band) {
   const double highest = 0.5 / interval;
-  if (band.low < 0 || band.high < 0 || (band.high > 0 && band.low >= band.high) || std::max(band.low, band.high) >= highest || band.order < 1 || band.order > 20)
-    throw InputError(fmt::format("a band from {:.6g} Hz to {:.6g} Hz of order {}: wanted are edges that ascend, below {:.6g} Hz (half the sampling frequency), and an order of 1 to 20",
-                                 band.low, band.high, band.order, highest));
+  if (band.low < 0 || band.high < 0 || (band.high > 0 && band.low >= band.high) ||
+      std::max(band.low, band.high) >= highest || band.order < 1 || band.order > 20)
+    throw InputError(
+        fmt::format("a band from {:.6g} Hz to {:.6g} Hz of order {}: wanted are edges that ascend, below {:.6g} Hz "
+                    "(half the sampling frequency), and an order of 1 to 20",
+                    band.low, band.high, band.order, highest));
   if (values.size() < 2) return values;
   const double slowest = band.low > 0 ? band.low : band.high > 0 ? band.high : highest;
   const std::size_t count = values.size();
@@ -47,7 +51,8 @@ std::vector<double> band_passed(const std::vector<double>& values, double interv
   const auto frequency = spectrum_frequencies(length, interval);
   for (std::size_t k = 0; k < spectrum.size(); ++k) spectrum[k] *= band_gain(band, frequency[k]);
   longer = real_values(spectrum, length);
-  return {longer.begin() + static_cast<std::ptrdiff_t>(margin), longer.begin() + static_cast<std::ptrdiff_t>(margin + count)};
+  return {longer.begin() + static_cast<std::ptrdiff_t>(margin),
+          longer.begin() + static_cast<std::ptrdiff_t>(margin + count)};
 }
 
 std::vector<Complex> analytic_signal(const std::vector<double>& values) {

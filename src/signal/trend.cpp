@@ -12,7 +12,8 @@ namespace railwave {
 Trend trend_named(const std::string& name) {
   static const std::vector<std::string> names = {"none", "mean", "line"};
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InputError(fmt::format("there is no trend '{}' to take out; {}", name, suggestion(name, names)));
+  if (found == names.end())
+    throw InputError(fmt::format("there is no trend '{}' to take out; {}", name, suggestion(name, names)));
   return static_cast<Trend>(found - names.begin());
 }
 
@@ -28,7 +29,8 @@ std::vector<double> without_trend(const std::vector<double>& values, Trend trend
   }
   const double slope = trend == Trend::line && spread > 0 ? moment / spread : 0;
   std::vector<double> rest(values.size());
-  for (std::size_t n = 0; n < values.size(); ++n) rest[n] = values[n] - mean - slope * (static_cast<double>(n) - middle);
+  for (std::size_t n = 0; n < values.size(); ++n)
+    rest[n] = values[n] - mean - slope * (static_cast<double>(n) - middle);
   return rest;
 }
 

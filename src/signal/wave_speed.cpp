@@ -19,7 +19,8 @@ double energy(const std::vector<double>& values) {
   return sum;
 }
 
-/// Where between -1/2 and 1/2 the parabola through three equally spaced values has its highest point, and its height there.
+/// Where between -1/2 and 1/2 the parabola through three equally spaced values has its highest point, and its height
+/// there.
 struct Peak {
   double place, height;
 };
@@ -29,11 +30,14 @@ Peak parabola_peak(double before, double at, double after) {
   return {place, at - 0.25 * (before - after) * place};
 }
 
-/// Correlation of two signals by the lag of the second, `finer` values a sample, in a circle of twice the signals' length.
-std::vector<double> correlation(const std::vector<Complex>& first, const std::vector<Complex>& second, std::size_t length) {
+/// Correlation of two signals by the lag of the second, `finer` values a sample, in a circle of twice the signals'
+/// length.
+std::vector<double> correlation(const std::vector<Complex>& first, const std::vector<Complex>& second,
+                                std::size_t length) {
   // More frequencies without power are values between the samples.
   std::vector<Complex> product(finer * length / 2 + 1);
-  for (std::size_t k = 0; k <= (length - 1) / 2; ++k) product[k] = std::conj(first[k]) * second[k] * static_cast<double>(finer);
+  for (std::size_t k = 0; k <= (length - 1) / 2; ++k)
+    product[k] = std::conj(first[k]) * second[k] * static_cast<double>(finer);
   return real_values(product, finer * length);
 }
 
@@ -47,12 +51,14 @@ Peak top_from(const std::vector<double>& values, std::size_t at) {
   }
   const Peak peak = parabola_peak(values[(at + n - 1) % n], values[at], values[(at + 1) % n]);
   const double lag = static_cast<double>(at) + peak.place;
-  return {(lag > static_cast<double>(n) / 2 ? lag - static_cast<double>(n) : lag) / static_cast<double>(finer), peak.height};
+  return {(lag > static_cast<double>(n) / 2 ? lag - static_cast<double>(n) : lag) / static_cast<double>(finer),
+          peak.height};
 }
 
 }  // namespace
 
-TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, const std::vector<double>& distance, double interval) {
+TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, const std::vector<double>& distance,
+                            double interval) {
   const std::size_t count = signals.size();
   if (count < 2) throw InputError("a wave speed needs two probes at least");
   const std::size_t length = quick_length(2 * signals.front().size());
@@ -62,13 +68,15 @@ TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, con
   double lag = 0;  // samples, behind the first
   for (std::size_t p = 0; p < count; ++p) {
     const double norm = std::sqrt(energy(signals.front()) * energy(signals[p]));
-    if (!(norm > 0)) throw InputError(fmt::format("probe {} of the row does not move", energy(signals[p]) > 0 ? 1 : p + 1));
+    if (!(norm > 0))
+      throw InputError(fmt::format("probe {} of the row does not move", energy(signals[p]) > 0 ? 1 : p + 1));
     // From one probe to the next the highest top is the right one; from the first it may be a period off.
     const auto step = correlation(spectra[p > 0 ? p - 1 : 0], spectra[p], length);
     lag += top_from(step, static_cast<std::size_t>(std::max_element(step.begin(), step.end()) - step.begin())).place;
     const auto whole = correlation(spectra.front(), spectra[p], length);
     const auto n = static_cast<long>(whole.size());
-    const Peak top = top_from(whole, static_cast<std::size_t>(((std::lround(lag * static_cast<double>(finer)) % n) + n) % n));
+    const Peak top =
+        top_from(whole, static_cast<std::size_t>(((std::lround(lag * static_cast<double>(finer)) % n) + n) % n));
     lag = top.place;
     flight.lag.push_back(lag * interval);
     flight.similarity.push_back(top.height / norm);
@@ -85,7 +93,8 @@ TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, con
   }
   if (!(xx > 0)) throw InputError("all probes of the row are at the same place");
   const double slowness = xt / xx;
-  if (!(std::fabs(slowness) * std::sqrt(xx) > 1e-9 * interval)) throw InputError("the probes move at the same time: nothing travels along the row");
+  if (!(std::fabs(slowness) * std::sqrt(xx) > 1e-9 * interval))
+    throw InputError("the probes move at the same time: nothing travels along the row");
   for (std::size_t p = 0; p < count; ++p) {
     const double off = flight.lag[p] - mean_t - slowness * (distance[p] - mean_x);
     rest += off * off;
@@ -96,7 +105,9 @@ TimeOfFlight time_of_flight(const std::vector<std::vector<double>>& signals, con
   return flight;
 }
 
-FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>& signals, const std::vector<double>& distance, double interval, double low, double high) {
+FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>& signals,
+                                         const std::vector<double>& distance, double interval, double low,
+                                         double high) {
   const std::size_t probes = signals.size();
   if (probes < 4) throw InputError("frequencies and wave numbers need four probes at least");
   const auto [nearest, farthest] = std::minmax_element(distance.begin(), distance.end());
@@ -115,8 +126,10 @@ FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>&
   for (std::size_t i = 0; i < turn.size(); ++i)
     for (std::size_t p = 0; p < probes; ++p) {
       // Hann's window, a step beyond the row at either end so that the last probes count.
-      const double along = ((distance[p] - *nearest) / reach * static_cast<double>(probes - 1) + 1) / static_cast<double>(probes + 1);
-      turn[i][p] = std::polar(std::pow(std::sin(pi * along), 2), 2 * pi * result.wavenumber[i] * (distance[p] - *nearest));
+      const double along =
+          ((distance[p] - *nearest) / reach * static_cast<double>(probes - 1) + 1) / static_cast<double>(probes + 1);
+      turn[i][p] =
+          std::polar(std::pow(std::sin(pi * along), 2), 2 * pi * result.wavenumber[i] * (distance[p] - *nearest));
     }
 
   double largest = 0;
@@ -132,7 +145,8 @@ FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>&
     result.frequency.push_back(frequency[k]);
     result.power.push_back(std::move(row));
   }
-  if (!(largest > 0)) throw InputError("the band holds no frequency of the row's motion; choose others by --low and --high");
+  if (!(largest > 0))
+    throw InputError("the band holds no frequency of the row's motion; choose others by --low and --high");
 
   double weights = 0, kk = 0, fk = 0;
   const double step = result.wavenumber[1] - result.wavenumber[0];
@@ -142,7 +156,8 @@ FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>&
     const std::size_t at = std::max_element(row.begin() + 1, row.end() - 1) - row.begin();
     // The logarithm of a window's peak is nearly a parabola.
     const double least = 1e-300;
-    const Peak peak = parabola_peak(std::log(row[at - 1] + least), std::log(row[at] + least), std::log(row[at + 1] + least));
+    const Peak peak =
+        parabola_peak(std::log(row[at - 1] + least), std::log(row[at] + least), std::log(row[at + 1] + least));
     result.ridge.push_back(result.wavenumber[at] + peak.place * step);
     result.ridge_power.push_back(row[at]);
     if (row[at] < 0.01) continue;

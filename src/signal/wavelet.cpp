@@ -14,7 +14,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 const double norm = std::pow(pi, -0.25);  // of Morlet's wavelet
 
-/// Integral over u > 0 of exp(-(u - w0)^2 width) / u, but for the few that lie below w0/20, where it is no wavelet any more.
+/// Integral over u > 0 of exp(-(u - w0)^2 width) / u, but for the few that lie below w0/20, where it is no wavelet any
+/// more.
 double mean_inverse(double w0, double width) {
   const double begin = w0 / 20, end = w0 + 12;
   const int count = 20000;
@@ -37,8 +38,10 @@ double wavelet_power_factor(double w0) { return std::sqrt(pi) / std::log(2.0) * 
 
 Wavelet wavelet_transform(const std::vector<double>& values, double interval, const WaveletOptions& options) {
   const std::size_t count = values.size();
-  if (!(options.w0 >= 5 && options.w0 <= 50)) throw InputError(fmt::format("a wavelet of w0 = {} is of no use here: 5 to 50 is wanted, usually 6", options.w0));
-  if (!(options.spacing > 0 && options.spacing <= 1)) throw InputError(fmt::format("scales {} octaves apart: more than 0 and at most 1 is wanted", options.spacing));
+  if (!(options.w0 >= 5 && options.w0 <= 50))
+    throw InputError(fmt::format("a wavelet of w0 = {} is of no use here: 5 to 50 is wanted, usually 6", options.w0));
+  if (!(options.spacing > 0 && options.spacing <= 1))
+    throw InputError(fmt::format("scales {} octaves apart: more than 0 and at most 1 is wanted", options.spacing));
   Wavelet result;
   result.interval = interval;
   result.spacing = options.spacing;
@@ -47,9 +50,15 @@ Wavelet wavelet_transform(const std::vector<double>& values, double interval, co
   // In the record's middle the cone leaves periods of up to this.
   const double lowest = options.low > 0 ? options.low : std::sqrt(2.0) / factor / (duration / 2);
   const double highest = options.high > 0 ? options.high : 0.25 / interval;
-  if (!(highest > lowest)) throw InputError(fmt::format("a wavelet's band from {:.6g} Hz to {:.6g} Hz is empty", lowest, highest));
-  if (highest > 0.5 / interval) throw InputError(fmt::format("samples every {:.6g} s hold nothing above {:.6g} Hz; ask for no more by --high", interval, 0.5 / interval));
-  if (lowest * duration < 1) throw InputError(fmt::format("a record of {:.6g} s holds no period of {:.6g} Hz; ask for {:.6g} Hz or more by --low", duration, lowest, 1 / duration));
+  if (!(highest > lowest))
+    throw InputError(fmt::format("a wavelet's band from {:.6g} Hz to {:.6g} Hz is empty", lowest, highest));
+  if (highest > 0.5 / interval)
+    throw InputError(fmt::format("samples every {:.6g} s hold nothing above {:.6g} Hz; ask for no more by --high",
+                                 interval, 0.5 / interval));
+  if (lowest * duration < 1)
+    throw InputError(
+        fmt::format("a record of {:.6g} s holds no period of {:.6g} Hz; ask for {:.6g} Hz or more by --low", duration,
+                    lowest, 1 / duration));
 
   // Zeros keep the ends from meeting.
   const std::size_t length = quick_length(2 * count);
@@ -64,7 +73,8 @@ Wavelet wavelet_transform(const std::vector<double>& values, double interval, co
         product[k] = 0;
         continue;
       }
-      const double w = 2 * pi * static_cast<double>(k) / (static_cast<double>(length) * interval), off = scale * w - options.w0;
+      const double w = 2 * pi * static_cast<double>(k) / (static_cast<double>(length) * interval),
+                   off = scale * w - options.w0;
       product[k] = spectrum[k] * (size * std::exp(-off * off / 2));
     }
     auto transform = values_of(product);
@@ -75,7 +85,8 @@ Wavelet wavelet_transform(const std::vector<double>& values, double interval, co
     result.transform.push_back(std::move(transform));
   }
   result.cone.resize(count);
-  for (std::size_t n = 0; n < count; ++n) result.cone[n] = factor / std::sqrt(2.0) * interval * static_cast<double>(std::min(n, count - 1 - n));
+  for (std::size_t n = 0; n < count; ++n)
+    result.cone[n] = factor / std::sqrt(2.0) * interval * static_cast<double>(std::min(n, count - 1 - n));
   return result;
 }
 
@@ -135,7 +146,8 @@ std::vector<double> red_noise_power(const Wavelet& wavelet, double variance, dou
   std::vector<double> level(wavelet.scale.size());
   for (std::size_t j = 0; j < level.size(); ++j) {
     const double cosine = std::cos(2 * pi * wavelet.interval * wavelet.frequency[j]);
-    level[j] = variance * (1 - correlation * correlation) / (1 + correlation * correlation - 2 * correlation * cosine) * chi_square / 2;
+    level[j] = variance * (1 - correlation * correlation) / (1 + correlation * correlation - 2 * correlation * cosine) *
+               chi_square / 2;
   }
   return level;
 }

@@ -15,10 +15,13 @@ constexpr std::size_t shortest = 16;
 
 /// Windowed transforms of the segments of one signal.
 template <class Take>
-void each_segment(const std::vector<double>& values, const std::vector<double>& weights, std::size_t shift, Trend trend, const Take& take) {
+void each_segment(const std::vector<double>& values, const std::vector<double>& weights, std::size_t shift, Trend trend,
+                  const Take& take) {
   const std::size_t length = weights.size();
   for (std::size_t begin = 0; begin + length <= values.size(); begin += shift) {
-    auto segment = without_trend({values.begin() + static_cast<std::ptrdiff_t>(begin), values.begin() + static_cast<std::ptrdiff_t>(begin + length)}, trend);
+    auto segment = without_trend({values.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  values.begin() + static_cast<std::ptrdiff_t>(begin + length)},
+                                 trend);
     for (std::size_t n = 0; n < length; ++n) segment[n] *= weights[n];
     take(real_spectrum(segment));
   }
@@ -32,14 +35,18 @@ std::size_t segment_length(std::size_t signal_length, const WelchOptions& option
   return eight < static_cast<double>(shortest) ? signal_length : static_cast<std::size_t>(eight);
 }
 
-CrossSpectra cross_spectra(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, double interval, const WelchOptions& options) {
+CrossSpectra cross_spectra(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                           double interval, const WelchOptions& options) {
   if (a.empty() || a.size() != b.size()) throw std::logic_error("cross spectra need pairs of signals");
-  if (!(options.overlap >= 0 && options.overlap < 1)) throw InputError(fmt::format("an overlap of {} is none: it is 0 or more, and below 1", options.overlap));
+  if (!(options.overlap >= 0 && options.overlap < 1))
+    throw InputError(fmt::format("an overlap of {} is none: it is 0 or more, and below 1", options.overlap));
   const std::size_t length = segment_length(a.front().size(), options);
   if (length > a.front().size() || length < 2)
-    throw InputError(fmt::format("segments of {} samples cannot be cut from signals of {}; choose shorter ones", length, a.front().size()));
+    throw InputError(fmt::format("segments of {} samples cannot be cut from signals of {}; choose shorter ones", length,
+                                 a.front().size()));
   const auto weights = window(options.window, length, options.window_parameter);
-  const std::size_t shift = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(static_cast<double>(length) * (1 - options.overlap))));
+  const std::size_t shift = std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::lround(static_cast<double>(length) * (1 - options.overlap))));
 
   CrossSpectra sums;
   sums.segment_length = length;
@@ -49,9 +56,11 @@ CrossSpectra cross_spectra(const std::vector<std::vector<double>>& a, const std:
   sums.density_b.assign(count, 0);
   sums.cross.assign(count, 0);
   for (std::size_t pair = 0; pair < a.size(); ++pair) {
-    if (a[pair].size() != a.front().size() || b[pair].size() != a.front().size()) throw std::logic_error("signals of a pair have other lengths");
+    if (a[pair].size() != a.front().size() || b[pair].size() != a.front().size())
+      throw std::logic_error("signals of a pair have other lengths");
     std::vector<std::vector<Complex>> spectra;
-    each_segment(a[pair], weights, shift, options.trend, [&](std::vector<Complex> spectrum) { spectra.push_back(std::move(spectrum)); });
+    each_segment(a[pair], weights, shift, options.trend,
+                 [&](std::vector<Complex> spectrum) { spectra.push_back(std::move(spectrum)); });
     std::size_t segment = 0;
     each_segment(b[pair], weights, shift, options.trend, [&](const std::vector<Complex>& spectrum) {
       for (std::size_t k = 0; k < count; ++k) {

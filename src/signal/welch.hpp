@@ -15,13 +15,14 @@ struct WelchOptions {
   Trend trend = Trend::mean;  ///< taken out of each segment
 };
 
-/// Averages over the segments, by frequency: one-sided densities, so that their integral over frequency is the mean square (of
-/// segments without trend); in units of the signals, products over Hz. The window's mean square is allowed for.
+/// Averages over the segments, by frequency: one-sided densities, so that their integral over frequency is the mean
+/// square (of segments without trend); in units of the signals, products over Hz. The window's mean square is allowed
+/// for.
 struct CrossSpectra {
   std::vector<double> frequency;  ///< Hz
   std::vector<double> density_a, density_b;
-  std::vector<Complex> cross;     ///< mean of conj(A) B: its angle is the phase of b before a
-  std::size_t segments = 0;       ///< how many were averaged
+  std::vector<Complex> cross;  ///< mean of conj(A) B: its angle is the phase of b before a
+  std::size_t segments = 0;    ///< how many were averaged
   std::size_t segment_length = 0;
 
   /// |cross|^2 / (density_a density_b), 0 to 1; 0 where either is 0. Of a single segment it is 1 whatever the signals.
@@ -32,9 +33,10 @@ struct CrossSpectra {
 /// Number of samples in a segment, from the options.
 std::size_t segment_length(std::size_t signal_length, const WelchOptions& options);
 
-/// Welch's averages of pairs of signals of equal length, over the segments of all pairs. Throws std::logic_error for none, or unequal lengths;
-/// InputError for a segment longer than the signals.
-CrossSpectra cross_spectra(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b, double interval, const WelchOptions& options);
+/// Welch's averages of pairs of signals of equal length, over the segments of all pairs. Throws std::logic_error for
+/// none, or unequal lengths; InputError for a segment longer than the signals.
+CrossSpectra cross_spectra(const std::vector<std::vector<double>>& a, const std::vector<std::vector<double>>& b,
+                           double interval, const WelchOptions& options);
 
 /// One-sided power spectral density of one signal, units squared over Hz.
 struct PowerDensity {

@@ -28,7 +28,8 @@ std::vector<std::vector<double>> travelling_pulse(const std::vector<double>& dis
   std::vector<std::vector<double>> signals;
   for (const double x : distance) {
     std::vector<double> signal(600);
-    for (std::size_t n = 0; n < signal.size(); ++n) signal[n] = pulse(interval * static_cast<double>(n) - 2e-4 - x / speed, f);
+    for (std::size_t n = 0; n < signal.size(); ++n)
+      signal[n] = pulse(interval * static_cast<double>(n) - 2e-4 - x / speed, f);
     signals.push_back(signal);
   }
   return signals;
@@ -42,7 +43,8 @@ TEST_CASE("a band keeps what is in it, without delay, and halves its edges") {
   const auto wave = made_up::cosine(5000, interval, 1, f, 0.4);
   const auto filtered = band_passed(wave, interval, band);
   const double gain = f == 20000 ? 1 : f == 10000 || f == 40000 ? 0.5 : 0;
-  for (std::size_t n = 1000; n < 4000; n += 7) CHECK_THAT(filtered[n], WithinAbs(gain * wave[n], f == 2000 || f == 200000 ? 1e-3 : 0.01));
+  for (std::size_t n = 1000; n < 4000; n += 7)
+    CHECK_THAT(filtered[n], WithinAbs(gain * wave[n], f == 2000 || f == 200000 ? 1e-3 : 0.01));
 }
 
 TEST_CASE("a low and a high pass are complements of the first order, and edges out of order are refused") {
@@ -59,13 +61,15 @@ TEST_CASE("a low and a high pass are complements of the first order, and edges o
 TEST_CASE("a constant stays under a low pass and goes under a band") {
   const std::vector<double> values(2000, 3.0);
   for (const double value : band_passed(values, interval, {0, 50000, 4})) CHECK_THAT(value, WithinAbs(3, 0.02));
-  for (std::size_t n = 500; n < 1500; ++n) CHECK_THAT(band_passed(values, interval, {20000, 50000, 4})[n], WithinAbs(0, 0.03));
+  for (std::size_t n = 500; n < 1500; ++n)
+    CHECK_THAT(band_passed(values, interval, {20000, 50000, 4})[n], WithinAbs(0, 0.03));
 }
 
 TEST_CASE("the ellipse of a particle: axes, tilt, phase and the sense of its rotation") {
   const double f = 5000, turn = GENERATE(0.0, 0.5, -0.4), sense = GENERATE(1.0, -1.0);
   // Long axis upright before it is turned, as in a Rayleigh wave: backwards at the top.
-  const auto along = made_up::cosine(4000, interval, 1, f, sense * M_PI / 2), up = made_up::cosine(4000, interval, 1.5, f, 0);
+  const auto along = made_up::cosine(4000, interval, 1, f, sense * M_PI / 2),
+             up = made_up::cosine(4000, interval, 1.5, f, 0);
   std::vector<double> x(along.size()), z(along.size());
   for (std::size_t n = 0; n < x.size(); ++n) {
     x[n] = std::cos(turn) * along[n] - std::sin(turn) * up[n];

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double interval = 1e-6, speed = 3000, tone = 40e3;
 
-/// A burst that runs along the row rail.p_1 to rail.p_16, 5 mm apart: z is (0.3 m/s) cos, x two thirds of it and ahead by a quarter, backwards
-/// at the top; and a set "mass" that stands still.
+/// A burst that runs along the row rail.p_1 to rail.p_16, 5 mm apart: z is (0.3 m/s) cos, x two thirds of it and ahead
+/// by a quarter, backwards at the top; and a set "mass" that stands still.
 void write_run(const std::string& path, bool with_positions = true) {
   RunDescription description = made_up::description();
   description.history_sets.clear();
@@ -40,7 +40,8 @@ void write_run(const std::string& path, bool with_positions = true) {
     for (int p = 1; p <= 16; ++p) {
       const double t = sample.time - 1.5e-4 - 0.005 * p / speed, size = 0.3 * std::exp(-t * t / (4e-5 * 4e-5));
       MeanMotion motion;
-      motion.velocity = {2.0 / 3 * size * std::cos(2 * M_PI * tone * t + M_PI / 2), 0, size * std::cos(2 * M_PI * tone * t)};
+      motion.velocity = {2.0 / 3 * size * std::cos(2 * M_PI * tone * t + M_PI / 2), 0,
+                         size * std::cos(2 * M_PI * tone * t)};
       sample.sets.push_back(motion);
     }
     sample.sets.emplace_back();
@@ -81,7 +82,9 @@ struct Run {
     return line;
   }
   double figure(const std::string& name) const { return hdf5::File::open(*request.hdf5).root().number_attribute(name); }
-  std::vector<double> column(const std::string& table, const std::string& name) const { return hdf5::File::open(*request.hdf5).root().group(table).dataset(name).read<double>(); }
+  std::vector<double> column(const std::string& table, const std::string& name) const {
+    return hdf5::File::open(*request.hdf5).root().group(table).dataset(name).read<double>();
+  }
 };
 
 }  // namespace
@@ -200,5 +203,7 @@ TEST_CASE("files are not lost, and mistakes are told") {
   CHECK_THAT(run.complaint(), ContainsSubstring("--low 5 --high 2"));
   run.request.low = run.request.high = 0;
   run.request.channels.clear();
-  CHECK_THAT(run.complaint(), ContainsSubstring("there are SET.(displacement|velocity|acceleration) of rail.p_1, rail.p_2") || ContainsSubstring("has SET."));
+  CHECK_THAT(run.complaint(),
+             ContainsSubstring("there are SET.(displacement|velocity|acceleration) of rail.p_1, rail.p_2") ||
+                 ContainsSubstring("has SET."));
 }

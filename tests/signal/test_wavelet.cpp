@@ -49,13 +49,16 @@ TEST_CASE("a sine's power is largest at its period, and as high as theory has it
   options.high = 100;
   const auto wavelet = wavelet_transform(made_up::cosine(4096, interval, amplitude, frequency, 0.7), interval, options);
   const auto power = wavelet.global_power_in_cone();
-  const std::size_t peak = std::max_element(power.begin(), power.end(), [](double a, double b) { return a < b || std::isnan(a); }) - power.begin();
+  const std::size_t peak =
+      std::max_element(power.begin(), power.end(), [](double a, double b) { return a < b || std::isnan(a); }) -
+      power.begin();
   CHECK_THAT(wavelet.frequency[peak], WithinRel(frequency, 0.01));
   // |W|^2 = A^2 sqrt(pi) s / (2 interval) exp(-(s w - w0)^2) of a wave A cos(w t) at each scale.
   for (const std::size_t j : {peak - 20, peak, peak + 20}) {
     const double s = wavelet.scale[j], off = s * 2 * M_PI * frequency - w0;
     // In the middle, which the ends do not reach: on the cone's edge they still take a part of the power.
-    CHECK_THAT(wavelet.power(j, 2048), WithinRel(amplitude * amplitude * std::sqrt(M_PI) * s / (2 * interval) * std::exp(-off * off), 0.01));
+    CHECK_THAT(wavelet.power(j, 2048),
+               WithinRel(amplitude * amplitude * std::sqrt(M_PI) * s / (2 * interval) * std::exp(-off * off), 0.01));
   }
 }
 
@@ -88,7 +91,8 @@ TEST_CASE("the series comes back from its transform, and the power's sum is its 
   CHECK_THAT(middle_mean(wavelet.band_power(0, 1000)), WithinRel(middle_mean(squares), 0.01));
 }
 
-TEST_CASE("white noise has the same mean power at every scale, its variance, and exceeds its level at one time in twenty") {
+TEST_CASE(
+    "white noise has the same mean power at every scale, its variance, and exceeds its level at one time in twenty") {
   const auto values = made_up::noise(200000, 1.5, 31);
   const double square = variance(values);
   CHECK_THAT(lag_one(values), WithinAbs(0, 0.01));
@@ -108,7 +112,8 @@ TEST_CASE("white noise has the same mean power at every scale, its variance, and
   CHECK_THAT(above / static_cast<double>(level.size() * values.size()), WithinRel(0.05, 0.05));
 }
 
-TEST_CASE("red noise has the spectrum of its correlation, and its mean power is that spectrum over the width of a wavelet") {
+TEST_CASE(
+    "red noise has the spectrum of its correlation, and its mean power is that spectrum over the width of a wavelet") {
   const double correlation = 0.7;
   auto values = made_up::noise(200000, 1, 31);
   for (std::size_t n = 1; n < values.size(); ++n) values[n] += correlation * values[n - 1];
@@ -143,7 +148,8 @@ TEST_CASE("PyWavelets finds the same modulus") {
   std::vector<double> values(1024);
   for (std::size_t n = 0; n < values.size(); ++n) {
     const double t = interval * static_cast<double>(n), from_burst = (t - 0.3) / 0.03;
-    values[n] = std::cos(2 * M_PI * (5 + 20 * t) * t) + 0.8 * std::exp(-from_burst * from_burst) * std::sin(2 * M_PI * 60 * t);
+    values[n] =
+        std::cos(2 * M_PI * (5 + 20 * t) * t) + 0.8 * std::exp(-from_burst * from_burst) * std::sin(2 * M_PI * 60 * t);
   }
   std::ifstream file(source_folder + "/tests/signal/data/wavelet_reference.csv");
   REQUIRE(file);
@@ -153,7 +159,8 @@ TEST_CASE("PyWavelets finds the same modulus") {
     double scale = 0, modulus = 0;
     std::size_t sample = 0;
     char comma = 0;
-    if (std::istringstream(line) >> scale >> comma >> sample >> comma >> modulus) reference[scale].emplace_back(sample, modulus);
+    if (std::istringstream(line) >> scale >> comma >> sample >> comma >> modulus)
+      reference[scale].emplace_back(sample, modulus);
   }
   REQUIRE(reference.size() == 7);
   WaveletOptions options;
@@ -172,7 +179,8 @@ TEST_CASE("PyWavelets finds the same modulus") {
       theirs += modulus * modulus;
     }
     CHECK_THAT(square, WithinRel(theirs, 0.01));
-    for (const auto& [n, modulus] : samples) CHECK_THAT(std::sqrt(wavelet.power(j, n)), WithinAbs(modulus, 0.01 * largest));
+    for (const auto& [n, modulus] : samples)
+      CHECK_THAT(std::sqrt(wavelet.power(j, n)), WithinAbs(modulus, 0.01 * largest));
     ++j;
   }
 }

@@ -33,7 +33,8 @@ double mean_over(const std::vector<double>& frequency, const std::vector<double>
 }  // namespace
 
 TEST_CASE("the integral of a sine's density is half its amplitude squared, under any window") {
-  const auto type = GENERATE(WindowType::rectangular, WindowType::hann, WindowType::hamming, WindowType::flat_top, WindowType::tukey);
+  const auto type =
+      GENERATE(WindowType::rectangular, WindowType::hann, WindowType::hamming, WindowType::flat_top, WindowType::tukey);
   WelchOptions options;
   options.window = type;
   options.segment = 2000;
@@ -45,7 +46,8 @@ TEST_CASE("the integral of a sine's density is half its amplitude squared, under
     CHECK_THAT(band_power(result.frequency, result.density, 0, 5000), WithinRel(amplitude * amplitude / 2, 0.01));
     // A narrow window's power is all near the line; the rectangle's leaks far when the line is between two frequencies.
     if (type != WindowType::rectangular && type != WindowType::tukey)
-      CHECK_THAT(band_power(result.frequency, result.density, f - 30, f + 30), WithinRel(amplitude * amplitude / 2, 0.01));
+      CHECK_THAT(band_power(result.frequency, result.density, f - 30, f + 30),
+                 WithinRel(amplitude * amplitude / 2, 0.01));
     const auto peak = std::max_element(result.density.begin(), result.density.end()) - result.density.begin();
     CHECK_THAT(result.frequency[peak], WithinAbs(f, 2.6));
   }
@@ -104,12 +106,16 @@ TEST_CASE("a known coherence and delay between two noises") {
 TEST_CASE("the phase of two sines, and coherence over pairs of signals") {
   WelchOptions options;
   options.segment = 4000;
-  const auto at = [](const CrossSpectra& spectra, double f) { return static_cast<std::size_t>(std::lround(f / spectra.frequency[1])); };
-  auto spectra = cross_spectra({made_up::cosine(8000, interval, 1, 300, 0)}, {made_up::cosine(8000, interval, 2, 300, 1.1)}, interval, options);
+  const auto at = [](const CrossSpectra& spectra, double f) {
+    return static_cast<std::size_t>(std::lround(f / spectra.frequency[1]));
+  };
+  auto spectra = cross_spectra({made_up::cosine(8000, interval, 1, 300, 0)},
+                               {made_up::cosine(8000, interval, 2, 300, 1.1)}, interval, options);
   CHECK_THAT(spectra.phase()[at(spectra, 300)], WithinRel(1.1, 1e-6));
   CHECK_THAT(spectra.coherence()[at(spectra, 300)], WithinRel(1.0, 1e-9));
 
-  // Three pairs whose phases differ by a third of a turn have nothing in common: coherence is 0 although each pair is a single line.
+  // Three pairs whose phases differ by a third of a turn have nothing in common: coherence is 0 although each pair is a
+  // single line.
   std::vector<std::vector<double>> a, b;
   for (int i = 0; i < 3; ++i) {
     a.push_back(made_up::cosine(4000, interval, 1, 300, 0));

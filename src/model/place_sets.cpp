@@ -43,11 +43,19 @@ double size_around(const Assembly& assembly, int node) {
   return longest;
 }
 
+/// The section that made the set, as the case file has it.
+std::string section_of(const scene::Scene& scene, const scene::NodeSet& set) {
+  const auto made = [&](const auto& entries) {
+    return std::any_of(entries.begin(), entries.end(), [&](const auto& entry) { return entry.part == set.part && entry.line == set.line; });
+  };
+  return made(scene.hammers) ? "hammers" : made(scene.probes) ? "probes" : "node_sets";
+}
+
 }  // namespace
 
 void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
   for (const scene::NodeSet& set : scene.node_sets) {
-    const auto where = fmt::format("{}:{}: [node_sets.{}]", scene.path, set.line, set.name);
+    const auto where = fmt::format("{}:{}: [{}.{}]", scene.path, set.line, section_of(scene, set), set.name);
     const auto name = set.part + "." + set.name;
     if (assembly.node_sets.count(name) != 0 || assembly.element_sets.count(name) != 0)
       throw InputError(fmt::format("{}: the part '{}' has a set '{}' already; choose another name", where, set.part, set.name));

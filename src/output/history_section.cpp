@@ -74,7 +74,7 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
 void HistorySection::add(const HistorySample& sample) {
   if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size() ||
       (!loads_.empty() && sample.loads.size() != loads_.size()))
-    throw std::logic_error("a history sample has other contacts, sets, beams or loads than the results file was made for");
+    throw std::logic_error("a history sample has other contacts, sets or beams, or loads, than the results file was made for");
   times_.values.push_back(sample.time);
   steps_.values.push_back(sample.step);
   for (std::size_t i = 0; i < std::size(energy_terms); ++i) energies_[i].values.push_back(sample.energy.*energy_terms[i].value);

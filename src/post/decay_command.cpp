@@ -23,7 +23,7 @@ struct Probe {
   HammerResponse where;
 };
 
-/// Probes along the row, ascending from the force, which comes first; those on its other side are left out.
+/// Probes along the row, ascending from the force, which comes first; those on the side that has fewer are left out.
 std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request, std::vector<std::string>& notes) {
   const std::string along = request.direction.empty() ? "" : ":" + request.direction;
   const std::string part = test.input().set.substr(0, test.input().set.find('.'));
@@ -35,24 +35,17 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
   for (const std::string& row : request.rows)
     for (const HammerResponse& one : test.find(row + along)) found.push_back(one);
   const auto struck = test.place(test.input().set);
-  std::vector<Probe> probes{{0, test.find(test.input().set + along).front()}};
-  double side = 0;
-  int left_out = 0;
+  if (!struck) throw InputError("the results file does not tell where its sets are; repeat the run with this program");
+  std::vector<Probe> before, behind;
   for (const HammerResponse& one : found) {
-    if (one.set == test.input().set) continue;
     const auto place = test.place(one.set);
-    if (!place || !struck) throw InputError("the results file does not tell where its sets are; repeat the run with this program");
-    const Eigen::Vector3d way = *place - *struck;
-    const double distance = std::fabs(way[0]);
-    if (distance < at_force) continue;
-    if (side == 0) side = way[0] > 0 ? 1 : -1;
-    if (way[0] * side < 0) {
-      ++left_out;
-      continue;
-    }
-    probes.push_back({distance, one});
+    const double way = place ? (*place)[0] - (*struck)[0] : 0;
+    if (std::fabs(way) >= at_force) (way < 0 ? before : behind).push_back({std::fabs(way), one});
   }
-  if (left_out > 0) notes.push_back(fmt::format("{} probes on the other side of the force are left out", left_out));
+  if (before.size() > behind.size()) before.swap(behind);
+  if (!before.empty()) notes.push_back(fmt::format("{} probes on the other side of the force are left out", before.size()));
+  std::vector<Probe> probes{{0, test.find(test.input().set + along).front()}};
+  probes.insert(probes.end(), behind.begin(), behind.end());
   std::sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.distance < b.distance; });
   probes.erase(std::unique(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return b.distance - a.distance < at_force; }), probes.end());
   if (probes.size() < 3)

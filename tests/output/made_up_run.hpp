@@ -92,6 +92,8 @@ inline RunDescription description() {
   result.element_count = static_cast<long>(assembly.elements.size());
   result.contacts = {{"tread", "wheel.tread", "rail.head"}};
   result.history_sets = {"block.corner", "sprung_mass"};
+  result.history_askers = {"probe corner", ""};
+  result.loads = {{"blow", "block.corner", false, true, {0, 0, -1}}, {"drive", "wheel.bore", true, false, {0, 1, 0}}};
   result.fields = {"displacement", "velocity", "acceleration", "stress", "plastic_strain"};
   result.sets = resolve_output_sets(scene, assembly);
   return result;
@@ -112,6 +114,7 @@ inline HistorySample sample(long step) {
   result.contacts = {totals};
   const double s = static_cast<double>(step);
   result.sets = {{{s, s + 1, s + 2}, {-s, 0, s}, {2 * s, 0, 0}}, {{0, 0, s}, {0, 0, 1}, {0, 0, 0}}};
+  result.loads = {{{0, 0, -s}, 0}, {{}, 2 * s}};
   return result;
 }
 

@@ -67,6 +67,18 @@ class ResultsFile(unittest.TestCase):
         np.testing.assert_array_equal(corner["displacement"][:], step[:, None] + np.arange(3.0))
         np.testing.assert_array_equal(corner["velocity"][:, 0], -step)
         np.testing.assert_array_equal(history["set/sprung_mass/displacement"][:, 2], step)
+        self.assertEqual(corner.attrs["asked_by"], "probe corner")
+        self.assertNotIn("asked_by", history["set/sprung_mass"].attrs)
+
+    def test_loads(self):
+        loads = self.file["history/load"]
+        step = np.arange(401)
+        np.testing.assert_array_equal(loads["blow/force"][:], np.outer(step, [0, 0, -1]))
+        np.testing.assert_array_equal(loads["blow/direction"][:], [0, 0, -1])
+        self.assertEqual((loads["blow"].attrs["target"], loads["blow"].attrs["hammer"]), ("block.corner", 1))
+        np.testing.assert_array_equal(loads["drive/moment"][:], 2 * step)
+        self.assertNotIn("force", loads["drive"])
+        self.assertEqual(loads["drive"].attrs["hammer"], 0)
 
     def test_fields(self):
         self.assertEqual(set(self.file["fields"]), {"block", "block.lower", "block.top"})

@@ -5,7 +5,7 @@
 
 #include "case/document.hpp"
 #include "case/expand_tracks.hpp"
-#include "case/fit_fishplates.hpp"
+#include "case/fit_to_rails.hpp"
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
 #include "case/read_entry.hpp"
@@ -127,7 +127,7 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
   if (complaints.empty()) expand_tracks(scene, complaints);
   else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
-  fit_fishplates(scene, complaints);
+  fit_to_rails(scene, complaints);
   if (document.complete) {
     check_references(reading.names, scene, reading.unsure, complaints);
     check_scene(scene, complaints);

@@ -44,6 +44,6 @@ SolidPad solid_pad(const scene::Sleeper& kind, const std::string& section) {
   return pad;
 }
 
-double foot_width(const std::string& section) { return section == "60E1" ? 0.150 : 0.140; }
+double foot_width(const std::string& section) { return section == "60E1" ? 0.1488 : 0.1388; }
 
 }  // namespace railwave::case_file

@@ -32,7 +32,7 @@ struct SolidPad {
 /// these are just as the kind has them.
 SolidPad solid_pad(const scene::Sleeper& kind, const std::string& section);
 
-/// m, across the underside of a rail's foot.
+/// m, across the underside of a rail's foot, between the middles of its edges' roundings.
 double foot_width(const std::string& section);
 
 }  // namespace railwave::case_file

@@ -208,9 +208,9 @@ TEST_CASE("a solid pad is tied to foot and sleeper; springs beside it have what 
   CHECK(named(scene.ties, "track_pad_7_seat").slave == "track_pad_7.z_min");
   CHECK(named(scene.ties, "track_pad_7_seat").master == "track_sleeper_7.z_max");
   const auto& material = named(scene.materials, "track_concrete_pad");
-  const case_file::BondedLayer layer{0.16, 0.14, 0.007};
+  const case_file::BondedLayer layer{0.16, case_file::foot_width("54E1"), 0.007};
   CHECK_THAT(material.youngs_modulus * layer.vertical_stiffness(0.3), WithinRel(195e6, 1e-12));
-  const double shear = material.shear_modulus() * 0.16 * 0.14 / 0.007;
+  const double shear = material.shear_modulus() * 0.16 * layer.width / 0.007;
   const auto& springs = named(scene.connectors, "track_fastening_7");
   CHECK_THAT(springs.stiffness[0], WithinRel(100e6 - shear, 1e-9));
   CHECK_THAT(springs.stiffness[1], WithinRel(100e6 - shear, 1e-9));

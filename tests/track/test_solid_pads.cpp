@@ -92,13 +92,13 @@ TEST_CASE("a solid pad is as stiff as the fastening that it stands for") {
         const double found = stiffness_of(one_pad(std::string(kind) + "pad = \"solid\"\n", axis, inclination), axis);
         WARN(kind << "inclination " << inclination << ", along " << "xyz"[axis] << ": " << found / 1e6 << " MN/m, the table's " << table[axis] / 1e6 << " ("
                   << 100 * (found / table[axis] - 1) << " %)");
-        CHECK_THAT(found, WithinRel(table[axis], 0.03));
+        CHECK_THAT(found, WithinRel(table[axis], 0.02));
       }
   }
 }
 
 TEST_CASE("a solid pad of any Poisson's ratio and number of layers is as stiff as a bonded layer") {
-  const case_file::BondedLayer layer{0.16, 0.14, 0.007};
+  const case_file::BondedLayer layer{0.16, case_file::foot_width("54E1"), 0.007};
   for (double ratio : {0.0, 0.3, 0.45})
     for (int layers : {2, 4}) {
       std::ostringstream pad;
@@ -184,6 +184,12 @@ struct Response {
   std::vector<double> times, values;  ///< s; m, of the struck section
   EnergyAccount last;
   double worst_balance = 0, step = 0;
+
+  double at(double time) const {
+    std::size_t k = 1;
+    while (k + 1 < times.size() && times[k] < time) ++k;
+    return values[k - 1] + (time - times[k - 1]) / (times[k] - times[k - 1]) * (values[k] - values[k - 1]);
+  }
 };
 
 /// The rail struck between two sleepers by a half sine of 10 kN and 0.5 ms, over 4 ms.
@@ -218,10 +224,9 @@ Response struck(const std::string& sleeper) {
 TEST_CASE("a struck track on solid pads answers as one on springs does, and its account closes", "[long]") {
   const Response springs = struck(""), solid = struck("pad = \"solid\"\n"), dashpots = struck("pad = \"solid\"\npad_damping = 0\n");
   for (const Response* pads : {&solid, &dashpots}) {
-    REQUIRE(pads->values.size() == springs.values.size());
     double off = 0, whole = 0;
     for (std::size_t k = 0; k < springs.values.size(); ++k) {
-      off += std::pow(pads->values[k] - springs.values[k], 2);
+      off += std::pow(pads->at(springs.times[k]) - springs.values[k], 2);
       whole += std::pow(springs.values[k], 2);
     }
     WARN("off by " << 100 * std::sqrt(off / whole) << " % of the response; balance off by " << pads->worst_balance / pads->last.external_work

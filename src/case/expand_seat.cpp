@@ -46,6 +46,8 @@ void add_pad(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& 
   mesh.rail_pad.end = std::min(seat.x + 0.5 * *kind.pad_length, seat.rail_end);
   mesh.rail_pad.thickness = *kind.pad_thickness;
   mesh.rail_pad.layers = kind.pad_layers;
+  // Slaves must not be coarser than what they are tied to.
+  mesh.rail_pad.size = std::min(*kind.width / (*kind.divisions)[0], *kind.half_length / (*kind.divisions)[1]);
   entries.add(entries.scene.meshes, "meshes", mesh);
   entries.add_part(mesh.name, mesh.name, seat.pad_material, entries.track.position);
   scene::Part& part = entries.scene.parts.back();

@@ -174,6 +174,7 @@ std::vector<Key> rail_pad_keys() {
       any("end", &Pad::end, "x of its end").in("m"),
       any("thickness", &Pad::thickness, "everywhere").in("m").within(above(0)),
       any("layers", &Pad::layers, "elements through the thickness").within(between(1, 100)),
+      any("size", &Pad::size, "largest element along and across the rail: the foot's are parted").in("m").within(above(0)).otherwise("as the foot's are"),
   };
 }
 

@@ -150,6 +150,7 @@ struct RailPadMesh {
   double end = 0.08;
   double thickness = 0.007;        ///< m
   int layers = 2;                  ///< elements through the thickness
+  std::optional<double> size;      ///< m, largest element along and across the rail; absent: as the foot's are
 };
 
 /// Wheel and half axle in one, or both halves; see mesh/wheelset.hpp. Its origin is the axle's middle.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "case/error.hpp"
@@ -39,6 +40,18 @@ std::vector<double> lines_along(const scene::RailPadMesh& pad, const Stations& s
   return lines;
 }
 
+/// Lines with equal cells between, none longer than `size`.
+std::vector<double> parted(const std::vector<double>& lines, double size) {
+  std::vector<double> all{lines.front()};
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const double length = lines[i] - lines[i - 1];
+    const int cells = std::max(1, static_cast<int>(std::ceil(length / size - 1e-6)));
+    for (int k = 1; k < cells; ++k) all.push_back(lines[i - 1] + length * k / cells);
+    all.push_back(lines[i]);
+  }
+  return all;
+}
+
 }  // namespace
 
 Mesh rail_pad_mesh(const scene::MeshSource& source) {
@@ -56,7 +69,11 @@ Mesh rail_pad_mesh(const scene::MeshSource& source) {
     throw InputError(place_of(rail) + problem.what());
   }
   std::sort(across.begin(), across.end());
-  const auto along = lines_along(pad, rail_stations(rail.rail));
+  auto along = lines_along(pad, rail_stations(rail.rail));
+  if (pad.size) {
+    along = parted(along, *pad.size);
+    across = parted(across, *pad.size);
+  }
   const Placement leaning = inclined(rail.rail.inclination);
   const Grid grid{{static_cast<int>(along.size()) - 1, static_cast<int>(across.size()) - 1, pad.layers},
                   false, {"x_min", "y_min", "z_min"}, {"x_max", "y_max", "z_max"}};

@@ -86,6 +86,19 @@ TEST_CASE("a rail pad has the foot's lines, is as wide as the foot, and as thick
       }
 }
 
+TEST_CASE("a rail pad keeps the foot's lines where they are parted") {
+  scene::MeshSource source = pad_source();
+  const Mesh plain = rail_pad_mesh(source);
+  source.rail_pad.size = 0.005;
+  const Mesh parted = rail_pad_mesh(source);
+  const auto& nodes = parted.node_sets.at("z_max");
+  for (int n : plain.node_sets.at("z_max")) CHECK(nearest(parted, nodes, plain.nodes[n]) < 1e-12);
+  for (const auto& element : parted.elements) {
+    CHECK(distance(parted.nodes[element[0]], parted.nodes[element[1]]) <= 0.005 * (1 + 1e-6));
+    CHECK(distance(parted.nodes[element[1]], parted.nodes[element[2]]) <= 0.005 * (1 + 1e-6));
+  }
+}
+
 TEST_CASE("a rail pad that is not under its rail is told") {
   scene::MeshSource source = pad_source();
   source.rail_pad.start = -0.4;

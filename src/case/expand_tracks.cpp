@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "case/expand_joint.hpp"
+#include "case/expand_seat.hpp"
+#include "case/solid_pad.hpp"
 
 namespace railwave::case_file {
 namespace {
@@ -23,15 +26,66 @@ scene::Material made_of(const std::string& name, double modulus, double poissons
   return material;
 }
 
-/// The largest box of a connector's area that bounds nothing along y and z.
-constexpr double far = 1e3;
+/// One rail, whole or in two with a gap, and its fastenings.
+class RailExpansion {
+ public:
+  explicit RailExpansion(TrackEntries entries) : entries_(std::move(entries)), track_(entries_.track) {}
+
+  void add_rails(const std::string& material) {
+    if (!track_.gap_position) return add_rail("rail", material, track_.rail);
+    scene::RailMesh before = track_.rail, behind = track_.rail;
+    before.end = *track_.gap_position - 0.5 * track_.gap;
+    behind.start = *track_.gap_position + 0.5 * track_.gap;
+    before.zone_end = std::min(before.zone_end, before.end);
+    behind.zone_start = std::max(behind.zone_start, behind.start);
+    if (before.path_end) before.path_end = before.end;
+    if (behind.path_start) behind.path_start = behind.start;
+    add_rail("rail", material, before);
+    add_rail("rail_2", material, behind);
+    if (track_.fishplates) add_joint(entries_, material);
+  }
+
+  void fasten(RailSeat seat, const scene::Sleeper& kind) {
+    const Range& rail = track_.gap_position && seat.x > *track_.gap_position ? rails_.back() : rails_.front();
+    seat.rail = rail.name;
+    seat.rail_start = rail.start;
+    seat.rail_end = rail.end;
+    add_fastening(entries_, kind, seat);
+  }
+
+ private:
+  struct Range {
+    std::string name;
+    double start, end;
+  };
+
+  void add_rail(const char* what, const std::string& material, const scene::RailMesh& rail) {
+    scene::MeshSource mesh;
+    mesh.name = entries_.own(what);
+    mesh.type = scene::MeshType::rail;
+    mesh.rail = rail;
+    entries_.add(entries_.scene.meshes, "meshes", mesh);
+    entries_.add_part(mesh.name, mesh.name, material, track_.position);
+    rails_.push_back({mesh.name, rail.start, rail.end});
+  }
+
+  TrackEntries entries_;
+  const Track& track_;
+  std::vector<Range> rails_;
+};
 
 class Expansion : private TrackEntries {
  public:
-  using TrackEntries::TrackEntries;
+  Expansion(scene::Scene& into, const Track& of, Complaints& complaints)
+      : TrackEntries(into, of, complaints), far_(far_side(of)) {
+    rails_.emplace_back(TrackEntries(into, of, complaints));
+    if (of.both_rails) rails_.emplace_back(TrackEntries(into, far_, complaints, own("far")));
+  }
 
   void run() {
-    add_rails();
+    auto material = track.rail_material;
+    if (material.empty()) add(scene.materials, "materials", made_of(material = own("steel"), 210e9, 0.3, 7800));
+    for (RailExpansion& rail : rails_) rail.add_rails(material);
     const auto places = sleeper_places(track);
     if (places.empty())
       complain("has no sleeper under its rail; make the rail longer than a pitch, or give positions");
@@ -39,29 +93,17 @@ class Expansion : private TrackEntries {
   }
 
  private:
-  void add_rails() {
-    auto material = track.rail_material;
-    if (material.empty()) add(scene.materials, "materials", made_of(material = own("steel"), 210e9, 0.3, 7800));
-    if (!track.gap_position) return add_rail(own("rail"), material, track.rail);
-    scene::RailMesh before = track.rail, behind = track.rail;
-    before.end = *track.gap_position - 0.5 * track.gap;
-    behind.start = *track.gap_position + 0.5 * track.gap;
-    before.zone_end = std::min(before.zone_end, before.end);
-    behind.zone_start = std::max(behind.zone_start, behind.start);
-    if (before.path_end) before.path_end = before.end;
-    if (behind.path_start) behind.path_start = behind.start;
-    add_rail(own("rail"), material, before);
-    add_rail(own("rail_2"), material, behind);
-    if (track.fishplates) add_joint(*this, material);
-  }
+  static bool centre_is_left(const Track& track) { return track.rail.inclination >= 0; }
+  /// y of the track's centre plane in the axes of its meshes.
+  static double centre(const Track& track) { return centre_is_left(track) ? -track.rail_distance : track.rail_distance; }
+  static double across(const Track& track, double y) { return track.position[1] + (track.mirror ? -y : y); }
 
-  void add_rail(const std::string& name, const std::string& material, const scene::RailMesh& rail) {
-    scene::MeshSource mesh;
-    mesh.name = name;
-    mesh.type = scene::MeshType::rail;
-    mesh.rail = rail;
-    add(scene.meshes, "meshes", mesh);
-    add_part(name, name, material, track.position);
+  /// The track as its mirror image at the centre plane.
+  static Track far_side(const Track& track) {
+    Track far = track;
+    far.mirror = !track.mirror;
+    far.position[1] = across(track, 2 * centre(track));
+    return far;
   }
 
   void add_sleeper(const SleeperPlace& place, int number) {
@@ -70,51 +112,49 @@ class Expansion : private TrackEntries {
     if (kinds_.insert(*place.kind).second) add_kind(*place.kind, kind);
     const Vec3& at = track.position;
     add_part(name, own(*place.kind), kind.material.empty() ? own(*place.kind) : kind.material, {at[0] + place.x, at[1], at[2]});
-    add_fastening(place, kind, name, number);
+    RailSeat seat;
+    seat.x = place.x;
+    seat.sleeper = name;
+    seat.pad_material = own(*place.kind + "_pad");
+    seat.number = number;
+    for (RailExpansion& rail : rails_) rail.fasten(seat, kind);
     add_bed(kind, name, number);
+    hold_middle(place, kind, name, number);
   }
 
-  bool centre_is_left() const { return track.rail.inclination >= 0; }
-
-  /// The mesh of all sleepers of a kind, the sleeper's middle at x = 0; its material unless the case has one.
+  /// The mesh of all sleepers of a kind, the sleeper's middle at x = 0; its materials unless the case has them.
   void add_kind(const std::string& name, const scene::Sleeper& kind) {
     const bool timber = kind.base == scene::Sleeper::Base::timber;
     if (kind.material.empty()) {
       const auto material = timber ? made_of(own(name), 20e9, 0.3, 1300) : made_of(own(name), 38.4e9, 0.2, 2520);
       add(scene.materials, "materials", material);
     }
+    if (kind.pad == scene::Sleeper::Pad::solid)
+      add(scene.materials, "materials",
+          made_of(own(name + "_pad"), solid_pad(kind, track.rail.section).modulus, kind.pad_poissons_ratio, kind.pad_density));
     scene::MeshSource mesh;
     mesh.name = own(name);
     mesh.type = scene::MeshType::box;
-    mesh.box.size = {*kind.width, *kind.half_length, *kind.height};
-    mesh.box.origin = {-0.5 * *kind.width, centre_is_left() ? -track.rail_distance : track.rail_distance - *kind.half_length,
-                       -*kind.pad_thickness - *kind.height};
+    const double first = track.both_rails || !centre_is_left(track) ? -*kind.half_length : 0;
+    mesh.box.size = {*kind.width, sides() * *kind.half_length, *kind.height};
+    mesh.box.origin = {-0.5 * *kind.width, centre(track) + first, -*kind.pad_thickness - *kind.height};
     mesh.box.divisions = *kind.divisions;
+    mesh.box.divisions[1] *= sides();
     add(scene.meshes, "meshes", mesh);
   }
 
-  void add_fastening(const SleeperPlace& place, const scene::Sleeper& kind, const std::string& sleeper, int number) {
-    const bool behind = track.gap_position && place.x > *track.gap_position;
-    scene::Connector fastening;
-    fastening.name = own("fastening", number);
-    fastening.from = sleeper + ".z_max";
-    fastening.to = own(behind ? "rail_2" : "rail") + ".foot";
-    fastening.stiffness = *kind.fastening_stiffness;
-    fastening.damping = *kind.fastening_damping;
-    fastening.spread = kind.fastening_spread;
-    const double x = track.position[0] + place.x;
-    fastening.area = {{{x - 0.5 * *kind.pad_length, -far, -far}, {x + 0.5 * *kind.pad_length, far, far}}};
-    add(scene.connectors, "connectors", fastening);
-  }
+  /// Halves of each sleeper.
+  int sides() const { return track.both_rails ? 2 : 1; }
 
   void add_bed(const scene::Sleeper& kind, const std::string& sleeper, int number) {
     scene::Connector ballast;
     ballast.name = own("ballast", number);
     ballast.from = "ground";
     ballast.to = sleeper + ".z_min";
-    ballast.stiffness = {0, 0, *kind.ballast_stiffness};
-    ballast.damping = {0, 0, *kind.ballast_damping};
+    ballast.stiffness = {0, sides() * kind.ballast_lateral_stiffness.value_or(0), sides() * *kind.ballast_stiffness};
+    ballast.damping = {0, sides() * kind.ballast_lateral_damping.value_or(0), sides() * *kind.ballast_damping};
     ballast.spread = kind.ballast_spread;
+    ballast.spread[1] *= sides();
     add(scene.connectors, "connectors", ballast);
     scene::Constraint bed;
     bed.name = own("bed", number);
@@ -122,13 +162,37 @@ class Expansion : private TrackEntries {
     // Not along y: an underside that cannot stretch would not let the sleeper bend.
     bed.fixed = {true, false, false};
     add(scene.constraints, "constraints", bed);
-    scene::Constraint centre;
-    centre.name = own("centre", number);
-    centre.target = sleeper + (centre_is_left() ? ".y_min" : ".y_max");
-    centre.fixed = {false, true, false};
-    add(scene.constraints, "constraints", centre);
   }
 
+  /// Half a sleeper is held where its other half would hold it. Of a whole one the middle of the underside is, unless the ballast has a
+  /// lateral stiffness: only a line along x, about which it may roll.
+  void hold_middle(const SleeperPlace& place, const scene::Sleeper& kind, const std::string& sleeper, int number) {
+    scene::Constraint middle;
+    middle.name = own("centre", number);
+    middle.fixed = {false, true, false};
+    if (!track.both_rails) {
+      middle.target = sleeper + (centre_is_left(track) ? ".y_min" : ".y_max");
+    } else {
+      if (kind.ballast_lateral_stiffness) return;
+      scene::NodeSet line;
+      line.name = "centre";
+      line.line = track.line;
+      line.part = sleeper;
+      line.surface = "z_min";
+      const double x = track.position[0] + place.x, y = across(track, centre(track)), slack = 1e-6;
+      line.box = {{{x - *kind.width, y - slack, -far}, {x + *kind.width, y + slack, far}}};
+      // All sleepers have a set of this name.
+      scene.node_sets.push_back(line);
+      middle.target = sleeper + ".centre";
+    }
+    add(scene.constraints, "constraints", middle);
+  }
+
+  /// The largest box of a set that bounds nothing along z.
+  static constexpr double far = 1e3;
+
+  Track far_;
+  std::vector<RailExpansion> rails_;
   std::set<std::string> kinds_;  ///< whose mesh is there
 };
 
@@ -177,8 +241,13 @@ scene::Sleeper sleeper_of(const scene::Scene& scene, const std::string& name) {
   otherwise(kind.divisions, std::array<int, 3>{3, 14, 2});
   otherwise(kind.pad_thickness, 0.007);
   otherwise(kind.pad_length, 0.16);
-  otherwise(kind.fastening_stiffness, timber ? Vec3{150e6, 150e6, 86.7e6} : Vec3{100e6, 100e6, 195e6});
-  otherwise(kind.fastening_damping, timber ? Vec3{40e3, 40e3, 45e3} : Vec3{40e3, 40e3, 67.5e3});
+  const Vec3 stiffness = timber ? Vec3{150e6, 150e6, 86.7e6} : Vec3{100e6, 100e6, 195e6};
+  const Vec3 damping = timber ? Vec3{40e3, 40e3, 45e3} : Vec3{40e3, 40e3, 67.5e3};
+  // Beside a pad of known modulus are clips, of which the table knows nothing.
+  const bool clips = kind.pad == scene::Sleeper::Pad::solid && kind.pad_modulus;
+  if (clips) otherwise(kind.pad_damping, damping[2] / stiffness[2]);
+  otherwise(kind.fastening_stiffness, clips ? Vec3{} : stiffness);
+  otherwise(kind.fastening_damping, clips ? Vec3{} : damping);
   otherwise(kind.ballast_stiffness, 45e6);
   otherwise(kind.ballast_damping, 32e3);
   return kind;

@@ -11,6 +11,7 @@ using scene::CylinderMesh;
 using scene::FileMesh;
 using scene::FishplateMesh;
 using scene::MeshSource;
+using scene::RailPadMesh;
 using scene::RollerMesh;
 using scene::WheelMesh;
 using scene::WheelsetMesh;
@@ -164,6 +165,19 @@ std::vector<Key> fishplate_keys() {
   };
 }
 
+std::vector<Key> rail_pad_keys() {
+  using Pad = RailPadMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::rail_pad, field, help); };
+  return {
+      any("rail", &Pad::rail, "mesh of the rail under whose foot it lies, as wide as that and leaning with it; its lines are those of the foot's elements").names(mesh).needed(),
+      any("start", &Pad::start, "x of its beginning").in("m"),
+      any("end", &Pad::end, "x of its end").in("m"),
+      any("thickness", &Pad::thickness, "everywhere").in("m").within(above(0)),
+      any("layers", &Pad::layers, "elements through the thickness").within(between(1, 100)),
+      any("size", &Pad::size, "largest element along and across the rail: the foot's are parted").in("m").within(above(0)).otherwise("as the foot's are"),
+  };
+}
+
 std::vector<Key> file_keys() {
   const auto file = &MeshSource::file;
   return {
@@ -179,7 +193,7 @@ std::vector<Key> file_keys() {
 Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
-  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate", "wheelset"}).needed()};
+  section.keys = {key("type", &MeshSource::type, "what makes it").one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate", "rail_pad", "wheelset"}).needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys(&MeshSource::wheel));
   section.add_keys("rail", rail_keys(&MeshSource::rail));
@@ -188,6 +202,7 @@ Section mesh_section() {
   section.add_keys("roller", roller_keys());
   section.add_keys("cylinder", cylinder_keys());
   section.add_keys("fishplate", fishplate_keys());
+  section.add_keys("rail_pad", rail_pad_keys());
   section.add_keys("wheelset", wheelset_keys());
   section.rule = check_mesh;
   return section;

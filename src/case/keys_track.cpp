@@ -31,7 +31,7 @@ Section sleeper_section() {
       "sleepers", "kind of sleeper", &Scene::sleepers,
       "Kinds of sleepers for tracks, each with its fastening and ballast. The kinds `concrete` and `timber` are there without a section, "
       "as below; materials, stiffness and damping are those of the thesis's table 4.1, dimensions and longitudinal values are not in it and are ours. "
-      "A sleeper is half of one, from the track's centre plane outwards.");
+      "Values are those of half a sleeper, from the track's centre plane outwards; tracks with both_rails have whole ones.");
   const auto length = [](auto name, auto field, auto help) { return key(name, field, help).in("m").within(above(0)); };
   section.keys = {
       key("base", &Sleeper::base, "what all that isn't given here is taken from").one_of({"concrete", "timber"}).otherwise("concrete; of the kind timber, timber"),
@@ -52,8 +52,29 @@ Section sleeper_section() {
           .within(at_least(0))
           .otherwise("concrete [40e3, 40e3, 67.5e3], timber [40e3, 40e3, 45e3]"),
       key("fastening_spread", &Sleeper::fastening_spread, "cells along and across the rail over which it is spread").within(between(1, 100)),
+      key("pad", &Sleeper::pad,
+          "springs: springs and dashpots between foot and sleeper. solid: bodies `NAME_pad_1` ... there, tied to both, of the vertical fastening_stiffness; "
+          "connectors have what the pad's shear lacks of the horizontal one, and what its damping lacks")
+          .one_of({"springs", "solid"}),
+      key("pad_modulus", &Sleeper::pad_modulus,
+          "Young's modulus of the pad; fastening_stiffness and fastening_damping are then those of clips beside it, by default none")
+          .in("Pa")
+          .within(above(0))
+          .otherwise("of the vertical fastening_stiffness"),
+      key("pad_poissons_ratio", &Sleeper::pad_poissons_ratio, "its Poisson's ratio").within(between(0, 0.49)),
+      key("pad_density", &Sleeper::pad_density, "its density").in("kg/m3").within(above(0)),
+      key("pad_damping", &Sleeper::pad_damping, "its stiffness_damping; 0 leaves all damping to the connectors, and allows a longer step")
+          .in("s")
+          .within(at_least(0))
+          .otherwise("vertical fastening_damping over fastening_stiffness"),
+      key("pad_layers", &Sleeper::pad_layers, "elements through its thickness").within(between(1, 100)),
       key("ballast_stiffness", &Sleeper::ballast_stiffness, "vertical, under the half sleeper in all").in("N/m").within(above(0)).otherwise("45e6"),
       key("ballast_damping", &Sleeper::ballast_damping, "the same of dashpots").in("N s/m").within(at_least(0)).otherwise("32e3"),
+      key("ballast_lateral_stiffness", &Sleeper::ballast_lateral_stiffness, "the same along y")
+          .in("N/m")
+          .within(above(0))
+          .otherwise("none; where both_rails, the middle of the underside is held along y"),
+      key("ballast_lateral_damping", &Sleeper::ballast_lateral_damping, "the same of dashpots").in("N s/m").within(at_least(0)).otherwise("none"),
       key("ballast_spread", &Sleeper::ballast_spread, "cells along and across the track over which it is spread").within(between(1, 100)),
   };
   section.rule = check_sleeper;
@@ -91,13 +112,16 @@ Section track_section() {
   using scene::Track;
   auto section = named_section(
       "tracks", "track", &Scene::tracks,
-      "Half a track: a rail on sleepers, symmetric about the track's centre plane. It becomes parts `NAME_rail` (and `NAME_rail_2` behind a gap), "
+      "Half a track: a rail on sleepers, symmetric about the track's centre plane; or, with both_rails, a whole one. It becomes parts `NAME_rail` (and `NAME_rail_2` behind a gap), "
       "`NAME_sleeper_1`, `NAME_sleeper_2` and so on along x, connectors `NAME_fastening_1` ... between rail and sleeper and `NAME_ballast_1` ... between ground "
       "and sleeper, and constraints: undersides held along x, the centre plane along y; thus the sleeper bends as a whole one. Sets are those of meshes `rail` and `box`.");
   section.keys = {
       key("rail_material", &Track::rail_material, "the rail's material").names(material).otherwise("elastic: E 210 GPa, nu 0.3, 7800 kg/m3"),
       key("position", &Track::position, "where the track's own origin is put: z = 0 is the middle of the rail's foot").in("m"),
       key("mirror", &Track::mirror, "the whole is mirrored at the plane y = 0 of its own origin: the other half of the track; sets keep their names"),
+      key("both_rails", &Track::both_rails,
+          "whole sleepers on whole beds of ballast, and the other rail too, mirrored at the centre plane: its parts, connectors and so on are `NAME_far_rail`, "
+          "`NAME_far_fastening_1` and so on. The middle of each sleeper's underside is held along y, unless the ballast has a lateral stiffness"),
       key("rail_distance", &Track::rail_distance,
           "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y unless the inclination is negative, "
           "or the track mirrored")

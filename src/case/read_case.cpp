@@ -6,7 +6,7 @@
 #include "case/document.hpp"
 #include "case/expand_hammers.hpp"
 #include "case/expand_tracks.hpp"
-#include "case/fit_fishplates.hpp"
+#include "case/fit_to_rails.hpp"
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
 #include "case/read_curves.hpp"
@@ -129,7 +129,7 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
   if (complaints.empty()) expand_tracks(scene, complaints);
   else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
-  fit_fishplates(scene, complaints);
+  fit_to_rails(scene, complaints);
   if (complaints.empty()) read_curves(scene, complaints);
   if (complaints.empty()) expand_hammers(scene, complaints);
   if (document.complete) {

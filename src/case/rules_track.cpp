@@ -8,10 +8,26 @@
 
 namespace railwave::case_file {
 
+namespace {
+
+void check_pad(const scene::Sleeper& kind, EntryCheck& check) {
+  if (!check.sound({"pad"})) return;
+  if (kind.pad == scene::Sleeper::Pad::springs) {
+    for (const char* key : {"pad_modulus", "pad_poissons_ratio", "pad_density", "pad_damping", "pad_layers"})
+      if (check.given(key)) check.complain(key, fmt::format("has no effect without pad = \"solid\"; set that, or leave {} out", key));
+    return;
+  }
+  if (!check.given("pad_modulus") && check.given("fastening_stiffness") && check.sound({"fastening_stiffness"}) && !((*kind.fastening_stiffness)[2] > 0))
+    check.complain("fastening_stiffness", "has no vertical part, of which a solid pad's modulus would be made; give one above 0, or pad_modulus");
+}
+
+}  // namespace
+
 void check_sleeper(void* entry, EntryCheck& check) {
   auto& kind = *static_cast<scene::Sleeper*>(entry);
   // A section that changes the timber sleeper is not based on the concrete one.
   if (!check.given("base") && kind.name == "timber") kind.base = scene::Sleeper::Base::timber;
+  check_pad(kind, check);
   if (!check.sound({"width", "pad_length"}) || !kind.width || !kind.pad_length || *kind.pad_length <= *kind.width) return;
   check.complain("pad_length", fmt::format("is {}, must be at most width ({})", *kind.pad_length, *kind.width));
 }

@@ -53,6 +53,7 @@ struct MeshSource : Place {
   RollerMesh roller;
   CylinderMesh cylinder;
   FishplateMesh fishplate;
+  RailPadMesh rail_pad;
   WheelsetMesh wheelset;
 };
 
@@ -291,6 +292,7 @@ struct Sleeper : Place {
   std::optional<double> pad_thickness, pad_length;   ///< m: gap between foot and sleeper, extent along the rail
   std::optional<Vec3> fastening_stiffness, fastening_damping;  ///< N/m, N s/m along x, y, z
   std::optional<double> ballast_stiffness, ballast_damping;    ///< vertical, N/m, N s/m
+  std::optional<double> ballast_lateral_stiffness, ballast_lateral_damping;  ///< N/m, N s/m under half a sleeper; absent: its middle is held
   std::array<int, 2> fastening_spread{3, 3}, ballast_spread{2, 6};
   enum class Pad { springs, solid };
   Pad pad = Pad::springs;                     ///< solid: a body between foot and sleeper, tied to both
@@ -298,17 +300,18 @@ struct Sleeper : Place {
   double pad_poissons_ratio = 0.3;
   double pad_density = 1000;                  ///< kg/m3
   std::optional<double> pad_damping;          ///< s, stiffness damping; absent: of the vertical stiffness and damping
-  std::array<int, 3> pad_divisions{6, 6, 2};
+  int pad_layers = 2;                         ///< elements through its thickness
 };
 
 enum class FishplateFit { tie, contact };
 
-/// Half a track, generated: see case/expand_tracks.hpp for what it becomes.
+/// Half a track or a whole one, generated: see case/expand_tracks.hpp for what it becomes.
 struct Track : Place {
   RailMesh rail;
   std::string rail_material;                  ///< empty: elastic rail steel of its own
   Vec3 position{0, 0, 0};
   bool mirror = false;                        ///< all its parts are mirrored
+  bool both_rails = false;                    ///< whole sleepers and the other rail
   double rail_distance = 0.755;               ///< m, from the track's centre plane to the middle of the rail's foot
   std::string sleeper = "concrete";
   double pitch = 0.6;                         ///< m

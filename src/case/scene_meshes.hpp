@@ -10,7 +10,7 @@ namespace railwave::scene {
 
 using Vec3 = std::array<double, 3>;
 
-enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate, wheelset };
+enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate, rail_pad, wheelset };
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -140,6 +140,17 @@ struct FishplateMesh {
   double clearance = 0;            ///< m, between web and plate
   std::optional<double> size;      ///< m, elements along x; absent: 3 zone_size of the rail, 1 where it reaches the layers of that size
   std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
+};
+
+/// A pad under a rail's foot, as wide as that and leaning with it, of even thickness; see mesh/rail_pad.hpp.
+struct RailPadMesh {
+  std::string rail;                ///< the mesh that it lies under
+  RailMesh rail_mesh;              ///< that mesh's parameters, filled in when the case has been read
+  double start = -0.08;            ///< x range, m
+  double end = 0.08;
+  double thickness = 0.007;        ///< m
+  int layers = 2;                  ///< elements through the thickness
+  std::optional<double> size;      ///< m, largest element along and across the rail; absent: as the foot's are
 };
 
 /// Wheel and half axle in one, or both halves; see mesh/wheelset.hpp. Its origin is the axle's middle.

@@ -18,16 +18,17 @@ const Entry* find_entry(const std::vector<Entry>& entries, const std::string& na
   return found == entries.end() ? nullptr : &*found;
 }
 
-/// Adds what a track makes to the scene, under names that begin with the track's.
+/// Adds what a track makes to the scene, under names that begin with the track's, or with a prefix of one of its rails.
 class TrackEntries {
  public:
-  TrackEntries(scene::Scene& into, const scene::Track& of, Complaints& complaints) : scene(into), track(of), complaints_(complaints) {}
+  TrackEntries(scene::Scene& into, const scene::Track& of, Complaints& complaints, const std::string& prefix = "")
+      : scene(into), track(of), complaints_(complaints), prefix_(prefix.empty() ? of.name : prefix) {}
 
   scene::Scene& scene;
   const scene::Track& track;
 
-  std::string own(const std::string& what) const { return track.name + "_" + what; }
-  std::string own(const char* what, int number) const { return fmt::format("{}_{}_{}", track.name, what, number); }
+  std::string own(const std::string& what) const { return prefix_ + "_" + what; }
+  std::string own(const char* what, int number) const { return fmt::format("{}_{}_{}", prefix_, what, number); }
 
   /// Complains of a name that is there already.
   template <class Entry>
@@ -54,6 +55,7 @@ class TrackEntries {
 
  private:
   Complaints& complaints_;
+  std::string prefix_;
 };
 
 }  // namespace railwave::case_file

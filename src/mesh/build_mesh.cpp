@@ -8,6 +8,7 @@
 #include "mesh/fishplate.hpp"
 #include "mesh/mesh_file.hpp"
 #include "mesh/rail.hpp"
+#include "mesh/rail_pad.hpp"
 #include "mesh/roller.hpp"
 #include "mesh/wheel.hpp"
 #include "mesh/wheelset.hpp"
@@ -32,6 +33,8 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return cylinder_mesh(source);
     case scene::MeshType::fishplate:
       return fishplate_mesh(source);
+    case scene::MeshType::rail_pad:
+      return rail_pad_mesh(source);
     case scene::MeshType::wheelset:
       return wheelset_mesh(source);
   }

@@ -51,6 +51,12 @@ RailSectionPlan section_plan(const scene::RailMesh& r) {
   return plan;
 }
 
+Stations rail_stations(const scene::RailMesh& r) {
+  const StationPlan along{r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size, r.core_size,
+                          section_plan(r).lower_transition ? 3 : 2, r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.path_size};
+  return open_stations(along, r.start, r.end);
+}
+
 Placement inclined(double inclination) {
   const double angle = std::atan(inclination), c = std::cos(angle), s = std::sin(angle);
   return [=](Point2 p, double x) { return Vec3{x, p.y * c - p.z * s, p.y * s + p.z * c}; };
@@ -66,9 +72,7 @@ Mesh rail_mesh(const scene::MeshSource& source) {
   } catch (const std::invalid_argument& problem) {
     throw InputError(place_of(source) + problem.what());
   }
-  const StationPlan along{r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size, r.core_size,
-                          plan.lower_transition ? 3 : 2, r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.path_size};
-  const Stations stations = open_stations(along, r.start, r.end);
+  const Stations stations = rail_stations(r);
 
   Extrusion extrusion = extrude(section, stations, inclined(r.inclination), false);
   Mesh& mesh = extrusion.mesh;

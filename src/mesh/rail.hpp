@@ -18,6 +18,8 @@ Mesh rail_mesh(const scene::MeshSource& source);
 void check_rail_mesh(const scene::MeshSource& source);
 /// The plan of its section.
 RailSectionPlan section_plan(const scene::RailMesh& rail);
+/// Its layers along x; the last of their levels has the foot's elements.
+Stations rail_stations(const scene::RailMesh& rail);
 /// Where a point of the upright section lies along x once the rail leans towards -y by `inclination`.
 Placement inclined(double inclination);
 

@@ -3,11 +3,13 @@
 #include <cmath>
 
 #include "case/expand_tracks.hpp"
+#include "case/solid_pad.hpp"
 #include "tests/case/temporary_case.hpp"
 
 using namespace railwave;
 using namespace railwave::test;
 using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
 
 namespace {
 
@@ -187,4 +189,89 @@ TEST_CASE("a mirrored track has the same parts, mirrored, and the same connector
     CHECK(right.connectors[k].stiffness == left.connectors[k].stiffness);
     CHECK(right.connectors[k].area == left.connectors[k].area);
   }
+}
+
+TEST_CASE("a solid pad is tied to foot and sleeper; springs beside it have what its shear lacks", "[case]") {
+  TemporaryCase file("[sleepers.concrete]\npad = \"solid\"\n" + track_case("position = [10, 0, 0]\ngap_position = 0.06\nzone_end = 0.2\nfirst_sleeper = -3"));
+  const auto scene = read_case(file.path());
+  const auto& pad = named(scene.parts, "track_pad_6");
+  CHECK(pad.position == scene::Vec3{10, 0, 0});
+  CHECK(pad.material == "track_concrete_pad");
+  CHECK(pad.hourglass == scene::HourglassType::stiffness);
+  CHECK_THAT(pad.stiffness_damping, WithinRel(67.5e3 / 195e6, 1e-12));
+  const auto& mesh = named(scene.meshes, "track_pad_7").rail_pad;
+  CHECK(mesh.rail == "track_rail_2");
+  CHECK_THAT(mesh.rail_mesh.start, WithinAbs(0.063, 1e-12));
+  CHECK_THAT(mesh.start, WithinAbs(0.6 - 0.08, 1e-12));
+  CHECK_THAT(named(scene.meshes, "track_pad_1").rail_pad.start, WithinAbs(-3, 1e-12));  // at the rail's end
+  CHECK(named(scene.ties, "track_pad_7_foot").master == "track_rail_2.foot");
+  CHECK(named(scene.ties, "track_pad_7_seat").slave == "track_pad_7.z_min");
+  CHECK(named(scene.ties, "track_pad_7_seat").master == "track_sleeper_7.z_max");
+  const auto& material = named(scene.materials, "track_concrete_pad");
+  const case_file::BondedLayer layer{0.16, case_file::foot_width("54E1"), 0.007};
+  CHECK_THAT(material.youngs_modulus * layer.vertical_stiffness(0.3), WithinRel(195e6, 1e-12));
+  const double shear = material.shear_modulus() * 0.16 * layer.width / 0.007;
+  const auto& springs = named(scene.connectors, "track_fastening_7");
+  CHECK_THAT(springs.stiffness[0], WithinRel(100e6 - shear, 1e-9));
+  CHECK_THAT(springs.stiffness[1], WithinRel(100e6 - shear, 1e-9));
+  CHECK(springs.stiffness[2] == 0);
+  CHECK_THAT(springs.damping[1], WithinRel(40e3 - 67.5e3 / 195e6 * shear, 1e-9));
+  CHECK(springs.damping[2] == 0);
+}
+
+TEST_CASE("a solid pad of a modulus of its own has clips only where they are given", "[case]") {
+  const std::string pad = "[sleepers.concrete]\npad = \"solid\"\npad_modulus = 5e7\npad_poissons_ratio = 0.45\npad_density = 1200\npad_layers = 4\n";
+  TemporaryCase file(pad + track_case(""));
+  const auto scene = read_case(file.path());
+  CHECK(scene.connectors.size() == 10);  // ballast
+  CHECK(named(scene.materials, "track_concrete_pad").youngs_modulus == 5e7);
+  CHECK(named(scene.materials, "track_concrete_pad").poissons_ratio == 0.45);
+  CHECK(named(scene.materials, "track_concrete_pad").density == 1200);
+  CHECK(named(scene.meshes, "track_pad_1").rail_pad.layers == 4);
+  CHECK_THAT(named(scene.parts, "track_pad_1").stiffness_damping, WithinRel(67.5e3 / 195e6, 1e-12));
+  TemporaryCase clipped(pad + "fastening_stiffness = [1e7, 2e7, 5e6]\n" + track_case(""));
+  CHECK(named(read_case(clipped.path()).connectors, "track_fastening_1").stiffness == scene::Vec3{1e7, 2e7, 5e6});
+  TemporaryCase undamped("[sleepers.concrete]\npad = \"solid\"\npad_damping = 0\n" + track_case(""));
+  CHECK(named(read_case(undamped.path()).connectors, "track_fastening_1").damping == scene::Vec3{40e3, 40e3, 67.5e3});
+}
+
+TEST_CASE("the stiffness of a bonded layer between its limits", "[case]") {
+  const double nu = 0.3, whole = (1 - nu) / ((1 + nu) * (1 - 2 * nu));
+  // Thin: nothing widens. Without lateral contraction nothing would.
+  CHECK_THAT(case_file::BondedLayer({1, 1, 1e-5}).vertical_stiffness(nu), WithinRel(1e5 * whole, 1e-4));
+  CHECK_THAT(case_file::BondedLayer({0.16, 0.14, 0.007}).vertical_stiffness(0), WithinRel(3.2, 1e-12));
+  // A narrow strip is in plane strain.
+  CHECK_THAT(case_file::BondedLayer({1000, 1e-3, 1}).vertical_stiffness(nu), WithinRel(1 / (1 - nu * nu), 2e-3));
+  CHECK_THAT(case_file::BondedLayer({0.16, 0.14, 0.007}).shear_stiffness(nu), WithinRel(3.2 / 2.6, 1e-12));
+}
+
+TEST_CASE("a whole track has whole sleepers, and the other rail mirrored at the centre plane", "[case]") {
+  for (bool mirrored : {false, true}) {
+    TemporaryCase file(track_case(std::string("both_rails = true\nposition = [10, 2, 3]\n") + (mirrored ? "mirror = true\n" : "")));
+    const auto scene = read_case(file.path());
+    REQUIRE(scene.parts.size() == 12);
+    const auto& far = named(scene.parts, "track_far_rail");
+    CHECK(far.mirror != mirrored);
+    CHECK_THAT(far.position[1], WithinAbs(2 + (mirrored ? 1.51 : -1.51), 1e-12));
+    CHECK(far.position[2] == 3);
+    CHECK(far.material == "track_steel");
+    const auto& box = named(scene.meshes, "track_concrete").box;
+    CHECK_THAT(box.origin[1], WithinAbs(-0.755 - 1.26, 1e-12));
+    CHECK_THAT(box.size[1], WithinAbs(2.52, 1e-12));
+    CHECK(box.divisions == std::array<int, 3>{3, 28, 2});
+    REQUIRE(scene.connectors.size() == 30);
+    CHECK(named(scene.connectors, "track_far_fastening_10").from == "track_sleeper_10.z_max");
+    CHECK(named(scene.connectors, "track_far_fastening_10").to == "track_far_rail.foot");
+    CHECK(named(scene.connectors, "track_ballast_1").stiffness == scene::Vec3{0, 0, 90e6});
+    CHECK(named(scene.connectors, "track_ballast_1").spread == std::array<int, 2>{2, 12});
+    CHECK(named(scene.constraints, "track_centre_2").target == "track_sleeper_2.centre");
+    REQUIRE(scene.node_sets.size() == 10);
+    CHECK_THAT((*scene.node_sets[1].box)[0][1], WithinAbs(2 + (mirrored ? 0.755 : -0.755), 1e-5));
+  }
+  TemporaryCase free("[sleepers.concrete]\nballast_lateral_stiffness = 2e7\npad = \"solid\"\n" + track_case("both_rails = true"));
+  const auto scene = read_case(free.path());
+  CHECK(scene.constraints.size() == 10);  // beds
+  CHECK(named(scene.connectors, "track_ballast_1").stiffness == scene::Vec3{0, 4e7, 90e6});
+  CHECK(named(scene.ties, "track_far_pad_3_foot").master == "track_far_rail.foot");
+  CHECK(named(scene.parts, "track_far_pad_3").material == "track_concrete_pad");
 }

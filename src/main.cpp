@@ -7,6 +7,7 @@
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
 #include "check.hpp"
+#include "modes/modes_command.hpp"
 #include "output/model_file.hpp"
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
@@ -25,6 +26,7 @@ struct Arguments {
   std::string case_file, topic;
   std::vector<std::string> overrides;
   ContactRequest contact;
+  ModesRequest modes;
   std::string mesh_file = "mesh.h5";
   bool markdown = false, schema = false;
 };
@@ -76,6 +78,12 @@ int write_mesh(const Arguments& arguments) {
   return done;
 }
 
+int find_modes(const Arguments& arguments) {
+  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const Kokkos::ScopeGuard kokkos;
+  return modes_command(scene, arguments.modes, std::cout);
+}
+
 int print_reference(const Arguments& arguments) {
   if (arguments.schema) std::cout << case_schema_json();
   else std::cout << case_reference_markdown();
@@ -95,6 +103,13 @@ void add_contact_options(CLI::App* command, ContactRequest& request) {
       ->delimiter(',');
   command->add_option("--axle", request.axle, "history set that travels with the patch, e.g. wheel.bore, for the rolling velocity; default: the patch's own travel");
   command->add_option("--rolling-velocity", request.rolling_velocity, "the rolling velocity instead, m/s");
+}
+
+void add_modes_options(CLI::App* command, ModesRequest& request) {
+  command->add_option("--part", request.parts, "a part or point mass to take with what joins them; may be repeated; default: all")->allow_extra_args(false);
+  command->add_option("--up-to", request.up_to, "highest frequency, Hz; default 5000");
+  command->add_option("--csv", request.csv, "also write the table as CSV, in SI units");
+  command->add_option("--out", request.shapes, "also write the shapes as HDF5; its XDMF companion, which ParaView opens, lies beside it");
 }
 
 int dispatch(int argc, char** argv) {
@@ -119,6 +134,10 @@ int dispatch(int argc, char** argv) {
   add_case(mesh);
   mesh->add_option("--out", arguments.mesh_file, "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default mesh.h5");
   mesh->callback([&] { code = write_mesh(arguments); });
+  CLI::App* modes = app.add_subcommand("modes", "frequencies and shapes of a case's free vibrations");
+  add_case(modes);
+  add_modes_options(modes, arguments.modes);
+  modes->callback([&] { code = find_modes(arguments); });
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
   add_contact_options(contact, arguments.contact);
   contact->callback([&] { code = contact_command(arguments.contact, std::cout); });

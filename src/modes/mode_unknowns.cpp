@@ -28,6 +28,14 @@ ModeUnknowns::ModeUnknowns(const Model& model) : rows_(model), free_(rows_.rows(
   mass_ = Eigen::Map<Eigen::VectorXd>(mass.data(), count_);
 }
 
+std::vector<Vec3> ModeUnknowns::places() const {
+  std::vector<Vec3> result;
+  const auto positions = rows_.positions();
+  for (int row = 0; row < rows_.rows(); ++row)
+    if (!rows_.follows(row)) result.insert(result.end(), free_[row].size, positions[row]);
+  return result;
+}
+
 Eigen::VectorXd ModeUnknowns::motion(const Eigen::VectorXd& q) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * rows_.rows());
   for (int row = 0; row < rows_.rows(); ++row)

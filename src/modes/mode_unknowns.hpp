@@ -19,6 +19,8 @@ class ModeUnknowns {
   int nodes() const { return rows_.nodes(); }
   /// kg or kg m2, by q: the masses of a run, those of slaves on their masters.
   const Eigen::VectorXd& mass() const { return mass_; }
+  /// m, by q: where its row is.
+  std::vector<Vec3> places() const;
 
   /// visit(first, A) for each lead of a row that is free at all: A (3 rows) times q[first ...] is its part of the row's motion.
   template <class Visit>

@@ -32,7 +32,7 @@ ModeList modes_below(const Model& model, double up_to) {
   if (model.beams) tighten_beams(model, true);
   const ModeUnknowns unknowns(model);
   const SpringCollector springs = mode_springs(model);
-  ShiftedMatrix matrix(stiffness_matrix(model, unknowns, springs), unknowns.mass());
+  ShiftedMatrix matrix(stiffness_matrix(model, unknowns, springs), unknowns.mass(), unknowns.places());
   const double limit = std::pow(2 * M_PI * up_to, 2);
   const Eigenpairs pairs = eigenpairs_below(matrix, limit);
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <memory>
 
+#include "modes/frontal_factor.hpp"
 #include "modes/stiffness_matrix.hpp"
 
 namespace railwave {
@@ -11,7 +12,8 @@ namespace railwave {
 class ShiftedMatrix {
  public:
   /// @param mass of each unknown, above 0
-  ShiftedMatrix(const StiffnessMatrix& stiffness, const Eigen::VectorXd& mass);
+  /// @param place of each unknown, m, for the order of elimination
+  ShiftedMatrix(const StiffnessMatrix& stiffness, const Eigen::VectorXd& mass, const std::vector<Vec3>& place);
 
   int size() const { return size_; }
 
@@ -25,16 +27,14 @@ class ShiftedMatrix {
   int count_below() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& x) const;
 
-  long entries_of_factor() const { return entries_; }
+  long entries_of_factor() const { return factor_->entries(); }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   int size_, extra_;
   Matrix matrix_, shifted_;
-  Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
-  bool analysed_ = false;
-  long entries_ = 0;
+  std::unique_ptr<FrontalFactor> factor_;
 };
 
 }  // namespace railwave

@@ -1,0 +1,70 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+
+#include "tests/modes/mode_models.hpp"
+#include "tests/modes/timoshenko.hpp"
+#include "tests/verify/two_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+using Catch::Matchers::WithinRel;
+
+// Natural frequencies (Hz) of steel bodies against series values (E 210 GPa, nu 0.3, 7800 kg/m3). A one-point element bends
+// only by its hourglass stiffness: a coefficient of about a quarter makes that of a cube right.
+namespace {
+
+/// @param worst share by which one of them may differ
+void compare(const char* what, const std::vector<double>& found, const std::vector<double>& expected) {
+  REQUIRE(found.size() >= expected.size());
+  double worst = 0;
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    INFO(what << ", mode " << k + 1);
+    CHECK_THAT(found[k], WithinRel(expected[k], 0.01));
+    if (const double off = found[k] / expected[k] - 1; std::fabs(off) > std::fabs(worst)) worst = off;
+  }
+  WARN(what << ": the worst of " << expected.size() << " frequencies is off by " << 100 * worst << " %");
+}
+
+}  // namespace
+
+TEST_CASE("Modes of a free cube", "[modes]") {
+  // Rayleigh and Ritz with polynomials of degree 11; the seventh of these pairs is Lame's, c_s / (sqrt 2 L), exactly.
+  const auto found = elastic_frequencies(mode_block({0.1, 0.1, 0.1}, {16, 16, 16}, 0.25), 24500, 6);
+  std::vector<double> levels;  // one of each group
+  for (double f : found)
+    if (levels.empty() || f > 1.0001 * levels.back()) levels.push_back(f);
+  REQUIRE(found.size() == 17);
+  REQUIRE(levels.size() == 7);
+  levels.erase(levels.begin() + 3);  // a single one that the series below, of six kinds, doesn't have
+  compare("free cube, 16 x 16 x 16", levels, {14627.74, 19697.43, 20031.5, 22754.15, 23420.43, 24545.45});
+}
+
+TEST_CASE("Modes of a free beam", "[modes]") {
+  const auto found = elastic_frequencies(mode_block({1, 0.05, 0.05}, {80, 8, 8}, 0.1), 2650, 6);
+  compare("free beam, 80 x 8 x 8", found, {264.33, 264.33, 717.12, 717.12, 1374.95, 1374.95, 1477.69});
+  CHECK_THAT(found.back(), WithinRel(2593.89, 0.01));  // axial
+}
+
+TEST_CASE("Modes of a clamped beam", "[modes]") {
+  scene::Scene scene = mode_block({1, 0.05, 0.05}, {80, 8, 8}, 0.1);
+  hold(scene, "block.x_min", {true, true, true});
+  const double nu = steel().poissons_ratio;
+  const Cantilever exact{1, 0.05 * 0.05, std::pow(0.05, 4) / 12, 10 * (1 + nu) / (12 + 11 * nu), steel()};
+  const auto f = exact.frequencies(3);
+  compare("clamped beam, 80 x 8 x 8", elastic_frequencies(scene, 720, 0), {f[0], f[0], f[1], f[1], f[2], f[2]});
+}
+
+TEST_CASE("Modes of a clamped beam of beam elements", "[modes]") {
+  scene::Scene scene = beam_scene({1, 0, 0}, 0.025, 40, 1e-3);
+  clamp(scene, "root");
+  // Modes are of parts: a small block, held, beside it.
+  scene::Scene block = block_scene({0.01, 0.01, 0.01}, {1, 1, 1}, 1e-3);
+  scene.meshes = block.meshes;
+  scene.parts = block.parts;
+  scene.parts[0].position = {0, 1, 0};
+  hold(scene, "block", {true, true, true});
+  const double nu = steel().poissons_ratio, area = M_PI * 0.025 * 0.025;
+  const Cantilever exact{1, area, area * 0.025 * 0.025 / 4, 6 * (1 + nu) / (7 + 6 * nu), steel()};
+  const auto f = exact.frequencies(2);
+  compare("clamped beam of 40 beam elements", elastic_frequencies(scene, 300, 0), {f[0], f[0], f[1], f[1]});
+}

@@ -13,6 +13,7 @@ namespace {
 constexpr double tolerance = 1e-10;
 constexpr int most_attempts = 6;
 constexpr int small_enough_for_full = 240;
+constexpr double narrowest = 1e-4;  ///< interval, of the limit: a cluster is not halved
 
 /// x -> (A - sigma I)^-1 x, across the directions that have been found.
 class InverseAcross {
@@ -78,22 +79,22 @@ Eigen::MatrixXd vectors_between(ShiftedMatrix& matrix, double low, double high, 
 
 class Intervals {
  public:
-  Intervals(ShiftedMatrix& matrix, int most) : matrix_(matrix), most_(most), vectors_(matrix.size(), 0) {}
+  Intervals(ShiftedMatrix& matrix, double least, int most) : matrix_(matrix), least_(least), most_(most), vectors_(matrix.size(), 0) {}
 
   int below(double value) {
     matrix_.shift_to(value);
     return matrix_.count_below();
   }
 
-  void search(double low, int below_low, double high, int below_high, int depth = 0) {
+  void search(double low, int below_low, double high, int below_high) {
     const int count = below_high - below_low;
     if (count <= 0) return;
-    if (count > most_ && depth < 40) {
+    if (count > most_ && high - low > least_) {
       // Frequencies, not their squares, are spread evenly.
       const double root = 0.5 * (std::sqrt(std::max(low, 0.0)) + std::sqrt(high)), middle = root * root;
       const int below_middle = below(middle);
-      search(low, below_low, middle, below_middle, depth + 1);
-      search(middle, below_middle, high, below_high, depth + 1);
+      search(low, below_low, middle, below_middle);
+      search(middle, below_middle, high, below_high);
       return;
     }
     const Eigen::MatrixXd found = vectors_between(matrix_, low, high, count);
@@ -105,6 +106,7 @@ class Intervals {
 
  private:
   ShiftedMatrix& matrix_;
+  double least_;
   int most_;
   Eigen::MatrixXd vectors_;
 };
@@ -126,9 +128,9 @@ Eigenpairs eigenpairs_below(ShiftedMatrix& matrix, double limit, int most) {
     const Eigen::Index count = (solver.eigenvalues().array() < limit).count();
     return {solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)};
   }
-  Intervals intervals(matrix, most);
+  Intervals intervals(matrix, narrowest * limit, most);
   // Rigid motions lie at 0, and by rounding a little below it.
-  intervals.search(-0.01 * limit, 0, limit, intervals.below(limit));
+  intervals.search(-0.5 * narrowest * limit, 0, limit, intervals.below(limit));
   if (intervals.vectors().cols() == 0) return {Eigen::VectorXd(0), intervals.vectors()};
   return refined(matrix, intervals.vectors());
 }

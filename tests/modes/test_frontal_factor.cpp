@@ -22,7 +22,8 @@ TEST_CASE("Frontal factor: solves indefinite systems and counts their negative e
   ShiftedMatrix matrix(stiffness, unknowns.mass(), unknowns.places());
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
   const Eigen::VectorXd right = random_vector(matrix.size(), 7);
-  for (int below : {0, 1, 7, 40, static_cast<int>(values.size()) - 1}) {
+  // Three turns about the spring are free.
+  for (int below : {0, 3, 7, 40, static_cast<int>(values.size()) - 1}) {
     const double shift = below == 0 ? -values[20] : 0.5 * (values[below - 1] + values[below]);
     matrix.shift_to(shift);
     INFO(below << " eigenvalues below " << shift);

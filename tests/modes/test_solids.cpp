@@ -45,6 +45,15 @@ TEST_CASE("Modes of a free beam", "[modes]") {
   CHECK_THAT(found.back(), WithinRel(2593.89, 0.01));  // axial
 }
 
+TEST_CASE("Modes of a free disc", "[modes]") {
+  scene::Scene scene = mode_block({1, 1, 1}, {1, 1, 1}, 0.05);
+  scene.meshes[0].type = scene::MeshType::cylinder;
+  scene.meshes[0].cylinder = {0.46, 0.05, 16, 20, 6, 1, 0.35};
+  // Nodal diameters and circles (2,0), (0,1), (3,0), (1,1), (4,0).
+  compare("free disc, 6 elements through it", elastic_frequencies(scene, 1300, 6),
+          {311.1, 311.1, 522.54, 709.9, 709.9, 1158.5, 1158.5, 1221.7, 1221.7});
+}
+
 TEST_CASE("Modes of a clamped beam", "[modes]") {
   scene::Scene scene = mode_block({1, 0.05, 0.05}, {80, 8, 8}, 0.1);
   hold(scene, "block.x_min", {true, true, true});

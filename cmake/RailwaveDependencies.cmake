@@ -1,5 +1,5 @@
 # Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5,
-# railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, Catch2::Catch2 (tests).
+# railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
 
 # What scripts/setup has put there.
 list(APPEND CMAKE_PREFIX_PATH "${CMAKE_SOURCE_DIR}/.deps/kokkos" "${CMAKE_SOURCE_DIR}/.deps/catch2/usr")
@@ -45,6 +45,7 @@ railwave_header_library(toml toml++/toml.h libtomlplusplus-dev)
 railwave_header_library(cli CLI/CLI.hpp libcli11-dev)
 railwave_header_library(fmt fmt/format.h libfmt-dev)
 railwave_header_library(spdlog spdlog/spdlog.h libspdlog-dev)
+railwave_header_library(spectra Spectra/SymEigsShiftSolver.h libspectra-dev)
 target_link_libraries(railwave_spdlog INTERFACE railwave_fmt)
 target_compile_definitions(railwave_spdlog INTERFACE SPDLOG_FMT_EXTERNAL)
 

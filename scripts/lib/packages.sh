@@ -2,8 +2,8 @@
 # The Debian packages Railwave needs, and their installation.
 
 packages_to_build=(
-    cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libtomlplusplus-dev
-    ninja-build pkg-config
+    cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libspectra-dev
+    libtomlplusplus-dev ninja-build pkg-config
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
 # VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built without.

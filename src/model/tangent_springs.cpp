@@ -35,10 +35,10 @@ void SpringCollector::add_connectors() {
   }
 }
 
-void SpringCollector::add_beams() {
+void SpringCollector::add_beams(bool held) {
   if (!model_.beams) return;
   const BeamArrays& beams = model_.beams->arrays;
-  const BeamTangent tangent{beams, model_.nodes.position, true,
+  const BeamTangent tangent{beams, model_.nodes.position, held,
                             unset_array<double* [BeamTangent::springs][BeamTangent::ends][3]>("beam tangent", beams.count),
                             unset_array<double* [BeamTangent::springs]>("beam tangent stiffness", beams.count)};
   Kokkos::parallel_for("beam_tangent", Range(0, beams.count), tangent);

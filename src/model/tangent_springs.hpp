@@ -16,8 +16,9 @@ class SpringCollector {
   /// segment becomes four to its corners by the place's shape functions N: (u - sum N u_k)^2 <= sum N (u - u_k)^2. That is
   /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);
-  /// Beams as they settle (kernels/beam_tangent.hpp); the rows of their rotations follow the nodes'.
-  void add_beams();
+  /// Beams (kernels/beam_tangent.hpp); the rows of their rotations follow the nodes'.
+  /// @param held as they settle, when bolts keep their pretension whatever their stretch
+  void add_beams(bool held = true);
 
   /// One spring between nodes: stretch = sum of weight times displacement along the direction.
   void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction, double stiffness);

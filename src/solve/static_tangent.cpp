@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
+#include "model/settling_stiffness.hpp"
 
 namespace railwave {
 namespace {
@@ -26,11 +26,7 @@ StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
   part_of_element_.assign(elements.size(), 0);
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
     const auto& range = model.assembly.parts[p];
-    const scene::Part& part = model.scene.parts[p];
-    const scene::Material& material = model.scene.materials[range.material];
-    const double mu = material.shear_modulus(), factor = hourglass_factor(scene::HourglassType::stiffness,
-                                                                          settling_hourglass_coefficient(part), material);
-    stiffness_.push_back({material.dilatational_modulus() - 2 * mu, mu, factor, false, 0});
+    stiffness_.push_back(settling_stiffness(model.scene.parts[p], model.scene.materials[range.material]));
     std::fill_n(part_of_element_.begin() + range.first_element, range.element_count, static_cast<int>(p));
   }
 

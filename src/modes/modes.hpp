@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "modes/round_body.hpp"
+
+namespace railwave {
+
+/// One mode of free vibration.
+struct Mode {
+  double frequency = 0;             ///< Hz; that of its strain energy, 0 for a rigid motion
+  bool rigid = false;               ///< it strains nothing
+  int part = 0;                     ///< that with the most kinetic energy; -1: point masses and nodes of beams
+  double part_share = 0;            ///< of the kinetic energy
+  std::optional<RoundName> round;   ///< where that part is a body of revolution
+  Eigen::VectorXd shape;            ///< 3 values by node, the largest displacement is 1
+  double modal_mass = 0;            ///< kg, of that shape
+};
+
+/// All modes below a frequency, ascending, and what finding them took.
+struct ModeList {
+  std::vector<Mode> modes;
+  int unknowns = 0;
+  long factor_entries = 0;
+};
+
+/// @param up_to Hz
+/// Throws std::runtime_error unless as many are found as the inertia counts.
+ModeList modes_below(const Model& model, double up_to);
+
+}  // namespace railwave

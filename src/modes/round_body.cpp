@@ -1,0 +1,162 @@
+#include "modes/round_body.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <map>
+
+namespace railwave {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double same_place = 1e-5;      ///< of the largest radius: nodes of one ring
+constexpr int fewest_nodes = 12;         ///< of a ring
+constexpr double widest_gap = 0.15;      ///< of the way round, between nodes of a ring
+constexpr double least_share = 0.5;      ///< of the part's mass that lies in rings
+constexpr int highest_order = 40;
+constexpr int radius_steps = 24;         ///< in which the displacement along the radius is looked at
+constexpr double least_swing = 0.03;     ///< of its largest value: what lies below has no sign
+
+Eigen::Vector3d vector(const Vec3& a) { return {a[0], a[1], a[2]}; }
+
+const scene::MeshSource& mesh_of(const scene::Scene& scene, const scene::Part& part) {
+  return *std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { return mesh.name == part.mesh; });
+}
+
+/// Ascending radius.
+void sort_ring(std::vector<int>& nodes, std::vector<double>& angle) {
+  std::vector<std::size_t> order(nodes.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return angle[a] < angle[b]; });
+  const auto nodes_before = nodes;
+  const auto angle_before = angle;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    nodes[k] = nodes_before[order[k]];
+    angle[k] = angle_before[order[k]];
+  }
+}
+
+}  // namespace
+
+const char* text_of(RoundName::Kind kind) {
+  return kind == RoundName::Kind::axial ? "axial" : kind == RoundName::Kind::radial ? "radial" : "circumferential";
+}
+
+std::optional<RoundBody> RoundBody::of_part(const Model& model, int number) {
+  const scene::Part& part = model.scene.parts[number];
+  const bool along_z = mesh_of(model.scene, part).type == scene::MeshType::cylinder;
+  RoundBody body(part.position, turned_with(part, along_z ? Vec3{0, 0, 1} : Vec3{0, 1, 0}));
+  const Eigen::Vector3d axis = vector(body.axis_).normalized();
+  const Eigen::Vector3d across = axis.unitOrthogonal();
+  body.frame_ << across, axis.cross(across), axis;
+
+  const auto& range = model.assembly.parts[number];
+  std::vector<Eigen::Vector3d> local;
+  double reach = 0, total = 0;
+  for (int n = range.first_node; n < range.first_node + range.node_count; ++n) {
+    local.push_back(body.frame_.transpose() * (vector(model.assembly.nodes[n]) - vector(body.centre_)));
+    reach = std::max(reach, local.back().head<2>().norm());
+    total += model.mass[n];
+  }
+  std::map<std::pair<long, long>, Ring> rings;
+  for (int k = 0; k < range.node_count; ++k) {
+    const double radius = local[k].head<2>().norm(), unit = same_place * reach;
+    // A corner of the lattice of places might part a ring: the lattice's origin lies off all round numbers.
+    Ring& ring = rings[{std::lround(radius / unit + 0.31), std::lround(local[k][2] / unit + 0.37)}];
+    ring.radius = radius;
+    ring.nodes.push_back(range.first_node + k);
+    ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
+    ring.mass += model.mass[range.first_node + k];
+  }
+  double in_rings = 0;
+  for (auto& [place, ring] : rings) {
+    const int count = static_cast<int>(ring.nodes.size());
+    if (count < fewest_nodes) continue;
+    sort_ring(ring.nodes, ring.angle);
+    double widest = 0;
+    for (int k = 0; k < count; ++k) {
+      const double before = k > 0 ? ring.angle[k - 1] : ring.angle.back() - 2 * M_PI;
+      const double behind = k + 1 < count ? ring.angle[k + 1] : ring.angle.front() + 2 * M_PI;
+      ring.share.push_back((behind - before) / (4 * M_PI));
+      widest = std::max(widest, (behind - ring.angle[k]) / (2 * M_PI));
+    }
+    if (widest > widest_gap) continue;
+    in_rings += ring.mass;
+    body.most_orders_ = std::max(body.most_orders_, std::min(count / 2 - 1, highest_order));
+    body.rings_.push_back(ring);
+  }
+  if (in_rings < least_share * total) return {};
+  std::sort(body.rings_.begin(), body.rings_.end(), [](const Ring& a, const Ring& b) { return a.radius < b.radius; });
+  return body;
+}
+
+int RoundBody::circles(const std::vector<Complex>& amplitude) const {
+  Complex square = 0;
+  for (std::size_t r = 0; r < rings_.size(); ++r) square += rings_[r].mass * amplitude[r] * amplitude[r];
+  const Complex turn = std::polar(1.0, -0.5 * std::arg(square));
+  const double first = rings_.front().radius, width = (rings_.back().radius - first) / radius_steps;
+  std::vector<double> sum(radius_steps, 0.0), mass(radius_steps, 0.0);
+  for (std::size_t r = 0; r < rings_.size(); ++r) {
+    const int step = std::clamp(static_cast<int>((rings_[r].radius - first) / width), 0, radius_steps - 1);
+    sum[step] += rings_[r].mass * (turn * amplitude[r]).real();
+    mass[step] += rings_[r].mass;
+  }
+  double largest = 0;
+  for (int s = 0; s < radius_steps; ++s)
+    if (mass[s] > 0) largest = std::max(largest, std::fabs(sum[s] /= mass[s]));
+  int changes = 0;
+  double sign = 0;
+  for (int s = 0; s < radius_steps; ++s) {
+    if (!(mass[s] > 0) || std::fabs(sum[s]) < least_swing * largest) continue;
+    if (sign * sum[s] < 0) ++changes;
+    sign = sum[s];
+  }
+  return changes;
+}
+
+RoundName RoundBody::name(const Eigen::VectorXd& motion) const {
+  constexpr int directions = 3;  // radial, circumferential, axial
+  const int orders = most_orders_ + 1;
+  std::vector<std::vector<Complex>> amplitude(orders * directions, std::vector<Complex>(rings_.size()));
+  for (std::size_t r = 0; r < rings_.size(); ++r) {
+    const Ring& ring = rings_[r];
+    const int own_orders = std::min<int>(orders, static_cast<int>(ring.nodes.size()) / 2);
+    for (std::size_t k = 0; k < ring.nodes.size(); ++k) {
+      const Eigen::Vector3d u = frame_.transpose() * motion.segment<3>(3 * ring.nodes[k]);
+      const double c = std::cos(ring.angle[k]), s = std::sin(ring.angle[k]);
+      const double along[directions] = {c * u[0] + s * u[1], c * u[1] - s * u[0], u[2]};
+      const Complex step(c, -s);
+      Complex wave = ring.share[k];
+      for (int n = 0; n < own_orders; ++n, wave *= step)
+        for (int d = 0; d < directions; ++d) amplitude[n * directions + d][r] += wave * along[d];
+    }
+  }
+  std::vector<double> energy(orders * directions, 0.0);
+  double total = 0;
+  for (int i = 0; i < orders * directions; ++i) {
+    for (std::size_t r = 0; r < rings_.size(); ++r) energy[i] += rings_[r].mass * std::norm(amplitude[i][r]);
+    if (i >= directions) energy[i] *= 2;  // cos^2 and sin^2 have a mean of a half
+    total += energy[i];
+  }
+  RoundName result;
+  double most = -1;
+  for (int n = 0; n < orders; ++n) {
+    const double* e = &energy[n * directions];
+    if (e[0] + e[1] + e[2] <= most) continue;
+    most = e[0] + e[1] + e[2];
+    result.diameters = n;
+  }
+  const double* e = &energy[result.diameters * directions];
+  result.order_share = most / total;
+  result.radial_share = e[0] / most;
+  result.circumferential_share = e[1] / most;
+  result.axial_share = e[2] / most;
+  const int main = e[2] >= std::max(e[0], e[1]) ? 2 : e[0] >= e[1] ? 0 : 1;
+  result.kind = main == 2 ? RoundName::Kind::axial : main == 0 ? RoundName::Kind::radial : RoundName::Kind::circumferential;
+  result.circles = circles(amplitude[result.diameters * directions + main]);
+  return result;
+}
+
+}  // namespace railwave

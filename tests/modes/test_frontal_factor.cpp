@@ -1,0 +1,34 @@
+#include <Eigen/Eigenvalues>
+#include <catch2/catch_test_macros.hpp>
+
+#include "tests/modes/mode_models.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+TEST_CASE("Frontal factor: solves indefinite systems and counts their negative eigenvalues, springs between many nodes included", "[modes]") {
+  scene::Scene scene = mode_block({0.3, 0.2, 0.1}, {9, 6, 4}, 0.05);
+  scene::Connector spring;
+  spring.name = "spring";
+  spring.from = "block.x_min";
+  spring.to = "ground";
+  spring.stiffness = {1e9, 2e9, 3e9};
+  scene.connectors.push_back(spring);
+  Model model;
+  build_model(scene, model);
+  const ModeUnknowns unknowns(model);
+  const StiffnessMatrix stiffness = stiffness_matrix(model, unknowns, mode_springs(model));
+  REQUIRE(stiffness.extra == 3);
+  ShiftedMatrix matrix(stiffness, unknowns.mass(), unknowns.places());
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd right = random_vector(matrix.size(), 7);
+  // Three turns about the spring are free.
+  for (int below : {0, 3, 7, 40, static_cast<int>(values.size()) - 1}) {
+    const double shift = below == 0 ? -values[20] : 0.5 * (values[below - 1] + values[below]);
+    matrix.shift_to(shift);
+    INFO(below << " eigenvalues below " << shift);
+    CHECK(matrix.count_below() == below);
+    const Eigen::VectorXd x = matrix.solve(right);
+    CHECK((matrix.times(x) - shift * x - right).norm() < 1e-8 * right.norm());
+  }
+}

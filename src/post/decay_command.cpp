@@ -69,7 +69,8 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
     if (frequency.empty()) frequency = response.frequency, reliable = force_limit(response, 20);
     places.push_back({probe.distance, std::move(response.value)});
   }
-  const auto bands = third_octaves(request.from, std::min(request.to, frequency.back()) * 1.13);
+  auto bands = third_octaves(0.85 * request.from, std::min(1.2 * request.to, frequency.back()));
+  bands.erase(std::remove_if(bands.begin(), bands.end(), [&](const ThirdOctave& band) { return band.nominal < request.from || band.nominal > request.to; }), bands.end());
   const auto rates = decay_rates(frequency, places, bands);
   out << fmt::format("decay rate by EN 15461 of {} along {}: {} places from {:.4g} m to {:.4g} m beside {}\n", probes.front().where.set.substr(0, probes.front().where.set.find('.')),
                      request.direction.empty() ? "the force" : request.direction, probes.size() - 1, probes[1].distance, probes.back().distance, test.input().load);
@@ -80,7 +81,6 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
   for (const Probe& probe : probes) fmt::format_to(std::back_inserter(csv), ",level_{:.6g}", probe.distance);
   csv.push_back('\n');
   for (const BandDecay& one : rates) {
-    if (one.band.centre > request.to * 1.001) continue;
     const bool unsure = one.rate < 1.5 * one.least, thin = one.band.high > reliable;
     short_row = short_row || unsure;
     weak = weak || thin;

@@ -121,6 +121,7 @@ void add_hammer_commands(CLI::App& app, ResponseRequest& frf, DecayRequest& deca
   rate->add_option("results", decay.results, "results files; several are blows whose responses are averaged")->required();
   rate->add_option("--input", decay.input, "hammer that strikes beside the row; default: the only one");
   rate->add_option("--row", decay.rows, "row of probes, or set; may be repeated; default: all probes on the struck part")->allow_extra_args(false);
+  rate->add_option("--at", decay.at, "set beside the force whose motion is taken for that at the force, as of an accelerometer beside a hammer; default: the struck set");
   rate->add_option("--direction", decay.direction, "of the motion, as of frf; default: that of the force");
   rate->add_option("--from", decay.from, "Hz; default 100");
   rate->add_option("--to", decay.to, "Hz; default 5000");

@@ -34,7 +34,8 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
   }
   for (const std::string& row : request.rows)
     for (const HammerResponse& one : test.find(row + along)) found.push_back(one);
-  const auto struck = test.place(test.input().set);
+  const std::string first = request.at.empty() ? test.input().set : test.find(request.at).front().set;
+  const auto struck = test.place(first);
   if (!struck) throw InputError("the results file does not tell where its sets are; repeat the run with this program");
   std::vector<Probe> before, behind;
   for (const HammerResponse& one : found) {
@@ -44,7 +45,7 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
   }
   if (before.size() > behind.size()) before.swap(behind);
   if (!before.empty()) notes.push_back(fmt::format("{} probes on the other side of the force are left out", before.size()));
-  std::vector<Probe> probes{{0, test.find(test.input().set + along).front()}};
+  std::vector<Probe> probes{{0, test.find(first + along).front()}};
   probes.insert(probes.end(), behind.begin(), behind.end());
   std::sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.distance < b.distance; });
   probes.erase(std::unique(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return b.distance - a.distance < at_force; }), probes.end());

@@ -12,6 +12,7 @@ struct DecayRequest {
   std::vector<std::string> results;   ///< results files: several blows are averaged
   std::string input;                  ///< load or hammer; empty: the only one
   std::vector<std::string> rows;      ///< rows of probes, or sets; none: all probes on the struck part
+  std::string at;                     ///< set that stands for the force's own place; empty: the struck one
   std::string direction;              ///< as of `railwave frf`; empty: that of the force
   double from = 100, to = 5000;       ///< Hz
   double resolution = 1;              ///< Hz

@@ -15,6 +15,7 @@
 #include "post/contact_command.hpp"
 #include "post/decay_command.hpp"
 #include "post/response_command.hpp"
+#include "signal_options.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {
@@ -27,6 +28,7 @@ struct Arguments {
   std::string case_file, topic;
   std::vector<std::string> overrides;
   ContactRequest contact;
+  SignalRequest signal;
   ResponseRequest response;
   DecayRequest decay;
   std::string mesh_file = "mesh.h5";
@@ -157,6 +159,7 @@ int dispatch(int argc, char** argv) {
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
   add_contact_options(contact, arguments.contact);
   contact->callback([&] { code = contact_command(arguments.contact, std::cout); });
+  add_signal_command(app, arguments.signal, [&] { code = signal_command(arguments.signal, std::cout); });
   add_hammer_commands(app, arguments.response, arguments.decay, code);
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
   help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");

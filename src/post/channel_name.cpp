@@ -49,6 +49,27 @@ bool matches(const char* pattern, const char* name) {
   return *pattern == *name && matches(pattern + 1, name + 1);
 }
 
+/// By alphabet, but numbers by their value: row_2 comes before row_10.
+bool before(const std::string& a, const std::string& b) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (digit(a[i]) && digit(b[j])) {
+      const std::size_t end_a = std::min(a.size(), a.find_first_not_of("0123456789", i)), end_b = std::min(b.size(), b.find_first_not_of("0123456789", j));
+      const double number_a = std::strtod(a.substr(i, end_a - i).c_str(), nullptr), number_b = std::strtod(b.substr(j, end_b - j).c_str(), nullptr);
+      if (number_a != number_b) return number_a < number_b;
+      i = end_a;
+      j = end_b;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    } else {
+      ++i;
+      ++j;
+    }
+  }
+  return a.size() - i < b.size() - j;
+}
+
 void set_direction(ChannelPlace& place, const std::string& text, const Asked& asked) {
   place.direction_text = text;
   if (text == "size") return;
@@ -129,18 +150,21 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
   if (at == std::string::npos) {
     const auto all = names.all();
     if (all.empty()) asked.refuse("the run wrote no histories");
-    // The best hint leaves the direction away.
+    // The names are without direction, which what is asked for may have.
     const std::string stem = text.find('.') == std::string::npos ? text : text.substr(0, text.rfind('.'));
-    const std::string near = nearest_name(text, all);
-    asked.refuse(fmt::format("there is none of that name; {}", suggestion(near.empty() ? stem : text, all)));
+    for (const std::string& word : {text, stem})
+      if (const std::string near = nearest_name(word, all); !near.empty()) asked.refuse(fmt::format("there is none of that name; did you mean '{}'?", near));
+    asked.refuse("there is none of that name; there are " + names.summary());
   }
   set_direction(place, text.substr(after), asked);
 
   const auto entries = split(text.substr(0, at), '+');
   std::vector<std::vector<ChannelPlace>> channels;
+  auto sets = names.sets;
+  std::sort(sets.begin(), sets.end(), before);
   for (const std::string& entry : entries) {
     std::size_t count = 0;
-    for (const std::string& set : names.sets)
+    for (const std::string& set : sets)
       if (matches(entry.c_str(), set.c_str())) {
         place.owner = set;
         channels.push_back({place});
@@ -186,6 +210,25 @@ std::vector<std::string> ChannelNames::all() const {
   add(loads, "load.", names_of(of_loads), "");
   for (const std::string& energy : energies) result.push_back("energy." + energy);
   return result;
+}
+
+std::string ChannelNames::summary() const {
+  constexpr std::size_t most = 8;
+  std::string text;
+  const auto add = [&](std::vector<std::string> owners, const char* what, const std::vector<std::string>& quantities) {
+    if (owners.empty()) return;
+    std::sort(owners.begin(), owners.end(), before);
+    const std::size_t more = owners.size() > most ? owners.size() - most : 0;
+    owners.resize(owners.size() - more);
+    const std::string form = what + (quantities.size() == 1 ? quantities[0] : quantities.empty() ? "NAME" : '(' + joined(quantities, "|") + ')');
+    text += fmt::format("{}{} of {}{}", text.empty() ? "" : "; ", form, joined(owners), more > 0 ? fmt::format(" and {} more", more) : "");
+  };
+  add(sets, "SET.", names_of(of_sets));
+  add(contacts, "contact.NAME.", names_of(of_contacts));
+  add(beams, "beam.NAME.", names_of(of_beams));
+  add(loads, "load.NAME.", names_of(of_loads));
+  add(energies, "energy.", {});
+  return text.empty() ? "none at all" : text;
 }
 
 std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, const ChannelNames& names, const std::string& file) {

@@ -27,6 +27,9 @@ struct ChannelNames {
 
   /// Every channel without its direction.
   std::vector<std::string> all() const;
+
+  /// What one may ask for, in a few lines: long lists of names are cut short.
+  std::string summary() const;
 };
 
 /// Finds what read_history() calls `text`: one list of places for each channel, whose mean it is. Throws InputError.

@@ -1,15 +1,14 @@
 #include "post/contact_command.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <ostream>
 
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "output/atomic_file.hpp"
 #include "post/contact_file.hpp"
 #include "post/contact_tables.hpp"
+#include "post/own_file.hpp"
 #include "post/patch_velocity.hpp"
 #include "post/results_reader.hpp"
 
@@ -27,11 +26,7 @@ void check(const ContactRequest& request) {
   if (request.rolling_velocity && !(*request.rolling_velocity > 0 && std::isfinite(*request.rolling_velocity)))
     throw InputError(fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
   if (!(request.from <= request.to)) throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
-  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) {
-    std::error_code none;
-    if (file && std::filesystem::equivalent(*file, request.results, none))
-      throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
-  }
+  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) check_is_not(request.results, file);
 }
 
 void print_heading(std::ostream& out) {
@@ -105,15 +100,6 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
   return tables;
 }
 
-void write_csv(const std::optional<std::string>& file, const std::string& text) {
-  if (!file) return;
-  try {
-    write_whole_file(*file, text);
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("the table was not written: {}", error.what()));
-  }
-}
-
 }  // namespace
 
 int contact_command(const ContactRequest& request, std::ostream& out) {
@@ -136,9 +122,9 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
     for (const auto& [contact, tables] : solved) text += (tables.*table).csv_rows(contact);
     return text;
   };
-  if (request.csv) write_csv(request.csv, csv(&ContactTables::patches));
-  if (request.nodes) write_csv(request.nodes, csv(&ContactTables::nodes));
-  if (request.cuts) write_csv(request.cuts, csv(&ContactTables::cuts));
+  if (request.csv) write_table(*request.csv, csv(&ContactTables::patches));
+  if (request.nodes) write_table(*request.nodes, csv(&ContactTables::nodes));
+  if (request.cuts) write_table(*request.cuts, csv(&ContactTables::cuts));
   if (request.hdf5) write_contact_file(*request.hdf5, results, solved);
   return 0;
 }

@@ -170,6 +170,6 @@ HistorySeries read_history(const ResultsReader& results, const HistoryRequest& r
   }
 }
 
-std::vector<std::string> history_channels(const ResultsReader& results) { return names_in(results.history()).all(); }
+std::string history_summary(const ResultsReader& results) { return names_in(results.history()).summary(); }
 
 }  // namespace railwave

@@ -52,8 +52,8 @@ struct HistoryRequest {
 /// not finite, times that do not ascend or have gaps of more than twice the usual distance.
 HistorySeries read_history(const ResultsReader& results, const HistoryRequest& request);
 
-/// All that read_history() knows in this file, without the directions.
-std::vector<std::string> history_channels(const ResultsReader& results);
+/// What read_history() knows in this file, for people: see ChannelNames::summary().
+std::string history_summary(const ResultsReader& results);
 
 /// Moves values at ascending `times` to start + i interval, i = 0 ... count-1, by the cubic through the two samples on either side.
 std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start, double interval, std::size_t count);

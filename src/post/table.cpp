@@ -41,20 +41,32 @@ std::string Table::csv_heading() const {
   return text + '\n';
 }
 
-std::string Table::csv_rows(const std::string& contact) const {
-  const std::string first = csv_text(contact);
-  fmt::memory_buffer text;
-  for (std::size_t row = 0; row < row_count(); ++row) {
-    fmt::format_to(std::back_inserter(text), "{}", first);
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      if (links(columns_[c])) continue;
-      const double value = values_[c][row];
-      if (std::isnan(value)) text.push_back(',');
-      else fmt::format_to(std::back_inserter(text), ",{:.10g}", value);
-    }
-    text.push_back('\n');
+/// The row's cells behind `first`, all with commas between.
+std::string Table::row_text(std::size_t row, std::string text) const {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    if (links(columns_[c])) continue;
+    const double value = values_[c][row];
+    if (!std::isnan(value)) fmt::format_to(std::back_inserter(text), "{:.10g}", value);
+    text += ',';
   }
-  return fmt::to_string(text);
+  text.back() = '\n';
+  return text;
+}
+
+std::string Table::csv_rows(const std::string& contact) const {
+  const std::string first = csv_text(contact) + ',';
+  std::string text;
+  for (std::size_t row = 0; row < row_count(); ++row) text += row_text(row, first);
+  return text;
+}
+
+std::string Table::csv() const {
+  std::string text;
+  for (const Column& column : columns_)
+    if (!links(column)) text += csv_text(column.name + " [" + column.unit + ']') + ',';
+  text.back() = '\n';
+  for (std::size_t row = 0; row < row_count(); ++row) text += row_text(row, {});
+  return text;
 }
 
 void Table::write(const hdf5::Group& group) const {

@@ -29,11 +29,15 @@ class Table {
   std::string csv_heading() const;
   std::string csv_rows(const std::string& contact) const;
 
+  /// All of it as CSV, with the units in the heading: "time [s],power [m2]". Columns that link are left out.
+  std::string csv() const;
+
   /// A dataset for each column, and the units as the group's attributes of the same names.
   void write(const hdf5::Group& group) const;
 
  private:
   std::size_t place(const std::string& column) const;
+  std::string row_text(std::size_t row, std::string first) const;
 
   std::vector<Column> columns_;
   std::vector<std::vector<double>> values_;  ///< by column

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "case/error.hpp"
+#include "post/channel_name.hpp"
 #include "post/history_series.hpp"
 #include "tests/output/made_up_run.hpp"
 
@@ -93,6 +94,11 @@ TEST_CASE("channels along axes, along a vector, in size, several at once and the
   REQUIRE(series.channels.size() == 2);
   CHECK(series.channels[1].name == "block.row_2.velocity.x");
 
+  // Numbers count by their value.
+  const auto found = find_channels("row_*.velocity.x", {{"row_1", "row_10", "row_2"}, {}, {}, {}, {}}, path);
+  REQUIRE(found.size() == 3);
+  CHECK(found[1].front().owner == "row_2");
+
   for (const bool average : {false, true}) {
     series = read(path, {average ? "block.row_*.velocity.x" : "block.row_1+block.row_2.velocity.x"}, average);
     REQUIRE(series.channels.size() == 1);
@@ -154,5 +160,5 @@ TEST_CASE("what is not there is refused with what there is") {
   CHECK_THAT(complaint(path, "beam.sleeper.moment.y"), ContainsSubstring("the number of an element"));
   CHECK_THAT(complaint(path, "beam.sleeper.moment.2.y"), ContainsSubstring("the beam has 2 elements"));
   CHECK_THAT(complaint(path, "energy.kinetik"), ContainsSubstring("did you mean 'kinetic'?"));
-  CHECK_THAT(complaint(path, "nonsense"), ContainsSubstring("known are: block.row_1.displacement"));
+  CHECK_THAT(complaint(path, "nonsense"), ContainsSubstring("there are SET.(displacement|velocity|acceleration) of block.row_1, block.row_2, mass; contact.NAME."));
 }

@@ -7,14 +7,13 @@
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
 #include "check.hpp"
+#include "hammer_options.hpp"
 #include "output/model_file.hpp"
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
-#include "post/decay_command.hpp"
-#include "post/response_command.hpp"
 #include "signal_options.hpp"
 #include "solve/time_loop.hpp"
 
@@ -103,37 +102,6 @@ void add_contact_options(CLI::App* command, ContactRequest& request) {
   command->add_option("--rolling-velocity", request.rolling_velocity, "the rolling velocity instead, m/s");
 }
 
-void add_hammer_commands(CLI::App& app, ResponseRequest& frf, DecayRequest& decay, int& code) {
-  CLI::App* response = app.add_subcommand("frf", "frequency responses of a hammer test from results files");
-  response->add_option("results", frf.results, "results files; several are blows whose responses are averaged")->required();
-  response->add_option("--input", frf.input, "hammer, or load, that is the input; default: the only one");
-  response->add_option("--response", frf.responses, "SET[:DIRECTION] of an answer: a history set, probe or row of probes; vertical, lateral, x, -z, 1,0,0.05 ...; may be repeated; default: all, along the force")
-      ->allow_extra_args(false);
-  response->add_option("--quantity", frf.quantity, "accelerance (default), mobility or receptance");
-  response->add_option("--window", frf.window, "none (default) or exponential");
-  response->add_option("--window-end", frf.window_end, "what the exponential window comes down to at the end; default 0.05");
-  response->add_option("--resolution", frf.resolution, "largest distance of two lines, Hz; default 1");
-  response->add_option("--prominence", frf.prominence, "of peaks and troughs that are told, dB; default 3");
-  response->add_option("--from", frf.from, "Hz; default 20");
-  response->add_option("--to", frf.to, "Hz; default: where the force's spectrum is 20 dB down");
-  response->add_option("--csv", frf.csv, "also write all lines as CSV");
-  response->add_option("--hdf5", frf.hdf5, "also write them as HDF5: a file of its own");
-  response->callback([&] { code = response_command(frf, std::cout); });
-  CLI::App* rate = app.add_subcommand("decay", "track decay rate by EN 15461 from a row of probes in a hammer test");
-  rate->add_option("results", decay.results, "results files; several are blows whose responses are averaged")->required();
-  rate->add_option("--input", decay.input, "hammer that strikes beside the row; default: the only one");
-  rate->add_option("--row", decay.rows, "row of probes, or set; may be repeated; default: all probes on the struck part")->allow_extra_args(false);
-  rate->add_option("--at", decay.at, "set beside the force whose motion is taken for that at the force, as of an accelerometer beside a hammer; default: the struck set");
-  rate->add_option("--direction", decay.direction, "of the motion, as of frf; default: that of the force");
-  rate->add_option("--from", decay.from, "Hz; default 100");
-  rate->add_option("--to", decay.to, "Hz; default 5000");
-  rate->add_option("--resolution", decay.resolution, "largest distance of two lines, Hz; default 1");
-  rate->add_option("--window", decay.window, "none (default) or exponential");
-  rate->add_option("--window-end", decay.window_end, "what the exponential window comes down to at the end; default 0.05");
-  rate->add_option("--csv", decay.csv, "also write the rates, and the levels along the row, as CSV");
-  rate->callback([&] { code = decay_command(decay, std::cout); });
-}
-
 int dispatch(int argc, char** argv) {
   CLI::App app{"Railwave: explicit finite elements for the dynamic interaction of wheel and rail"};
   app.set_version_flag("--version", std::string("railwave ") + RAILWAVE_VERSION);
@@ -160,7 +128,8 @@ int dispatch(int argc, char** argv) {
   add_contact_options(contact, arguments.contact);
   contact->callback([&] { code = contact_command(arguments.contact, std::cout); });
   add_signal_command(app, arguments.signal, [&] { code = signal_command(arguments.signal, std::cout); });
-  add_hammer_commands(app, arguments.response, arguments.decay, code);
+  add_response_command(app, arguments.response, [&] { code = response_command(arguments.response, std::cout); });
+  add_decay_command(app, arguments.decay, [&] { code = decay_command(arguments.decay, std::cout); });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
   help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");
   help->callback([&] { std::cout << case_help(arguments.topic) << '\n'; });

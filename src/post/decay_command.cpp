@@ -8,8 +8,8 @@
 #include <ostream>
 
 #include "case/error.hpp"
-#include "output/atomic_file.hpp"
 #include "post/hammer_test.hpp"
+#include "post/own_file.hpp"
 #include "signal/decay_rate.hpp"
 
 namespace railwave {
@@ -30,7 +30,8 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
   std::vector<HammerResponse> found;
   if (request.rows.empty()) {
     for (const HammerResponse& one : test.all())
-      if (one.set != test.input().set && one.set.compare(0, part.size() + 1, part + ".") == 0) found.push_back(test.find(one.set + along).front());
+      if (one.set != test.input().set && one.set.compare(0, part.size() + 1, part + ".") == 0)
+        found.push_back(test.find(one.set + along).front());
   }
   for (const std::string& row : request.rows)
     for (const HammerResponse& one : test.find(row + along)) found.push_back(one);
@@ -44,20 +45,27 @@ std::vector<Probe> probes_of(const HammerTest& test, const DecayRequest& request
     if (std::fabs(way) >= at_force) (way < 0 ? before : behind).push_back({std::fabs(way), one});
   }
   if (before.size() > behind.size()) before.swap(behind);
-  if (!before.empty()) notes.push_back(fmt::format("{} probes on the other side of the force are left out", before.size()));
+  if (!before.empty())
+    notes.push_back(fmt::format("{} probes on the other side of the force are left out", before.size()));
   std::vector<Probe> probes{{0, test.find(first + along).front()}};
   probes.insert(probes.end(), behind.begin(), behind.end());
   std::sort(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return a.distance < b.distance; });
-  probes.erase(std::unique(probes.begin(), probes.end(), [](const Probe& a, const Probe& b) { return b.distance - a.distance < at_force; }), probes.end());
+  probes.erase(std::unique(probes.begin(), probes.end(),
+                           [](const Probe& a, const Probe& b) { return b.distance - a.distance < at_force; }),
+               probes.end());
   if (probes.size() < 3)
-    throw InputError(fmt::format("a decay rate needs the force and two places beside it along x at least, but has {}; add a row: [probes.NAME] with count and spacing", probes.size() - 1));
+    throw InputError(
+        fmt::format("a decay rate needs the force and two places beside it along x at least, but has {}; add a row: "
+                    "[probes.NAME] with count and spacing",
+                    probes.size() - 1));
   return probes;
 }
 
 }  // namespace
 
 int decay_command(const DecayRequest& request, std::ostream& out) {
-  if (!(request.from > 0 && request.from < request.to)) throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
+  if (!(request.from > 0 && request.from < request.to))
+    throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
   const HammerTest test(request.results, request.input);
   SignalNotes notes;
   const auto probes = probes_of(test, request, notes.texts);
@@ -71,10 +79,15 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
     places.push_back({probe.distance, std::move(response.value)});
   }
   auto bands = third_octaves(0.85 * request.from, std::min(1.2 * request.to, frequency.back()));
-  bands.erase(std::remove_if(bands.begin(), bands.end(), [&](const ThirdOctave& band) { return band.nominal < request.from || band.nominal > request.to; }), bands.end());
+  bands.erase(
+      std::remove_if(bands.begin(), bands.end(),
+                     [&](const ThirdOctave& band) { return band.nominal < request.from || band.nominal > request.to; }),
+      bands.end());
   const auto rates = decay_rates(frequency, places, bands);
-  out << fmt::format("decay rate by EN 15461 of {} along {}: {} places from {:.4g} m to {:.4g} m beside {}\n", probes.front().where.set.substr(0, probes.front().where.set.find('.')),
-                     request.direction.empty() ? "the force" : request.direction, probes.size() - 1, probes[1].distance, probes.back().distance, test.input().load);
+  out << fmt::format("decay rate by EN 15461 of {} along {}: {} places from {:.4g} m to {:.4g} m beside {}\n",
+                     probes.front().where.set.substr(0, probes.front().where.set.find('.')),
+                     request.direction.empty() ? "the force" : request.direction, probes.size() - 1, probes[1].distance,
+                     probes.back().distance, test.input().load);
   out << fmt::format("  {:>8} {:>8}\n", "band Hz", "dB/m");
   bool short_row = false, weak = false;
   fmt::memory_buffer csv;
@@ -82,24 +95,27 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
   for (const Probe& probe : probes) fmt::format_to(std::back_inserter(csv), ",level_{:.6g}", probe.distance);
   csv.push_back('\n');
   for (const BandDecay& one : rates) {
-    const bool unsure = one.rate < 1.5 * one.least, thin = one.band.high > reliable;
+    const bool unsure = one.rate<1.5 * one.least, thin = one.band.high> reliable;
     short_row = short_row || unsure;
     weak = weak || thin;
-    out << fmt::format("  {:>8g} {:>8.3f}{}{}\n", one.band.nominal, one.rate, unsure ? " (row too short)" : "", thin ? " (force weak)" : "");
-    fmt::format_to(std::back_inserter(csv), "{:g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}", one.band.nominal, one.band.centre, one.band.low, one.band.high, one.rate, one.least);
+    out << fmt::format("  {:>8g} {:>8.3f}{}{}\n", one.band.nominal, one.rate, unsure ? " (row too short)" : "",
+                       thin ? " (force weak)" : "");
+    fmt::format_to(std::back_inserter(csv), "{:g},{:.8g},{:.8g},{:.8g},{:.8g},{:.8g}", one.band.nominal,
+                   one.band.centre, one.band.low, one.band.high, one.rate, one.least);
     for (double level : one.level) fmt::format_to(std::back_inserter(csv), ",{:.4f}", level);
     csv.push_back('\n');
   }
-  if (short_row) out << fmt::format("note: a row so long tells no rates below {:.2g} dB/m; those below 1.5 times that are too high\n", rates.front().least);
-  if (weak) out << fmt::format("note: above {:.0f} Hz the force's spectrum is more than 20 dB below its beginning: strike with a shorter blow\n", reliable);
+  if (short_row)
+    out << fmt::format(
+        "note: a row so long tells no rates below {:.2g} dB/m; those below 1.5 times that are too high\n",
+        rates.front().least);
+  if (weak)
+    out << fmt::format(
+        "note: above {:.0f} Hz the force's spectrum is more than 20 dB below its beginning: strike with a shorter "
+        "blow\n",
+        reliable);
   for (const std::string& text : notes.told()) out << "note: " << text << '\n';
-  if (request.csv) {
-    try {
-      write_whole_file(*request.csv, fmt::to_string(csv));
-    } catch (const std::exception& error) {
-      throw InputError(fmt::format("the decay rates were not written: {}", error.what()));
-    }
-  }
+  if (request.csv) write_table(*request.csv, fmt::to_string(csv));
   return 0;
 }
 

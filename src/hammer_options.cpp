@@ -45,6 +45,7 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
   command->add_option("--window-end", request.window_end,
                       "what the exponential window comes down to at the end; default 0.05");
   command->add_option("--csv", request.csv, "also write the rates, and the levels along the row, as CSV");
+  command->add_option("--hdf5", request.hdf5, "also write them as HDF5: a file of its own");
   command->callback(run);
 }
 

@@ -74,6 +74,11 @@ def check_decay(folder):
     done = program("decay", results, "--csv", table, "--at", "row_2", "--from", 200, "--to", 4000)
     found = [float(row["decay_rate"]) for row in rows(table)]
     check(done.returncode == 0 and all(abs(value / 3.0 - 1) < 0.01 for value in found), f"from a place beside the force it is the same: {found[:3]}{done.stderr}")
+    done = program("decay", results, "--hdf5", folder / "decay.h5", "--from", 200, "--to", 4000)
+    with h5py.File(folder / "decay.h5", "r") as file:
+        check(file.attrs["format"] == "Railwave decay rates" and file["level"].shape == (14, len(PLACES)), "the HDF5 file has the levels of each band and place")
+        check(np.allclose(file["level"][:], -3.0 * file["distance"][:], atol=0.01), "they fall by 3 dB/m")
+    check("no third-octave band" in program("decay", results, "--from", 410, "--to", 490).stderr, "a range without a band is told")
     write(results, 0.1)
     check("(row too short)" in program("decay", results).stdout, "rates that a short row cannot tell are marked")
 

@@ -9,8 +9,10 @@
 
 namespace railwave {
 
-/// Add `railwave frf RESULTS...` and `railwave decay RESULTS...`, which fill their requests and call `run`.
+/// Adds `railwave frf RESULTS...`, which fills the request and calls `run`.
 void add_response_command(CLI::App& app, ResponseRequest& request, const std::function<void()>& run);
+
+/// Adds `railwave decay RESULTS...`, which fills the request and calls `run`.
 void add_decay_command(CLI::App& app, DecayRequest& request, const std::function<void()>& run);
 
 }  // namespace railwave

@@ -48,11 +48,13 @@ class Expansion {
  private:
   template <class Entry>
   bool add_set(const Entry& entry, const std::string& name, const scene::Vec3& position, const std::string& subject) {
-    const auto taken = std::find_if(scene_.node_sets.begin(), scene_.node_sets.end(),
-                                    [&](const scene::NodeSet& set) { return set.part == entry.part && set.name == name; });
+    const auto taken = std::find_if(scene_.node_sets.begin(), scene_.node_sets.end(), [&](const scene::NodeSet& set) {
+      return set.part == entry.part && set.name == name;
+    });
     if (taken != scene_.node_sets.end()) {
-      complaints_.add({entry.line}, fmt::format("{}: makes the node set '{}.{}', which is there already (line {}); rename one", subject,
-                                                entry.part, name, taken->line));
+      complaints_.add({entry.line},
+                      fmt::format("{}: makes the node set '{}.{}', which is there already (line {}); rename one",
+                                  subject, entry.part, name, taken->line));
       return false;
     }
     scene::NodeSet set;
@@ -73,7 +75,8 @@ class Expansion {
   void add_named(std::vector<Entry>& entries, const char* section, Entry entry, int line, const std::string& subject) {
     entry.line = line;
     if (const Entry* other = find_entry(entries, entry.name))
-      complaints_.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject, section, entry.name, other->line));
+      complaints_.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject,
+                                          section, entry.name, other->line));
     else
       entries.push_back(std::move(entry));
   }
@@ -82,8 +85,8 @@ class Expansion {
   Complaints& complaints_;
 };
 
-/// Viscous hourglass control damps bending waves of long elements, which a hammer test listens to: of 10 m of rail in elements of
-/// 40 x 12 x 5 mm it took nine tenths of the blow's energy.
+/// Viscous hourglass control damps bending waves of long elements, which a hammer test listens to: of 10 m of rail in
+/// elements of 40 x 12 x 5 mm it took nine tenths of the blow's energy.
 void stiffen_tracks(Scene& scene) {
   for (scene::Part& part : scene.parts) {
     const bool of_track = std::any_of(scene.tracks.begin(), scene.tracks.end(), [&](const scene::Track& track) {

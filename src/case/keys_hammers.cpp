@@ -8,25 +8,36 @@ using scene::Scene;
 
 Section hammer_section() {
   using scene::Hammer;
-  auto section = named_section(
-      "hammers", "hammer", &Scene::hammers,
-      "Blows on a body. Each becomes a node set `part.NAME`, a load NAME (and a curve NAME, unless one is given) shared among the set's nodes by "
-      "their mass, and an entry of `output.history_sets`, so that `railwave frf` knows force and motion where it strikes. In a case with hammers the parts of "
-      "tracks have stiffness hourglass control, as viscous control would damp the waves; give other parts `hourglass = \"stiffness\"` yourself.");
+  auto section = named_section("hammers", "hammer", &Scene::hammers,
+                               "Blows on a body. Each becomes a node set `part.NAME`, a load NAME (and a curve NAME, "
+                               "unless one is given) shared among the set's nodes by "
+                               "their mass, and an entry of `output.history_sets`, so that `railwave frf` knows force "
+                               "and motion where it strikes. In a case with hammers the parts of "
+                               "tracks have stiffness hourglass control, as viscous control would damp the waves; give "
+                               "other parts `hourglass = \"stiffness\"` yourself.");
   section.keys = {
       key("part", &Hammer::part, "what is struck; parts of tracks count").names(whole_part).needed(),
       key("surface", &Hammer::surface, "of the part: only its nodes are struck").otherwise("any node"),
       key("position", &Hammer::position, "middle of the struck patch, in the scene's axes").in("m").needed(),
-      key("radius", &Hammer::radius, "of the patch; the nearest node is in it however far it is, so 0 is that node alone").in("m").within(at_least(0)),
+      key("radius", &Hammer::radius,
+          "of the patch; the nearest node is in it however far it is, so 0 is that node alone")
+          .in("m")
+          .within(at_least(0)),
       key("direction", &Hammer::direction, "of the force").direction(),
-      key("peak", &Hammer::peak, "largest force; of a given curve: what that is multiplied by").in("N").within(above(0)).needed(),
+      key("peak", &Hammer::peak, "largest force; of a given curve: what that is multiplied by")
+          .in("N")
+          .within(above(0))
+          .needed(),
       key("start", &Hammer::start, "when the blow begins").in("s").within(at_least(0)),
       key("duration", &Hammer::duration,
-          "of the blow, half a sine wave; 0.2 ms excites up to 5 kHz (10 dB less than at 0 Hz there), shorter ones more")
+          "of the blow, half a sine wave; 0.2 ms excites up to 5 kHz (10 dB less than at 0 Hz there), shorter ones "
+          "more")
           .in("s")
           .within(at_least(0))
           .otherwise("none: give `curve`"),
-      key("curve", &Hammer::curve, "the blow's shape instead, such as a table of a measured one").names(curve).otherwise("half a sine wave"),
+      key("curve", &Hammer::curve, "the blow's shape instead, such as a table of a measured one")
+          .names(curve)
+          .otherwise("half a sine wave"),
   };
   section.rule = check_hammer;
   return section;
@@ -34,15 +45,17 @@ Section hammer_section() {
 
 Section probe_section() {
   using scene::Probe;
-  auto section = named_section(
-      "probes", "probe", &Scene::probes,
-      "Where motion is recorded, as by an accelerometer. Each becomes a node set `part.NAME` and an entry of `output.history_sets`; a row of "
-      "several `part.NAME_1`, `part.NAME_2` and so on.");
+  auto section = named_section("probes", "probe", &Scene::probes,
+                               "Where motion is recorded, as by an accelerometer. Each becomes a node set `part.NAME` "
+                               "and an entry of `output.history_sets`; a row of "
+                               "several `part.NAME_1`, `part.NAME_2` and so on.");
   section.keys = {
       key("part", &Probe::part, "whose motion; parts of tracks count").names(whole_part).needed(),
       key("surface", &Probe::surface, "of the part: only its nodes count").otherwise("any node"),
       key("position", &Probe::position, "of the first, in the scene's axes").in("m").needed(),
-      key("radius", &Probe::radius, "nodes so near are averaged by mass; 0 is the nearest node").in("m").within(at_least(0)),
+      key("radius", &Probe::radius, "nodes so near are averaged by mass; 0 is the nearest node")
+          .in("m")
+          .within(at_least(0)),
       key("count", &Probe::count, "how many").within(between(1, 10000)),
       key("spacing", &Probe::spacing, "from one to the next").in("m").otherwise("none: needed where count is above 1"),
   };

@@ -34,7 +34,8 @@ std::string read_pair(const std::string& line, std::vector<std::array<double, 2>
   if (!rest.empty() && (rest[0] == ',' || rest[0] == ';')) rest = rest.substr(1);
   const auto value = leading_number(rest, end);
   if (!value) return "'" + printable(line, 40) + "' is no pair time,value";
-  if (!points.empty() && !(*time > points.back()[0])) return fmt::format("time must increase from line to line, but has {} s after {} s", *time, points.back()[0]);
+  if (!points.empty() && !(*time > points.back()[0]))
+    return fmt::format("time must increase from line to line, but has {} s after {} s", *time, points.back()[0]);
   points.push_back({*time, *value});
   return "";
 }
@@ -55,7 +56,8 @@ void read_curves(scene::Scene& scene, Complaints& complaints) {
     }
     if (mistake.empty() && curve.points.empty()) mistake = "'" + curve.file + "' has no line with a pair time,value";
     if (!mistake.empty()) complaints.add({curve.line}, subject + mistake);
-    for (const auto& [time, value] : curve.points) scene.static_text += fmt::format(".curves.{} {:.17g} {:.17g}\n", curve.name, time, value);
+    for (const auto& [time, value] : curve.points)
+      scene.static_text += fmt::format(".curves.{} {:.17g} {:.17g}\n", curve.name, time, value);
   }
 }
 

@@ -6,16 +6,20 @@ void check_node_set(void* entry, EntryCheck& check) {
   const auto& set = *static_cast<scene::NodeSet*>(entry);
   if (!check.sound({"box", "position"})) return;
   if (set.box && set.position) check.complain("position", "has no effect beside box; leave one of them out");
-  if (!set.box && !set.position) check.complain("box", "is missing; must be a box [[x, y, z], [x, y, z]], lowest corner first in m, unless position is given");
+  if (!set.box && !set.position)
+    check.complain(
+        "box", "is missing; must be a box [[x, y, z], [x, y, z]], lowest corner first in m, unless position is given");
   if (set.box && check.given("radius")) check.complain("radius", "belongs to position; leave it out of a set by box");
 }
 
 void check_hammer(void* entry, EntryCheck& check) {
   const auto& hammer = *static_cast<scene::Hammer*>(entry);
   const bool measured = check.given("curve");
-  if (!measured && check.sound({"duration"}) && !(hammer.duration > 0)) check.complain("duration", "is missing or 0; must be a number in s, above 0, unless curve is given");
+  if (!measured && check.sound({"duration"}) && !(hammer.duration > 0))
+    check.complain("duration", "is missing or 0; must be a number in s, above 0, unless curve is given");
   for (const char* key : {"duration", "start"})
-    if (measured && check.given(key)) check.complain(key, "has no effect beside curve, which has its own times; leave one of them out");
+    if (measured && check.given(key))
+      check.complain(key, "has no effect beside curve, which has its own times; leave one of them out");
 }
 
 void check_probe(void* entry, EntryCheck& check) {
@@ -23,8 +27,11 @@ void check_probe(void* entry, EntryCheck& check) {
   if (!check.sound({"count", "spacing"})) return;
   const bool no_spacing = probe.spacing == scene::Vec3{0, 0, 0};
   if (probe.count > 1 && no_spacing)
-    check.complain("spacing", "is missing or [0, 0, 0], so that all of the row would be at one place; give for instance [0.6, 0, 0]");
-  if (probe.count == 1 && !no_spacing) check.complain("spacing", "has no effect on one probe; give count, or leave spacing out");
+    check.complain(
+        "spacing",
+        "is missing or [0, 0, 0], so that all of the row would be at one place; give for instance [0.6, 0, 0]");
+  if (probe.count == 1 && !no_spacing)
+    check.complain("spacing", "has no effect on one probe; give count, or leave spacing out");
 }
 
 }  // namespace railwave::case_file

@@ -22,7 +22,8 @@ constexpr double fewest_struck = 12;
 double struck_samples(const std::vector<double>& force) {
   double most = 0;
   for (const double one : force) most = std::max(most, std::fabs(one));
-  return static_cast<double>(std::count_if(force.begin(), force.end(), [&](double one) { return std::fabs(one) > 1e-3 * most; }));
+  return static_cast<double>(
+      std::count_if(force.begin(), force.end(), [&](double one) { return std::fabs(one) > 1e-3 * most; }));
 }
 
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v[0], v[1], v[2]); }
@@ -33,7 +34,9 @@ bool fits(const char* pattern, const char* name) {
   return *pattern == *name && fits(pattern + 1, name + 1);
 }
 
-std::string behind_dot(const std::string& set) { return set.substr(set.find('.') == std::string::npos ? 0 : set.find('.') + 1); }
+std::string behind_dot(const std::string& set) {
+  return set.substr(set.find('.') == std::string::npos ? 0 : set.find('.') + 1);
+}
 
 double largest(const std::vector<double>& values, std::size_t from) {
   double result = 0;
@@ -47,7 +50,9 @@ void note(std::vector<std::string>& notes, const std::string& text) {
 
 /// Names in the order of the numbers in them: row_2 before row_10.
 bool by_number(const std::string& a, const std::string& b) {
-  const auto number_at = [](const std::string& text) { return text.find_last_not_of("0123456789") == std::string::npos ? 0 : text.find_last_not_of("0123456789") + 1; };
+  const auto number_at = [](const std::string& text) {
+    return text.find_last_not_of("0123456789") == std::string::npos ? 0 : text.find_last_not_of("0123456789") + 1;
+  };
   const auto i = number_at(a), j = number_at(b);
   const std::string head_a = a.substr(0, i), head_b = b.substr(0, j);
   if (head_a != head_b || i == a.size() || j == b.size()) return a < b;
@@ -57,8 +62,10 @@ bool by_number(const std::string& a, const std::string& b) {
 }  // namespace
 
 ResponseSettings ResponseSettings::of(double resolution, const std::string& window, double window_end) {
-  if (window != "none" && window != "exponential") throw InputError(fmt::format("--window {}: must be none or exponential", window));
-  if (!(window_end > 0 && window_end < 1)) throw InputError(fmt::format("--window-end {}: must be above 0 and below 1", window_end));
+  if (window != "none" && window != "exponential")
+    throw InputError(fmt::format("--window {}: must be none or exponential", window));
+  if (!(window_end > 0 && window_end < 1))
+    throw InputError(fmt::format("--window-end {}: must be above 0 and below 1", window_end));
   if (!(resolution > 0)) throw InputError(fmt::format("--resolution {}: must be above 0 Hz", resolution));
   return {resolution, window == "exponential" ? window_end : 1};
 }
@@ -66,28 +73,36 @@ ResponseSettings ResponseSettings::of(double resolution, const std::string& wind
 std::vector<std::string> SignalNotes::told() const {
   std::vector<std::string> all = texts;
   if (left_share > 0)
-    all.push_back(fmt::format("up to {:.2g} % of the largest acceleration is left at the end (at {}), which smears sharp peaks: lengthen time.end, or take --window exponential",
-                              100 * left_share, left_at));
+    all.push_back(
+        fmt::format("up to {:.2g} % of the largest acceleration is left at the end (at {}), which smears sharp peaks: "
+                    "lengthen time.end, or take --window exponential",
+                    100 * left_share, left_at));
   return all;
 }
 
 HammerTest::HammerTest(const std::vector<std::string>& files, const std::string& load) {
   if (files.empty()) throw InputError("no results file was named");
   for (const std::string& file : files) results_.emplace_back(file);
-  title_ = results_.front().title();
   const hdf5::Group history = results_.front().history();
   if (history.has("set")) sets_ = history.group("set").names();
   std::sort(sets_.begin(), sets_.end(), by_number);
-  if (sets_.empty()) throw InputError(fmt::format("{} has the history of no set; add a section [probes.NAME] to the case, or name sets in output.history_sets", files.front()));
+  if (sets_.empty())
+    throw InputError(fmt::format(
+        "{} has the history of no set; add a section [probes.NAME] to the case, or name sets in output.history_sets",
+        files.front()));
   choose_input(load);
   for (const ResultsReader& results : results_) {
-    const HistorySeries series = read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction))}});
+    const HistorySeries series =
+        read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction))}});
     if (interval_ == 0) interval_ = series.interval, duration_ = series.interval * static_cast<double>(series.length());
     if (std::fabs(series.interval - interval_) > 1e-6 * interval_)
-      throw InputError(fmt::format("{} has samples every {:.9g} s, {} every {:.9g} s: blows that are to be averaged must have the same time.step, or step estimate, and history_interval",
-                                   results.path(), series.interval, results_.front().path(), interval_));
+      throw InputError(
+          fmt::format("{} has samples every {:.9g} s, {} every {:.9g} s: blows that are to be averaged must have the "
+                      "same time.step, or step estimate, and history_interval",
+                      results.path(), series.interval, results_.front().path(), interval_));
     duration_ = std::min(duration_, series.interval * static_cast<double>(series.length()));
-    if (largest(series.channels[0].values, 0) == 0) throw InputError(fmt::format("{}: the force of '{}' is 0 all the time", results.path(), input_.load));
+    if (largest(series.channels[0].values, 0) == 0)
+      throw InputError(fmt::format("{}: the force of '{}' is 0 all the time", results.path(), input_.load));
   }
 }
 
@@ -103,14 +118,18 @@ void HammerTest::choose_input(const std::string& load) {
       if (group.number_attribute("hammer") != 0) hammers.push_back(name);
     }
   if (forces.empty())
-    throw InputError(fmt::format("{} has no force of fixed direction that could be the input; add a section [hammers.NAME] to the case", path));
+    throw InputError(fmt::format(
+        "{} has no force of fixed direction that could be the input; add a section [hammers.NAME] to the case", path));
   const auto& candidates = hammers.empty() ? forces : hammers;
   if (load.empty() && candidates.size() > 1)
-    throw InputError(fmt::format("{} has several {}: {}; name the one that is the input by --input (and strike with one at a time: responses to blows that overlap cannot be told apart)",
-                                 path, hammers.empty() ? "loads" : "hammers", joined(candidates)));
+    throw InputError(
+        fmt::format("{} has several {}: {}; name the one that is the input by --input (and strike with one at a time: "
+                    "responses to blows that overlap cannot be told apart)",
+                    path, hammers.empty() ? "loads" : "hammers", joined(candidates)));
   input_.load = load.empty() ? candidates.front() : load;
   if (std::find(forces.begin(), forces.end(), input_.load) == forces.end())
-    throw InputError(fmt::format("--input {}: {} has no such load with a force of fixed direction; {}", load, path, suggestion(load, forces)));
+    throw InputError(fmt::format("--input {}: {} has no such load with a force of fixed direction; {}", load, path,
+                                 suggestion(load, forces)));
   const hdf5::Group group = history.group("load").group(input_.load);
   input_.set = group.text_attribute("target");
   input_.direction = Eigen::Vector3d(group.dataset("direction").read<double>().data());
@@ -143,7 +162,10 @@ Eigen::Vector3d HammerTest::direction_of(const std::string& text, const std::str
     char* end = nullptr;
     direction[i] = std::strtod(at, &end);
     if (end == at || *end != (i < 2 ? ',' : '\0') || !std::isfinite(direction[i]))
-      throw InputError(fmt::format("--response {}: '{}' is no direction; it may be vertical, lateral, longitudinal, x, y, z, -x, -y, -z or a vector such as 1,0,0.05", asked, text));
+      throw InputError(
+          fmt::format("--response {}: '{}' is no direction; it may be vertical, lateral, longitudinal, x, y, z, -x, "
+                      "-y, -z or a vector such as 1,0,0.05",
+                      asked, text));
     at = end + 1;
   }
   if (!(direction.norm() > 0)) throw InputError(fmt::format("--response {}: the direction has no length", asked));
@@ -160,11 +182,14 @@ std::vector<std::string> HammerTest::sets_named(const std::string& name) const {
   take([&](const std::string& set) { return set == name; });
   take([&](const std::string& set) { return behind_dot(set) == name; });
   take([&](const std::string& set) { return asker(set) == "probe " + name; });
-  take([&](const std::string& set) { return fits(name.c_str(), set.c_str()) || fits(name.c_str(), behind_dot(set).c_str()); });
+  take([&](const std::string& set) {
+    return fits(name.c_str(), set.c_str()) || fits(name.c_str(), behind_dot(set).c_str());
+  });
   return found;
 }
 
-HammerResponse HammerTest::response(const std::string& set, const Eigen::Vector3d& direction, const std::string& text) const {
+HammerResponse HammerTest::response(const std::string& set, const Eigen::Vector3d& direction,
+                                    const std::string& text) const {
   const double cosine = std::fabs(direction.dot(input_.direction));
   const char* kind = cosine < 0.999 ? "cross" : set == input_.set ? "direct" : "transfer";
   return {set, direction, text.empty() ? set : set + ":" + text, kind};
@@ -174,7 +199,9 @@ std::vector<HammerResponse> HammerTest::find(const std::string& text) const {
   const auto colon = text.rfind(':');
   const std::string name = text.substr(0, colon), along = colon == std::string::npos ? "" : text.substr(colon + 1);
   const auto sets = sets_named(name);
-  if (sets.empty()) throw InputError(fmt::format("--response {}: there is no history of a set '{}'; {}", text, name, suggestion(name, sets_)));
+  if (sets.empty())
+    throw InputError(
+        fmt::format("--response {}: there is no history of a set '{}'; {}", text, name, suggestion(name, sets_)));
   const Eigen::Vector3d direction = direction_of(along, text);
   std::vector<HammerResponse> found;
   for (const std::string& set : sets) found.push_back(response(set, direction, along));
@@ -186,20 +213,24 @@ std::vector<HammerResponse> HammerTest::all() const {
   const bool any = std::any_of(sets_.begin(), sets_.end(), [&](const std::string& set) { return !asker(set).empty(); });
   for (const bool struck : {true, false})
     for (const std::string& set : sets_)
-      if ((set == input_.set) == struck && (!any || struck || !asker(set).empty())) found.push_back(response(set, input_.direction, ""));
+      if ((set == input_.set) == struck && (!any || struck || !asker(set).empty()))
+        found.push_back(response(set, input_.direction, ""));
   return found;
 }
 
 double HammerTest::decay(const ResponseSettings& settings) const { return -std::log(settings.window_end) / duration_; }
 
-FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const ResponseSettings& settings, SignalNotes& notes) const {
+FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const ResponseSettings& settings,
+                                          SignalNotes& notes) const {
   const auto samples = static_cast<std::size_t>(std::lround(duration_ / interval_));
   std::vector<Blow> blows;
   for (const ResultsReader& results : results_) {
     const std::string along = vector_text(response.direction);
-    HistorySeries series = read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction)),
-                                                   fmt::format("{}.displacement.{}", response.set, along), fmt::format("{}.velocity.{}", response.set, along),
-                                                   fmt::format("{}.acceleration.{}", response.set, along)}});
+    HistorySeries series = read_history(
+        results,
+        {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction)),
+          fmt::format("{}.displacement.{}", response.set, along), fmt::format("{}.velocity.{}", response.set, along),
+          fmt::format("{}.acceleration.{}", response.set, along)}});
     for (const std::string& text : series.notes) note(notes.texts, text);
     for (HistoryChannel& channel : series.channels) channel.values.resize(samples);
     auto &force = series.channels[0].values, &displacement = series.channels[1].values;
@@ -207,7 +238,9 @@ FrequencyResponse HammerTest::accelerance(const HammerResponse& response, const 
     const double left = largest(acceleration, samples - samples / 20) / largest(acceleration, 0) * settings.window_end;
     if (left > died_away && left > notes.left_share) notes.left_share = left, notes.left_at = response.set;
     if (const auto few = struck_samples(force); few < fewest_struck)
-      note(notes.texts, fmt::format("the blow has {} samples, fewer than {}: its spectrum is not certain by {:.1g} %; shorten output.history_interval", few, fewest_struck, 82.0 / (few * few)));
+      note(notes.texts, fmt::format("the blow has {} samples, fewer than {}: its spectrum is not certain by {:.1g} %; "
+                                    "shorten output.history_interval",
+                                    few, fewest_struck, 82.0 / (few * few)));
     blows.push_back({std::move(force), std::move(displacement), velocity.front(), velocity.back()});
   }
   const auto wanted = static_cast<std::size_t>(std::ceil(1 / (settings.resolution * interval_)));

@@ -4,15 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <ostream>
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
-#include "output/atomic_file.hpp"
 #include "output/hdf5.hpp"
 #include "post/hammer_test.hpp"
+#include "post/own_file.hpp"
 #include "signal/resonances.hpp"
 
 namespace railwave {
@@ -20,7 +19,7 @@ namespace {
 
 const std::vector<std::string> quantities = {"accelerance", "mobility", "receptance"};
 const std::vector<std::string> units = {"m/s2/N", "m/s/N", "m/N"};
-constexpr const char* file_format = "Railwave frequency responses";
+constexpr OwnFormat file_format{"Railwave frequency responses", 1, "railwave frf --hdf5"};
 
 int integrations(const ResponseRequest& request) {
   return static_cast<int>(std::find(quantities.begin(), quantities.end(), request.quantity) - quantities.begin());
@@ -28,15 +27,14 @@ int integrations(const ResponseRequest& request) {
 
 void check(const ResponseRequest& request) {
   if (integrations(request) == static_cast<int>(quantities.size()))
-    throw InputError(fmt::format("--quantity {}: must be accelerance, mobility or receptance; {}", request.quantity, suggestion(request.quantity, quantities)));
-  if (!(request.prominence > 0)) throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
-  if (request.from && request.to && !(*request.from < *request.to)) throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
-  for (const auto& file : {request.csv, request.hdf5})
-    for (const std::string& results : request.results) {
-      std::error_code none;
-      if (file && std::filesystem::equivalent(*file, results, none))
-        throw InputError(fmt::format("{} is a results file itself, which would be lost: name another file", *file));
-    }
+    throw InputError(fmt::format("--quantity {}: must be accelerance, mobility or receptance; {}", request.quantity,
+                                 suggestion(request.quantity, quantities)));
+  if (!(request.prominence > 0))
+    throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
+  if (request.from && request.to && !(*request.from < *request.to))
+    throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
+  for (const std::string& results : request.results)
+    for (const auto& file : {request.csv, request.hdf5}) check_is_not(results, file);
 }
 
 /// A response and the lines of it that are told and written.
@@ -56,7 +54,9 @@ FrequencyResponse cut(const FrequencyResponse& whole, double from, double to) {
     part.coherence.push_back(whole.coherence[k]);
     part.force.push_back(whole.force[k]);
   }
-  if (part.frequency.size() < 3) throw InputError(fmt::format("from {} Hz to {} Hz there are {} lines; they go up to {:.6g} Hz", from, to, part.frequency.size(), whole.frequency.back()));
+  if (part.frequency.size() < 3)
+    throw InputError(fmt::format("from {} Hz to {} Hz there are {} lines; they go up to {:.6g} Hz", from, to,
+                                 part.frequency.size(), whole.frequency.back()));
   return part;
 }
 
@@ -65,10 +65,13 @@ double degrees(const Complex& value) { return 180 / M_PI * std::arg(value); }
 
 void print(std::ostream& out, const Told& told, const std::string& unit) {
   out << fmt::format("{} ({})\n", told.where.name, told.where.kind);
-  if (told.resonances.empty()) out << "  no peak or trough\n";
-  else out << fmt::format("  {:>6} {:>10} {:>13} {:>8} {:>10}\n", "", "Hz", unit, "dB", "damping %");
+  if (told.resonances.empty())
+    out << "  no peak or trough\n";
+  else
+    out << fmt::format("  {:>6} {:>10} {:>13} {:>8} {:>10}\n", "", "Hz", unit, "dB", "damping %");
   for (const Resonance& one : told.resonances)
-    out << fmt::format("  {:>6} {:>10.1f} {:>13.4g} {:>8.1f} {:>10}\n", one.peak ? "peak" : "trough", one.frequency, one.amplitude, decibels(one.amplitude),
+    out << fmt::format("  {:>6} {:>10.1f} {:>13.4g} {:>8.1f} {:>10}\n", one.peak ? "peak" : "trough", one.frequency,
+                       one.amplitude, decibels(one.amplitude),
                        one.damping && one.peak ? fmt::format("{:.2f}", 100 * *one.damping) : "-");
 }
 
@@ -79,9 +82,11 @@ std::string csv(const std::vector<Told>& all) {
   for (const Told& one : all)
     for (std::size_t k = 0; k < one.lines.frequency.size(); ++k) {
       const Complex value = one.lines.value[k];
-      const std::string name = one.where.name.find(',') == std::string::npos ? one.where.name : '"' + one.where.name + '"';
-      fmt::format_to(add, "{},{},{:.10g},{:.10g},{:.6f},{:.6f},{:.10g},{:.10g},{:.8g},{:.8g}\n", name, one.where.kind, one.lines.frequency[k], std::abs(value),
-                     decibels(std::abs(value)), degrees(value), value.real(), value.imag(), one.lines.coherence[k], one.lines.force[k]);
+      const std::string name =
+          one.where.name.find(',') == std::string::npos ? one.where.name : '"' + one.where.name + '"';
+      fmt::format_to(add, "{},{},{:.10g},{:.10g},{:.6f},{:.6f},{:.10g},{:.10g},{:.8g},{:.8g}\n", name, one.where.kind,
+                     one.lines.frequency[k], std::abs(value), decibels(std::abs(value)), degrees(value), value.real(),
+                     value.imag(), one.lines.coherence[k], one.lines.force[k]);
     }
   return fmt::to_string(text);
 }
@@ -94,39 +99,25 @@ void write(const hdf5::Group& group, const char* name, const char* unit, std::si
   group.set_attribute(name, unit);
 }
 
-void write_file(const std::string& path, const HammerTest& test, const ResponseRequest& request, const std::vector<Told>& all) {
-  namespace fs = std::filesystem;
-  if (fs::exists(path)) {
-    bool ours = false;
-    try {
-      const hdf5::File file = hdf5::File::open(path);
-      ours = file.root().has_attribute("format") && file.root().text_attribute("format") == file_format;
-    } catch (const std::exception&) {
+void write_file(const std::string& path, const HammerTest& test, const ResponseRequest& request,
+                const std::vector<Told>& all) {
+  write_own_file(path, file_format, test.first(), [&](const hdf5::Group& root) {
+    root.set_attribute("results_files", request.results);
+    root.set_attribute("input", test.input().load);
+    root.set_attribute("quantity", request.quantity);
+    const char* unit = units[static_cast<std::size_t>(integrations(request))].c_str();
+    for (const Told& one : all) {
+      const hdf5::Group group = root.create_group(one.where.name);
+      group.set_attribute("kind", one.where.kind);
+      const FrequencyResponse& lines = one.lines;
+      const std::size_t count = lines.frequency.size();
+      write(group, "frequency", "Hz", count, [&](std::size_t k) { return lines.frequency[k]; });
+      write(group, "real", unit, count, [&](std::size_t k) { return lines.value[k].real(); });
+      write(group, "imaginary", unit, count, [&](std::size_t k) { return lines.value[k].imag(); });
+      write(group, "coherence", "1", count, [&](std::size_t k) { return lines.coherence[k]; });
+      write(group, "force_spectrum", "N s", count, [&](std::size_t k) { return lines.force[k]; });
     }
-    if (!ours) throw InputError(fmt::format("{} is there already and is no file that 'railwave frf --hdf5' wrote: name another, or remove it", path));
-  }
-  hdf5::File file = hdf5::File::create(path + ".new");
-  const hdf5::Group root = file.root();
-  root.set_attribute("format", file_format);
-  root.set_attribute("format_version", 1L);
-  root.set_attribute("title", test.title());
-  root.set_attribute("results_files", request.results);
-  root.set_attribute("input", test.input().load);
-  root.set_attribute("quantity", request.quantity);
-  const char* unit = units[static_cast<std::size_t>(integrations(request))].c_str();
-  for (const Told& one : all) {
-    const hdf5::Group group = root.create_group(one.where.name);
-    group.set_attribute("kind", one.where.kind);
-    const FrequencyResponse& lines = one.lines;
-    const std::size_t count = lines.frequency.size();
-    write(group, "frequency", "Hz", count, [&](std::size_t k) { return lines.frequency[k]; });
-    write(group, "real", unit, count, [&](std::size_t k) { return lines.value[k].real(); });
-    write(group, "imaginary", unit, count, [&](std::size_t k) { return lines.value[k].imag(); });
-    write(group, "coherence", "1", count, [&](std::size_t k) { return lines.coherence[k]; });
-    write(group, "force_spectrum", "N s", count, [&](std::size_t k) { return lines.force[k]; });
-  }
-  file.close();
-  fs::rename(path + ".new", path);
+  });
 }
 
 }  // namespace
@@ -149,11 +140,16 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
     FrequencyResponse whole = test.accelerance(place, settings, notes);
     if (all.empty()) {
       const auto& d = test.input().direction;
-      out << fmt::format("input {}: on {} along {:.4g}, {:.4g}, {:.4g}; its spectrum is 3 dB down at {:.0f} Hz, 10 dB at {:.0f} Hz\n", test.input().load, test.input().set,
-                         d[0], d[1], d[2], force_limit(whole, 3), force_limit(whole, 10));
-      out << fmt::format("{} blow{}; {}; lines every {:.4g} Hz\n", test.blows(), test.blows() == 1 ? ", so that the coherence is 1 by definition" : "s, averaged (H1)",
-                         settings.window_end < 1 ? fmt::format("exponential window down to {:.3g}, its damping taken off", settings.window_end) : std::string("no window"),
-                         whole.frequency[1]);
+      out << fmt::format(
+          "input {}: on {} along {:.4g}, {:.4g}, {:.4g}; its spectrum is 3 dB down at {:.0f} Hz, 10 dB at {:.0f} Hz\n",
+          test.input().load, test.input().set, d[0], d[1], d[2], force_limit(whole, 3), force_limit(whole, 10));
+      out << fmt::format(
+          "{} blow{}; {}; lines every {:.4g} Hz\n", test.blows(),
+          test.blows() == 1 ? ", so that the coherence is 1 by definition" : "s, averaged (H1)",
+          settings.window_end < 1
+              ? fmt::format("exponential window down to {:.3g}, its damping taken off", settings.window_end)
+              : std::string("no window"),
+          whole.frequency[1]);
       reliable = force_limit(whole, 20);
     }
     integrate(whole, integrations(request), decay);
@@ -163,14 +159,8 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
   }
   for (const Told& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
   for (const std::string& text : notes.told()) out << "note: " << text << '\n';
-  try {
-    if (request.csv) write_whole_file(*request.csv, csv(all));
-    if (request.hdf5) write_file(*request.hdf5, test, request, all);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("the frequency responses were not written: {}", error.what()));
-  }
+  if (request.csv) write_table(*request.csv, csv(all));
+  if (request.hdf5) write_file(*request.hdf5, test, request, all);
   return 0;
 }
 

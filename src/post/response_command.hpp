@@ -21,8 +21,9 @@ struct ResponseRequest {
   std::optional<std::string> csv, hdf5;
 };
 
-/// Frequency responses of a hammer test: prints their peaks and troughs, and writes them line by line where files are named: all that
-/// docs/hammer.md says of `railwave frf`. Returns the exit code 0; throws InputError for a file or request that cannot be used.
+/// Frequency responses of a hammer test: prints their peaks and troughs, and writes them line by line where files are
+/// named: all that docs/hammer.md says of `railwave frf`. Returns the exit code 0; throws InputError for a file or
+/// request that cannot be used.
 int response_command(const ResponseRequest& request, std::ostream& out);
 
 }  // namespace railwave

@@ -7,7 +7,8 @@
 namespace railwave {
 namespace {
 
-/// 10 log10(e): of energy that falls as exp(-2 b x) the rate is 8.686 b dB/m, and its integral over the first value 1/(2 b).
+/// 10 log10(e): of energy that falls as exp(-2 b x) the rate is 8.686 b dB/m, and its integral over the first value
+/// 1/(2 b).
 const double rate_of_inverse_length = 10 / std::log(10.0);
 
 /// Lengths that stand for the places, m.
@@ -15,7 +16,8 @@ std::vector<double> shares(const std::vector<PlacedResponse>& places) {
   const std::size_t last = places.size() - 1;
   std::vector<double> share(places.size());
   for (std::size_t n = 0; n <= last; ++n) {
-    if (n > 0 && !(places[n].distance > places[n - 1].distance)) throw std::logic_error("distances of a decay rate do not ascend");
+    if (n > 0 && !(places[n].distance > places[n - 1].distance))
+      throw std::logic_error("distances of a decay rate do not ascend");
     const double before = n > 0 ? places[n].distance - places[n - 1].distance : 0;
     const double behind = n < last ? places[n + 1].distance - places[n].distance : before;
     share[n] = 0.5 * (before + behind);
@@ -47,7 +49,8 @@ std::vector<ThirdOctave> third_octaves(double from, double to) {
   return bands;
 }
 
-std::vector<BandDecay> decay_rates(const std::vector<double>& frequency, const std::vector<PlacedResponse>& places, const std::vector<ThirdOctave>& bands) {
+std::vector<BandDecay> decay_rates(const std::vector<double>& frequency, const std::vector<PlacedResponse>& places,
+                                   const std::vector<ThirdOctave>& bands) {
   if (places.size() < 2) throw std::logic_error("a decay rate needs two places");
   const auto share = shares(places);
   std::vector<BandDecay> rates;

@@ -10,7 +10,8 @@ namespace {
 
 /// Integral of values exp(-s t) at s = decay + i w, by the trapezoidal rule.
 std::vector<Complex> transform(std::vector<double> values, double interval, std::size_t length, double decay) {
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] *= interval * std::exp(-decay * interval * static_cast<double>(i));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] *= interval * std::exp(-decay * interval * static_cast<double>(i));
   values.front() *= 0.5;
   values.back() *= 0.5;
   return real_spectrum(values, length);
@@ -36,7 +37,8 @@ struct Trend {
 std::vector<Complex> acceleration(const Blow& blow, double interval, std::size_t length, double decay) {
   std::vector<double> rest = blow.displacement;
   const double start = rest.front();
-  const Trend trend(rest.back() - start, blow.first_velocity, blow.last_velocity, interval * static_cast<double>(rest.size() - 1));
+  const Trend trend(rest.back() - start, blow.first_velocity, blow.last_velocity,
+                    interval * static_cast<double>(rest.size() - 1));
   for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= start + trend.at(interval * static_cast<double>(i));
   std::vector<Complex> result = transform(std::move(rest), interval, length, decay);
   const auto frequency = spectrum_frequencies(length, interval);
@@ -49,7 +51,8 @@ std::vector<Complex> acceleration(const Blow& blow, double interval, std::size_t
 
 }  // namespace
 
-FrequencyResponse frequency_response(const std::vector<Blow>& blows, double interval, std::size_t length, double decay) {
+FrequencyResponse frequency_response(const std::vector<Blow>& blows, double interval, std::size_t length,
+                                     double decay) {
   if (blows.empty()) throw std::logic_error("a frequency response needs a blow");
   FrequencyResponse result;
   result.frequency = spectrum_frequencies(length, interval);
@@ -57,8 +60,10 @@ FrequencyResponse frequency_response(const std::vector<Blow>& blows, double inte
   std::vector<Complex> cross(count);
   std::vector<double> input(count), output(count);
   for (const Blow& blow : blows) {
-    if (blow.force.size() != blow.displacement.size() || blow.force.empty()) throw std::logic_error("force and displacement of a blow have different lengths");
-    const auto force = transform(blow.force, interval, length, decay), response = acceleration(blow, interval, length, decay);
+    if (blow.force.size() != blow.displacement.size() || blow.force.empty())
+      throw std::logic_error("force and displacement of a blow have different lengths");
+    const auto force = transform(blow.force, interval, length, decay),
+               response = acceleration(blow, interval, length, decay);
     for (std::size_t k = 0; k < count; ++k) {
       cross[k] += std::conj(force[k]) * response[k];
       input[k] += std::norm(force[k]);

@@ -44,7 +44,9 @@ LoadTotals totals_of(const Model& model, const LoadArrays& arrays) {
       block_sum(FacetSum{model.nodes.position, arrays.facets}, arrays.count, sum, model.sum_space);
       for (int i = 0; i < 3; ++i) totals.force[i] = -factor * load.pressure * sum[i];
       break;
-    case scene::LoadType::torque: totals.moment = factor * load.moment; break;
+    case scene::LoadType::torque:
+      totals.moment = factor * load.moment;
+      break;
   }
   return totals;
 }

@@ -9,8 +9,10 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-const std::string blow = "[hammers.blow]\npart = \"cube\"\nsurface = \"z_max\"\nposition = [0.5, 0.5, 1]\nradius = 0.1\ndirection = [0, 0, -2]\n"
-                         "peak = 500\nstart = 1e-4\nduration = 2e-4\n";
+const std::string blow =
+    "[hammers.blow]\npart = \"cube\"\nsurface = \"z_max\"\nposition = [0.5, 0.5, 1]\nradius = 0.1\ndirection = [0, 0, "
+    "-2]\n"
+    "peak = 500\nstart = 1e-4\nduration = 2e-4\n";
 
 }  // namespace
 
@@ -49,27 +51,33 @@ TEST_CASE("a measured blow is read from a file beside the case, and its changes 
   CHECK(read_case(file.path()).static_text != scene.static_text);
 
   file.write("blow.csv", "0,0\n1e-4 one\n");
-  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("[curves.measured] file: ") && ContainsSubstring("blow.csv:2: '1e-4 one' is no pair time,value"));
+  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("[curves.measured] file: ") &&
+                                           ContainsSubstring("blow.csv:2: '1e-4 one' is no pair time,value"));
   file.write("blow.csv", "0,0\n2e-4,1\n1e-4,2\n");
-  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("blow.csv:3: time must increase from line to line, but has 0.0001 s after 0.0002 s"));
+  CHECK_THAT(mistakes_of(file.path()),
+             ContainsSubstring("blow.csv:3: time must increase from line to line, but has 0.0001 s after 0.0002 s"));
   file.write("blow.csv", "time,force\n");
   CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("has no line with a pair time,value"));
 }
 
-TEST_CASE("a row of probes becomes numbered sets, one probe a set of its name, after the histories asked for", "[case]") {
+TEST_CASE("a row of probes becomes numbered sets, one probe a set of its name, after the histories asked for",
+          "[case]") {
   TemporaryCase file(small_case +
                      "[output]\nhistory_sets = [\"cube.z_min\"]\n"
                      "[probes.row]\npart = \"cube\"\nposition = [1, 2, 3]\ncount = 3\nspacing = [0.5, 0, 0]\n"
                      "[probes.one]\npart = \"cube\"\nposition = [0, 0, 0]\n");
   const auto scene = read_case(file.path());
-  CHECK(scene.output.history_sets == std::vector<std::string>{"cube.z_min", "cube.row_1", "cube.row_2", "cube.row_3", "cube.one"});
+  CHECK(scene.output.history_sets ==
+        std::vector<std::string>{"cube.z_min", "cube.row_1", "cube.row_2", "cube.row_3", "cube.one"});
   REQUIRE(scene.node_sets.size() == 4);
   CHECK(scene.node_sets[2].position == scene::Vec3{2, 2, 3});
   CHECK(scene.loads.empty());
 }
 
 TEST_CASE("a hammer may strike what a track makes", "[case]") {
-  TemporaryCase file("[tracks.track]\nstart = -3\nend = 3\n[hammers.blow]\npart = \"track_rail\"\nposition = [0, 0, 0.16]\npeak = 1\nduration = 2e-4\n[time]\nend = 1e-3\n");
+  TemporaryCase file(
+      "[tracks.track]\nstart = -3\nend = 3\n[hammers.blow]\npart = \"track_rail\"\nposition = [0, 0, 0.16]\npeak = "
+      "1\nduration = 2e-4\n[time]\nend = 1e-3\n");
   const auto scene = read_case(file.path());
   CHECK(scene.loads.at(0).target == "track_rail.blow");
   for (const auto& part : scene.parts) CHECK(part.hourglass == scene::HourglassType::stiffness);
@@ -77,8 +85,11 @@ TEST_CASE("a hammer may strike what a track makes", "[case]") {
 
 TEST_CASE("names of hammers and probes that are taken are told", "[case]") {
   TemporaryCase file(small_case + blow + "[probes.blow]\npart = \"cube\"\nposition = [0, 0, 0]\n");
-  CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("[probes.blow]: makes the node set 'cube.blow', which is there already (line 12); rename one"));
-  TemporaryCase load(small_case + blow + "[loads.blow]\ntype = \"nodal_force\"\ntarget = \"cube.z_max\"\nforce = [0, 0, 1]\n");
+  CHECK_THAT(
+      mistakes_of(file.path()),
+      ContainsSubstring("[probes.blow]: makes the node set 'cube.blow', which is there already (line 12); rename one"));
+  TemporaryCase load(small_case + blow +
+                     "[loads.blow]\ntype = \"nodal_force\"\ntarget = \"cube.z_max\"\nforce = [0, 0, 1]\n");
   CHECK_THAT(mistakes_of(load.path()), ContainsSubstring("[hammers.blow]: makes [loads.blow], which is there already"));
 }
 

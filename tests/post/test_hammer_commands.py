@@ -70,7 +70,15 @@ def check_decay(folder):
         found = [(float(row["band"]), float(row["decay_rate"])) for row in rows(table)] if done.returncode == 0 else []
         # A row of 12 m leaves out what is beyond it.
         beyond = 1 - 10 ** (-rate * 12.15 / 10)
-        check(len(found) == 13 and all(abs(value * beyond / rate - 1) < 0.01 for _, value in found), f"{rate} dB/m comes out as {found}{done.stderr}")
+        check(len(found) == 14 and all(abs(value * beyond / rate - 1) < 0.01 for _, value in found), f"{rate} dB/m comes out as {found}{done.stderr}")
+    done = program("decay", results, "--csv", table, "--at", "row_2", "--from", 200, "--to", 4000)
+    found = [float(row["decay_rate"]) for row in rows(table)]
+    check(done.returncode == 0 and all(abs(value / 3.0 - 1) < 0.01 for value in found), f"from a place beside the force it is the same: {found[:3]}{done.stderr}")
+    done = program("decay", results, "--hdf5", folder / "decay.h5", "--from", 200, "--to", 4000)
+    with h5py.File(folder / "decay.h5", "r") as file:
+        check(file.attrs["format"] == "Railwave decay rates" and file["level"].shape == (14, len(PLACES)), "the HDF5 file has the levels of each band and place")
+        check(np.allclose(file["level"][:], -3.0 * file["distance"][:], atol=0.01), "they fall by 3 dB/m")
+    check("no third-octave band" in program("decay", results, "--from", 410, "--to", 490).stderr, "a range without a band is told")
     write(results, 0.1)
     check("(row too short)" in program("decay", results).stdout, "rates that a short row cannot tell are marked")
 
@@ -117,7 +125,7 @@ def check_mistakes(folder):
     refused(["frf", results, "--input", "left", "--response", "row_3:up"], "'up' is no direction; it may be vertical")
     refused(["frf", results, "--input", "left", "--quantity", "inertance"], "must be accelerance, mobility or receptance")
     refused(["frf", results, "--input", "left", "--window", "hann"], "--window hann: must be none or exponential")
-    refused(["frf", results, "--input", "left", "--csv", results], "is a results file itself")
+    refused(["frf", results, "--input", "left", "--csv", results], "is the results file itself")
     refused(["frf", results, "--input", "left", "--from", "9e9", "--to", "9.1e9"], "there are 0 lines")
     refused(["decay", results, "--input", "left", "--row", "row_3"], "the force and two places beside it along x at least, but has 1")
     refused(["decay", results, "--input", "left", "--from", "0"], "must be above 0 and ascend")

@@ -10,7 +10,8 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// Quarters of a span for two spans, halves up to ten spans, of 0.6 m, then whole ones, as in EN 15461 a grid that gets coarser.
+/// Quarters of a span for two spans, halves up to ten spans, of 0.6 m, then whole ones, as in EN 15461 a grid that gets
+/// coarser.
 std::vector<double> grid(double longest) {
   std::vector<double> places;
   for (double x = 0; x < longest;) {
@@ -56,15 +57,19 @@ TEST_CASE("the decay rate of a wave that dies away exponentially is its own") {
   const auto frequency = lines(2000);
   for (double rate : {0.5, 1.0, 2.0, 4.0}) {
     const double b = rate / 8.686;
-    const auto places = row(frequency, 40, [&](double x, double f) { return std::polar(3.0, -2 * M_PI * f * x / 900) * std::exp(-b * x); });
-    for (const auto& band : decay_rates(frequency, places, third_octaves(200, 1700))) CHECK_THAT(band.rate, WithinRel(rate, 0.01));
+    const auto places = row(
+        frequency, 40, [&](double x, double f) { return std::polar(3.0, -2 * M_PI * f * x / 900) * std::exp(-b * x); });
+    for (const auto& band : decay_rates(frequency, places, third_octaves(200, 1700)))
+      CHECK_THAT(band.rate, WithinRel(rate, 0.01));
   }
 }
 
 TEST_CASE("levels along the row and the least rate that it tells") {
   const auto frequency = lines(2000);
   const double b = 5 / 8.686;
-  const auto rates = decay_rates(frequency, row(frequency, 6.1, [&](double x, double) { return Complex(std::exp(-b * x)); }), third_octaves(446, 563));
+  const auto rates =
+      decay_rates(frequency, row(frequency, 6.1, [&](double x, double) { return Complex(std::exp(-b * x)); }),
+                  third_octaves(446, 563));
   REQUIRE(rates.size() == 1);
   CHECK_THAT(rates[0].least, WithinRel(4.343 / 6, 1e-3));
   CHECK(rates[0].level.front() == 0);
@@ -72,7 +77,8 @@ TEST_CASE("levels along the row and the least rate that it tells") {
 }
 
 TEST_CASE("a beam on an elastic foundation: above its cut-on the decay rate is that of the wave that travels") {
-  // E I w'''' + (k (1 + i eta) - m w^2) w = 0, struck at 0: w = -(i exp(-i q x) + exp(-q x)) / (4 E I q^3), q the root with Re > 0, Im < 0.
+  // E I w'''' + (k (1 + i eta) - m w^2) w = 0, struck at 0: w = -(i exp(-i q x) + exp(-q x)) / (4 E I q^3), q the root
+  // with Re > 0, Im < 0.
   constexpr double bending = 4.9e6, mass = 54, foundation = 100e6, loss = 0.25;
   const auto root = [&](double f) {
     const double w = 2 * M_PI * f;
@@ -87,10 +93,12 @@ TEST_CASE("a beam on an elastic foundation: above its cut-on the decay rate is t
   });
   for (const auto& band : decay_rates(frequency, places, third_octaves(500, 2300))) {
     const double wave = -8.686 * root(band.band.centre).imag();
-    // What the near field adds at the force is in A(x_0): twice the wave's energy there, over a length that is short beside 1/(2 b).
+    // What the near field adds at the force is in A(x_0): twice the wave's energy there, over a length that is short
+    // beside 1/(2 b).
     double exact = 0;
     const Complex q = root(band.band.centre), i(0, 1);
-    for (double x = 5e-4; x < 400; x += 1e-3) exact += 1e-3 * std::norm((i * std::exp(-i * q * x) + std::exp(-q * x)) / (1.0 + i));
+    for (double x = 5e-4; x < 400; x += 1e-3)
+      exact += 1e-3 * std::norm((i * std::exp(-i * q * x) + std::exp(-q * x)) / (1.0 + i));
     INFO(band.band.nominal << " Hz: " << band.rate << " dB/m, the wave's own " << wave);
     CHECK_THAT(band.rate, WithinRel(10 / std::log(10.0) / exact, 0.05));
     CHECK(band.rate > wave);

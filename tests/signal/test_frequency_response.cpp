@@ -53,7 +53,8 @@ TEST_CASE("a record that ends in the middle of the motion is right too") {
   // A force that ends with the record, and what the acceleration comes to until then.
   const auto response = frequency_response({blow}, interval, 300);
   double acceleration = blow.last_velocity, force = 0;
-  for (std::size_t i = 0; i < blow.force.size(); ++i) force += interval * (i == 0 || i + 1 == blow.force.size() ? 0.5 : 1.0) * blow.force[i];
+  for (std::size_t i = 0; i < blow.force.size(); ++i)
+    force += interval * (i == 0 || i + 1 == blow.force.size() ? 0.5 : 1.0) * blow.force[i];
   CHECK_THAT(response.value[0].real(), WithinRel(acceleration / force, 1e-12));
 }
 
@@ -67,7 +68,8 @@ TEST_CASE("with an exponential window the response is that at a complex frequenc
   }
   std::vector<double> frequency;
   std::vector<Complex> value;
-  for (std::size_t k = 40; response.frequency[k] < 400; ++k) frequency.push_back(response.frequency[k]), value.push_back(response.value[k]);
+  for (std::size_t k = 40; response.frequency[k] < 400; ++k)
+    frequency.push_back(response.frequency[k]), value.push_back(response.value[k]);
   const auto found = find_resonances(frequency, value, 3, decay);
   REQUIRE(found.size() == 1);
   CHECK_THAT(found[0].frequency, WithinRel(60.0, 0.005));
@@ -92,7 +94,8 @@ TEST_CASE("of several blows the response is their mean, and the coherence tells 
   Blow one = oscillator.blow(120, interval, 10000), other = one;
   for (double& u : other.displacement) u *= 3;
   other.last_velocity *= 3;
-  const auto single = frequency_response({one}, interval, 10000), both = frequency_response({one, other}, interval, 10000);
+  const auto single = frequency_response({one}, interval, 10000),
+             both = frequency_response({one, other}, interval, 10000);
   for (std::size_t k = 5; k < 100; k += 9) {
     CHECK(std::abs(both.value[k] - 2.0 * single.value[k]) < 1e-9 * std::abs(single.value[k]));
     CHECK_THAT(both.coherence[k], WithinAbs(0.8, 1e-9));  // (1 + 3)^2 / (2 (1 + 9))

@@ -3,9 +3,16 @@
 file to what `railwave frf` writes."""
 import cmath
 import math
+import sys
 import tempfile
 
 import hammers
+
+try:
+    import h5py
+    import numpy as np
+except ImportError:
+    sys.exit(77)
 
 # A block of 0.4 m x 0.4 m x 0.02 m, 24.96 kg, as good as rigid: the waves across it need 4 us.
 BLOCK = hammers.STEEL.format(poissons_ratio=0) + """
@@ -121,7 +128,63 @@ def check_bar(folder):
         hammers.show(f"{name}: accelerance, 100 to 8500 Hz, against cot(kL) and 1/sin(kL)", worst, 0.05)
 
 
+LOADS = hammers.STEEL.format(poissons_ratio=0.3) + """
+[meshes.block]
+type = "box"
+size = [0.4, 0.2, 0.1]
+divisions = [4, 2, 2]
+[parts.block]
+mesh = "block"
+material = "steel"
+[constraints.floor]
+target = "block.z_min"
+fixed = ["x", "y", "z"]
+[curves.blow]
+type = "half_sine"
+start = 2e-5
+duration = 2e-4
+[loads.push]
+type = "pressure"
+target = "block.z_max"
+pressure = 1e5
+curve = "blow"
+[loads.drag]
+type = "traction"
+target = "block.z_max"
+traction = [2e4, 0, -1e4]
+[loads.twist]
+type = "torque"
+target = "block.z_max"
+moment = 50
+axis = [0, 0, 2]
+curve = "blow"
+[loads.pull]
+type = "nodal_force"
+target = "block.x_max"
+force = [30, 0, 40]
+curve = "blow"
+[time]
+end = 3e-4
+"""
+
+
+def check_loads(folder):
+    with h5py.File(hammers.run(folder, "loads", LOADS), "r") as file:
+        loads, time = file["history/load"], file["history/time"][:]
+        blow = np.where((time > 2e-5) & (time < 2.2e-4), np.sin(np.pi * (time - 2e-5) / 2e-4), 0)[:, None]
+        for name, exact in (("push", [0, 0, -8000]), ("pull", [30, 0, 40])):
+            off = np.abs(loads[name]["force"][:] - blow * exact).max() / np.abs(exact).max()
+            hammers.show(f"force of the load {name} in the results, of its peak", off, 1e-3)
+        hammers.show("the same of a traction", np.abs(loads["drag/force"][:] - [1600, 0, -800]).max() / 1600, 1e-9)
+        hammers.show("moment of a torque", np.abs(loads["twist/moment"][:] - 50 * blow[:, 0]).max() / 50, 1e-9)
+        hammers.show("direction of the pull", np.abs(loads["pull/direction"][:] - [0.6, 0, 0.8]).max(), 1e-12)
+        hammers.show("direction of the torque's axis", np.abs(loads["twist/direction"][:] - [0, 0, 1]).max(), 1e-12)
+        if "direction" in loads["push"]:
+            hammers.failures.append("a pressure has no direction, as it follows the surface")
+
+
 with tempfile.TemporaryDirectory(prefix="railwave-") as place:
+    check_loads(place)
     check_block(place)
     check_bar(place)
 hammers.conclude()

@@ -106,6 +106,10 @@ std::vector<PlacedSet> placed_sets(const scene::Scene& scene, const Assembly& as
                                    "whether the position is meant in the scene's axes",
                                    set.part, set.name, set.line, text_of(*set.position), set.surface.empty() ? "" : " of " + set.surface,
                                    placed.distance, text_of(assembly.nodes[placed.nearest]), size);
+    else if (section_of(scene, set) == std::string("hammers") && set.radius < 0.5 * size)
+      placed.warning = fmt::format("[hammers.{}] (line {}) strikes within {:.3g} m of its position, among elements of {:.3g} m, which give way under so small a patch as no "
+                                   "body does; take a radius of half an element or more, or smaller elements there",
+                                   set.name, set.line, set.radius, size);
     result.push_back(placed);
   }
   return result;

@@ -15,7 +15,7 @@ struct PlacedSet {
   int count = 0;           ///< nodes
   int nearest = 0;         ///< node
   double distance = 0;     ///< m, from there to the position
-  std::string warning;     ///< empty unless it is farther away than radius and element size
+  std::string warning;     ///< empty unless it is farther away than radius and element size, or a hammer's patch is too small for the mesh
 };
 
 /// One for each of the scene's node sets that has a position, in their order; hammers and probes are such sets.

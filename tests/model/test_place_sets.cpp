@@ -85,3 +85,19 @@ TEST_CASE("a position farther from the nearest node than an element is warned of
   scene.node_sets[0].radius = 0.6;
   CHECK(placed_sets(scene, assemble(scene))[0].warning.empty());
 }
+
+TEST_CASE("a blow on a patch that is small beside the elements is warned of") {
+  scene::Scene scene = scene_with("z_max", {});
+  scene.node_sets[0].box.reset();
+  scene.node_sets[0].position = scene::Vec3{12, 1, 1};
+  CHECK(placed_sets(scene, assemble(scene))[0].warning.empty());
+  scene::Hammer hammer;
+  hammer.name = "picked";
+  hammer.part = "block";
+  hammer.line = 7;
+  scene.hammers.push_back(hammer);
+  CHECK_THAT(placed_sets(scene, assemble(scene))[0].warning,
+             ContainsSubstring("[hammers.picked] (line 7) strikes within 0 m of its position, among elements of 1 m"));
+  scene.node_sets[0].radius = 0.5;
+  CHECK(placed_sets(scene, assemble(scene))[0].warning.empty());
+}

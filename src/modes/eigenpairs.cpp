@@ -12,6 +12,7 @@ namespace {
 
 constexpr double tolerance = 1e-10;
 constexpr int most_attempts = 6;
+constexpr int most_modes = 3000;
 constexpr int small_enough_for_full = 240;
 constexpr double narrowest = 1e-4;  ///< interval, of the limit: a cluster is not halved
 
@@ -72,14 +73,16 @@ Eigen::MatrixXd vectors_between(ShiftedMatrix& matrix, double low, double high, 
     found = more;
   }
   if (found.cols() != count)
-    throw std::runtime_error(fmt::format("{} modes were found between {:.6g} and {:.6g} Hz, where the inertia counts {}; another --up-to may help",
-                                         found.cols(), std::sqrt(std::max(low, 0.0)) / (2 * M_PI), std::sqrt(high) / (2 * M_PI), count));
+    throw std::runtime_error(fmt::format(
+        "{} modes were found between {:.6g} and {:.6g} Hz, where the inertia counts {}; another --up-to may help",
+        found.cols(), std::sqrt(std::max(low, 0.0)) / (2 * M_PI), std::sqrt(high) / (2 * M_PI), count));
   return found;
 }
 
 class Intervals {
  public:
-  Intervals(ShiftedMatrix& matrix, double least, int most) : matrix_(matrix), least_(least), most_(most), vectors_(matrix.size(), 0) {}
+  Intervals(ShiftedMatrix& matrix, double least, int most)
+      : matrix_(matrix), least_(least), most_(most), vectors_(matrix.size(), 0) {}
 
   int below(double value) {
     matrix_.shift_to(value);
@@ -129,8 +132,13 @@ Eigenpairs eigenpairs_below(ShiftedMatrix& matrix, double limit, int most) {
     return {solver.eigenvalues().head(count), solver.eigenvectors().leftCols(count)};
   }
   Intervals intervals(matrix, narrowest * limit, most);
+  const int count = intervals.below(limit);
+  if (count > most_modes)
+    throw std::runtime_error(
+        fmt::format("{} modes lie below {:.6g} Hz, more than the {} that are sought at once; ask for a lower --up-to",
+                    count, std::sqrt(limit) / (2 * M_PI), most_modes));
   // Rigid motions lie at 0, and by rounding a little below it.
-  intervals.search(-0.5 * narrowest * limit, 0, limit, intervals.below(limit));
+  intervals.search(-0.5 * narrowest * limit, 0, limit, count);
   if (intervals.vectors().cols() == 0) return {Eigen::VectorXd(0), intervals.vectors()};
   return refined(matrix, intervals.vectors());
 }

@@ -21,12 +21,13 @@ void factorise_block(Eigen::Ref<Matrix> a, Eigen::Ref<Eigen::VectorXd> pivots) {
     const Eigen::Index rest = n - k - 1;
     const Eigen::VectorXd column = a.col(k).tail(rest);
     a.col(k).tail(rest) /= pivot;
-    for (Eigen::Index j = 0; j < rest; ++j) a.col(k + 1 + j).tail(rest - j) -= (column[j] / pivot) * column.tail(rest - j);
+    for (Eigen::Index j = 0; j < rest; ++j)
+      a.col(k + 1 + j).tail(rest - j) -= (column[j] / pivot) * column.tail(rest - j);
   }
 }
 
-/// Eliminates the first `count` rows and columns of a symmetric matrix whose lower triangle is given: those columns become L's,
-/// the rest what is left of the matrix.
+/// Eliminates the first `count` rows and columns of a symmetric matrix whose lower triangle is given: those columns
+/// become L's, the rest what is left of the matrix.
 void eliminate(Matrix& a, int count, Eigen::VectorXd& pivots) {
   pivots.resize(count);
   const Eigen::Index size = a.rows();
@@ -36,7 +37,10 @@ void eliminate(Matrix& a, int count, Eigen::VectorXd& pivots) {
     factorise_block(a.block(first, first, width, width), pivots.segment(first, width));
     if (rest == 0) continue;
     auto own = a.block(below, first, rest, width);
-    a.block(first, first, width, width).triangularView<Eigen::UnitLower>().transpose().solveInPlace<Eigen::OnTheRight>(own);
+    a.block(first, first, width, width)
+        .triangularView<Eigen::UnitLower>()
+        .transpose()
+        .solveInPlace<Eigen::OnTheRight>(own);
     const Matrix before = own;  // L D
     own = before * pivots.segment(first, width).cwiseInverse().asDiagonal();
     for (Eigen::Index column = below; column < size; column += 4 * panel) {
@@ -83,7 +87,8 @@ void FrontalFactor::factorise(const Eigen::SparseMatrix<double>& lower) {
     for (int k = 0; k < border; ++k) at[front.border[k]] = own + k;
     Matrix a = Matrix::Zero(own + border, own + border);
     for (int k = 0; k < own; ++k)
-      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, front.first + k); it; ++it) a(at[it.row()], k) += it.value();
+      for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, front.first + k); it; ++it)
+        a(at[it.row()], k) += it.value();
     for (int child : children_[f]) {
       const std::vector<int>& rows = order_.fronts[child].border;
       for (std::size_t j = 0; j < rows.size(); ++j)
@@ -105,7 +110,8 @@ Eigen::VectorXd FrontalFactor::solve(const Eigen::VectorXd& right) const {
   Eigen::VectorXd border;
   for (std::size_t f = 0; f < order_.fronts.size(); ++f) {
     const Front& front = order_.fronts[f];
-    const Eigen::Index own = static_cast<Eigen::Index>(front.own.size()), beside = static_cast<Eigen::Index>(front.border.size());
+    const Eigen::Index own = static_cast<Eigen::Index>(front.own.size()),
+                       beside = static_cast<Eigen::Index>(front.border.size());
     auto mine = x.segment(front.first, own);
     columns_[f].lower.topRows(own).triangularView<Eigen::UnitLower>().solveInPlace(mine);
     border.noalias() = columns_[f].lower.bottomRows(beside) * mine;
@@ -114,7 +120,8 @@ Eigen::VectorXd FrontalFactor::solve(const Eigen::VectorXd& right) const {
   }
   for (std::size_t f = order_.fronts.size(); f-- > 0;) {
     const Front& front = order_.fronts[f];
-    const Eigen::Index own = static_cast<Eigen::Index>(front.own.size()), beside = static_cast<Eigen::Index>(front.border.size());
+    const Eigen::Index own = static_cast<Eigen::Index>(front.own.size()),
+                       beside = static_cast<Eigen::Index>(front.border.size());
     auto mine = x.segment(front.first, own);
     border.resize(beside);
     for (Eigen::Index k = 0; k < beside; ++k) border[k] = x[front.border[k]];

@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-/// A = L D L^T of a sparse symmetric matrix, indefinite or not, without pivoting: multifrontal (Duff & Reid 1983), dense blocks
-/// over the fronts of a nested dissection.
+/// A = L D L^T of a sparse symmetric matrix, indefinite or not, without pivoting: multifrontal (Duff & Reid 1983),
+/// dense blocks over the fronts of a nested dissection.
 class FrontalFactor {
  public:
   /// Orders the unknowns; `lower` gives the pattern.
@@ -20,7 +20,7 @@ class FrontalFactor {
 
  private:
   struct Columns {
-    Eigen::MatrixXd lower;     ///< own columns of L, own rows first, unit diagonal not stored; then rows of the border
+    Eigen::MatrixXd lower;  ///< own columns of L, own rows first, unit diagonal not stored; then rows of the border
     Eigen::VectorXd pivots;
   };
 

@@ -63,7 +63,7 @@ void write_mode_file(const Model& model, const ModeList& list, const std::string
         for (int i = 0; i < 3; ++i) displacement.push_back(mode.shape[3 * n + i]);
     group.write("displacement", displacement, {list.modes.size(), set.nodes.size(), 3});
     if (const auto body = RoundBody::of_part(model, static_cast<int>(p)))
-      for (int i = 0; i < 3; ++i) group.set_attribute(std::string("axis_") + "xyz"[i], body->axis()[i]);
+      for (int i = 0; i < 3; ++i) group.set_attribute(std::string("axis_") + "xyz"[i], body -> axis()[i]);
   }
   file.close();
   const std::string companion = xdmf_path(path);

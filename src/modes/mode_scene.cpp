@@ -20,7 +20,8 @@ class Selection {
     for (const auto& point : scene.points) known.push_back(point.name);
     for (const std::string& name : names)
       if (std::find(known.begin(), known.end(), name) == known.end())
-        complaints.push_back(fmt::format("{}: --part {}: there is no part or point mass of that name; {}", scene.path, name, suggestion(name, known)));
+        complaints.push_back(fmt::format("{}: --part {}: there is no part or point mass of that name; {}", scene.path,
+                                         name, suggestion(name, known)));
     if (!complaints.empty()) throw InputError(complaints);
     const std::vector<std::string>& kept = names.empty() ? known : names;
     kept_.insert(kept.begin(), kept.end());
@@ -42,6 +43,18 @@ class Selection {
   std::set<std::string> kept_;
 };
 
+/// Elements that hourglass freely have a motion without strain for nearly each of their nodes.
+void refuse_free_hourglass(const scene::Scene& scene) {
+  std::vector<std::string> complaints;
+  for (const scene::Part& part : scene.parts)
+    if (settling_hourglass_coefficient(part) == 0)
+      complaints.push_back(
+          fmt::format("{}:{}: [parts.{}] hourglass_coefficient: is 0, so that elements have motions without strain, "
+                      "which are no modes; set it above 0, e.g. --set parts.{}.hourglass_coefficient=0.05",
+                      scene.path, part.line, part.name, part.name));
+  if (!complaints.empty()) throw InputError(complaints);
+}
+
 template <class Entries, class Wanted>
 std::string names_of(const Entries& entries, const Wanted& wanted) {
   std::string list;
@@ -56,12 +69,15 @@ std::string names_of(const Entries& entries, const Wanted& wanted) {
 void note_on_stiffness(const scene::Scene& scene, std::vector<std::string>& notes) {
   const auto viscous = [](const scene::Part& part) { return part.hourglass == scene::HourglassType::viscous; };
   if (const auto list = names_of(scene.parts, viscous); !list.empty())
-    notes.push_back(fmt::format("hourglass control of {} is viscous in a run, which has no stiffness: here it is of the stiffness type with "
-                                "coefficient {:g}, as while a scene settles",
-                                list, settling_coefficient));
-  const bool plastic = std::any_of(scene.materials.begin(), scene.materials.end(), [](const auto& m) { return m.yield_stress.has_value(); });
+    notes.push_back(fmt::format(
+        "hourglass control of {} is viscous in a run, which has no stiffness: here it is of the stiffness type with "
+        "coefficient {:g}, as while a scene settles",
+        list, settling_coefficient));
+  const bool plastic = std::any_of(scene.materials.begin(), scene.materials.end(),
+                                   [](const auto& m) { return m.yield_stress.has_value(); });
   const bool damped = std::any_of(scene.parts.begin(), scene.parts.end(), [](const auto& p) { return p.damped(); }) ||
-                      std::any_of(scene.connectors.begin(), scene.connectors.end(), [](const auto& c) { return c.damping != scene::Vec3{}; });
+                      std::any_of(scene.connectors.begin(), scene.connectors.end(),
+                                  [](const auto& c) { return c.damping != scene::Vec3{}; });
   if (plastic) notes.push_back("materials are elastic");
   if (damped) notes.push_back("damping is left out");
   if (!scene.prescribed_motions.empty() || !scene.non_reflecting.empty())
@@ -76,13 +92,18 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   scene::Scene& scene = result.scene;
   const auto owned = [&](const std::string& set) { return selection.owns(set); };
 
-  if (const auto list = names_of(scene.contacts, [&](const auto& c) { return owned(c.slave) || owned(c.master); }); !list.empty())
+  if (const auto list = names_of(scene.contacts, [&](const auto& c) { return owned(c.slave) || owned(c.master); });
+      !list.empty())
     result.notes.push_back("contacts are left out: " + list);
   const auto crossing = [&](const auto& entry) { return owned(entry.from) != owned(entry.to); };
-  if (const auto list = names_of(scene.connectors, [&](const auto& c) { return crossing(c) && c.from != "ground" && c.to != "ground"; }); !list.empty())
+  if (const auto list = names_of(scene.connectors,
+                                 [&](const auto& c) { return crossing(c) && c.from != "ground" && c.to != "ground"; });
+      !list.empty())
     result.notes.push_back("connectors to what is not named are left out: " + list);
-  if (const auto list = names_of(scene.beams, crossing); !list.empty()) result.notes.push_back("beams to what is not named are left out: " + list);
-  if (const auto list = names_of(scene.ties, [&](const auto& t) { return owned(t.slave) != owned(t.master); }); !list.empty())
+  if (const auto list = names_of(scene.beams, crossing); !list.empty())
+    result.notes.push_back("beams to what is not named are left out: " + list);
+  if (const auto list = names_of(scene.ties, [&](const auto& t) { return owned(t.slave) != owned(t.master); });
+      !list.empty())
     result.notes.push_back("ties to what is not named are left out: " + list);
 
   selection.keep(scene.parts, [&](const auto& part) { return selection.has(part.name); });
@@ -95,8 +116,12 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   selection.keep(scene.non_reflecting, [&](const auto& end) { return owned(end.target); });
   selection.keep(scene.ties, [&](const auto& tie) { return owned(tie.slave) && owned(tie.master); });
   const bool tied = !scene.ties.empty();
-  selection.keep(scene.contacts, [&](const auto& c) { return tied && c.close_gap && owned(c.slave) && owned(c.master); });
-  if (scene.parts.empty()) throw InputError(fmt::format("{}: --part names no part: modes are those of at least one", whole.path));
+  selection.keep(scene.contacts,
+                 [&](const auto& c) { return tied && c.close_gap && owned(c.slave) && owned(c.master); });
+  if (scene.parts.empty())
+    throw InputError(fmt::format("{}: --part names no part: modes are those of at least one", whole.path));
+
+  refuse_free_hourglass(scene);
 
   scene.loads.clear();
   scene.initial_motions.clear();

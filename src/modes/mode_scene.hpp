@@ -13,8 +13,8 @@ struct ModeScene {
   std::vector<std::string> notes;  ///< sentences for the reader
 };
 
-/// Loads, motions at the start, settling and output go; contacts stay only where a tie may need a gap closed. The rest stays as
-/// far as it belongs to the named parts and point masses.
+/// Loads, motions at the start, settling and output go; contacts stay only where a tie may need a gap closed. The rest
+/// stays as far as it belongs to the named parts and point masses.
 /// @param names parts and point masses; empty: all. Throws InputError for one that the scene does not have.
 ModeScene mode_scene(const scene::Scene& scene, const std::vector<std::string>& names);
 

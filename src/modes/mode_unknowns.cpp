@@ -39,7 +39,8 @@ std::vector<Vec3> ModeUnknowns::places() const {
 Eigen::VectorXd ModeUnknowns::motion(const Eigen::VectorXd& q) const {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(3 * rows_.rows());
   for (int row = 0; row < rows_.rows(); ++row)
-    each(row, [&](int first, const Shares& shares) { u.segment<3>(3 * row) += shares * q.segment(first, shares.cols()); });
+    each(row,
+         [&](int first, const Shares& shares) { u.segment<3>(3 * row) += shares * q.segment(first, shares.cols()); });
   return u;
 }
 

@@ -7,9 +7,9 @@
 
 namespace railwave {
 
-/// The free directions of a model's rows (displacements of nodes, rotations where beams end) as one vector q: a row moves by
-/// u = sum over its leads of share B q, B the orthonormal free directions of the lead. Held directions have no q; slaves of
-/// ties have none of their own.
+/// The free directions of a model's rows (displacements of nodes, rotations where beams end) as one vector q: a row
+/// moves by u = sum over its leads of share B q, B the orthonormal free directions of the lead. Held directions have no
+/// q; slaves of ties have none of their own.
 class ModeUnknowns {
  public:
   explicit ModeUnknowns(const Model& model);
@@ -22,7 +22,8 @@ class ModeUnknowns {
   /// m, by q: where its row is.
   std::vector<Vec3> places() const;
 
-  /// visit(first, A) for each lead of a row that is free at all: A (3 rows) times q[first ...] is its part of the row's motion.
+  /// visit(first, A) for each lead of a row that is free at all: A (3 rows) times q[first ...] is its part of the row's
+  /// motion.
   template <class Visit>
   void each(int row, const Visit& visit) const {
     rows_.each_lead(row, [&](const StaticUnknowns::Lead& lead) {

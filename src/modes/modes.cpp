@@ -19,7 +19,8 @@ std::vector<double> kinetic(const Model& model, const Eigen::VectorXd& motion, d
   std::vector<double> result;
   for (const auto& part : model.assembly.parts) {
     double sum = 0;
-    for (int n = part.first_node; n < part.first_node + part.node_count; ++n) sum += model.mass[n] * motion.segment<3>(3 * n).squaredNorm();
+    for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
+      sum += model.mass[n] * motion.segment<3>(3 * n).squaredNorm();
     result.push_back(sum);
   }
   result.push_back(std::max(0.0, total - std::accumulate(result.begin(), result.end(), 0.0)));
@@ -38,7 +39,8 @@ ModeList modes_below(const Model& model, double up_to) {
 
   const StrainEnergy strain(model, springs);
   std::vector<std::optional<RoundBody>> bodies;
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) bodies.push_back(RoundBody::of_part(model, static_cast<int>(p)));
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p)
+    bodies.push_back(RoundBody::of_part(model, static_cast<int>(p)));
   ModeList list;
   list.unknowns = unknowns.count();
   list.factor_entries = matrix.entries_of_factor();

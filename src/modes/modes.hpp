@@ -10,13 +10,13 @@ namespace railwave {
 
 /// One mode of free vibration.
 struct Mode {
-  double frequency = 0;             ///< Hz; that of its strain energy, 0 for a rigid motion
-  bool rigid = false;               ///< it strains nothing
-  int part = 0;                     ///< that with the most kinetic energy; -1: point masses and nodes of beams
-  double part_share = 0;            ///< of the kinetic energy
-  std::optional<RoundName> round;   ///< where that part is a body of revolution
-  Eigen::VectorXd shape;            ///< 3 values by node, the largest displacement is 1
-  double modal_mass = 0;            ///< kg, of that shape
+  double frequency = 0;            ///< Hz; that of its strain energy, 0 for a rigid motion
+  bool rigid = false;              ///< it strains nothing
+  int part = 0;                    ///< that with the most kinetic energy; -1: point masses and nodes of beams
+  double part_share = 0;           ///< of the kinetic energy
+  std::optional<RoundName> round;  ///< where that part is a body of revolution
+  Eigen::VectorXd shape;           ///< 3 values by node, the largest displacement is 1
+  double modal_mass = 0;           ///< kg, of that shape
 };
 
 /// All modes below a frequency, ascending, and what finding them took.

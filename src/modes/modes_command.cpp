@@ -15,7 +15,9 @@
 namespace railwave {
 namespace {
 
-std::string part_name(const Model& model, const Mode& mode) { return mode.part < 0 ? "points and beams" : model.scene.parts[mode.part].name; }
+std::string part_name(const Model& model, const Mode& mode) {
+  return mode.part < 0 ? "points and beams" : model.scene.parts[mode.part].name;
+}
 
 std::string name_of(const Mode& mode) {
   if (mode.rigid) return "rigid";
@@ -25,10 +27,12 @@ std::string name_of(const Mode& mode) {
 
 /// @param several parts: the table tells which one moves most
 void print(const Model& model, const std::vector<Mode>& modes, bool several, std::ostream& out) {
-  out << fmt::format("{:>5} {:>11} {:>11}    {}\n", "mode", "Hz", "modal kg", several ? fmt::format("{:<24}moves most", "name") : "name");
+  out << fmt::format("{:>5} {:>11} {:>11}    {}\n", "mode", "Hz", "modal kg",
+                     several ? fmt::format("{:<24}moves most", "name") : "name");
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Mode& mode = modes[k];
-    std::string line = fmt::format("{:>5} {:>11.3f} {:>11.4g}  {:<24}", k + 1, mode.frequency, mode.modal_mass, name_of(mode));
+    std::string line =
+        fmt::format("{:>5} {:>11.3f} {:>11.4g}  {:<24}", k + 1, mode.frequency, mode.modal_mass, name_of(mode));
     if (several) line += fmt::format("{} {:.0f} %", part_name(model, mode), 100 * mode.part_share);
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
   }
@@ -36,14 +40,16 @@ void print(const Model& model, const std::vector<Mode>& modes, bool several, std
 
 std::string csv_of(const Model& model, const std::vector<Mode>& modes) {
   std::string text =
-      "mode,frequency,rigid,modal_mass,part,part_share,kind,nodal_circles,nodal_diameters,order_share,axial_share,radial_share,circumferential_share\n";
+      "mode,frequency,rigid,modal_mass,part,part_share,kind,nodal_circles,nodal_diameters,order_share,axial_share,"
+      "radial_share,circumferential_share\n";
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Mode& mode = modes[k];
-    text += fmt::format("{},{:.10g},{},{:.6g},{},{:.4f}", k + 1, mode.frequency, mode.rigid ? 1 : 0, mode.modal_mass, part_name(model, mode), mode.part_share);
+    text += fmt::format("{},{:.10g},{},{:.6g},{},{:.4f}", k + 1, mode.frequency, mode.rigid ? 1 : 0, mode.modal_mass,
+                        part_name(model, mode), mode.part_share);
     if (mode.round) {
       const RoundName& r = *mode.round;
-      text += fmt::format(",{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", text_of(r.kind), r.circles, r.diameters, r.order_share, r.axial_share,
-                          r.radial_share, r.circumferential_share);
+      text += fmt::format(",{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", text_of(r.kind), r.circles, r.diameters,
+                          r.order_share, r.axial_share, r.radial_share, r.circumferential_share);
     } else {
       text += ",,,,,,,\n";
     }
@@ -60,12 +66,15 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
   const ModeScene wanted = mode_scene(scene, request.parts);
   Model model;
   build_model(wanted.scene, model);
+  out << fmt::format("{} elements, {} nodes\n", model.element_count(), model.node_count());
+  for (const std::string& note : wanted.notes) out << "note: " << note << '\n';
+  out.flush();  // the rest may take minutes
   const ModeList list = modes_below(model, request.up_to);
 
-  out << fmt::format("{} elements, {} nodes, {} free directions; factor of {:.1f} million entries\n", model.element_count(), model.node_count(),
-                     list.unknowns, 1e-6 * static_cast<double>(list.factor_entries));
-  for (const std::string& note : wanted.notes) out << "note: " << note << '\n';
-  const bool round = std::any_of(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.round.has_value(); });
+  out << fmt::format("{} free directions; factor of {:.1f} million entries\n", list.unknowns,
+                     1e-6 * static_cast<double>(list.factor_entries));
+  const bool round =
+      std::any_of(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.round.has_value(); });
   if (round) out << "names: direction of most motion (nodal circles, nodal diameters)\n";
   print(model, list.modes, model.scene.parts.size() + model.scene.points.size() > 1, out);
   const auto rigid = std::count_if(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.rigid; });

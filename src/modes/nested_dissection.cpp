@@ -114,7 +114,8 @@ class Dissector {
 
 }  // namespace
 
-Dissection nested_dissection(const Eigen::SparseMatrix<double>& lower, const std::vector<std::array<double, 3>>& place) {
+Dissection nested_dissection(const Eigen::SparseMatrix<double>& lower,
+                             const std::vector<std::array<double, 3>>& place) {
   return Dissector(lower, place).run();
 }
 

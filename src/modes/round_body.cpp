@@ -11,21 +11,22 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double same_place = 1e-5;      ///< of the largest radius: nodes of one ring
-constexpr int fewest_nodes = 12;         ///< of a ring
-constexpr double widest_gap = 0.15;      ///< of the way round, between nodes of a ring
-constexpr double least_share = 0.5;      ///< of the part's mass that lies in rings
+constexpr double same_place = 1e-5;  ///< of the largest radius: nodes of one ring
+constexpr int fewest_nodes = 12;     ///< of a ring
+constexpr double widest_gap = 0.15;  ///< of the way round, between nodes of a ring
+constexpr double least_share = 0.5;  ///< of the part's mass that lies in rings
 constexpr int highest_order = 40;
-constexpr int radius_steps = 24;         ///< in which the displacement along the radius is looked at
-constexpr double least_swing = 0.03;     ///< of its largest value: what lies below has no sign
+constexpr int radius_steps = 24;      ///< in which the displacement along the radius is looked at
+constexpr double least_swing = 0.03;  ///< of its largest value: what lies below has no sign
 
 Eigen::Vector3d vector(const Vec3& a) { return {a[0], a[1], a[2]}; }
 
 const scene::MeshSource& mesh_of(const scene::Scene& scene, const scene::Part& part) {
-  return *std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& mesh) { return mesh.name == part.mesh; });
+  return *std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                       [&](const auto& mesh) { return mesh.name == part.mesh; });
 }
 
-/// Ascending radius.
+/// By angle.
 void sort_ring(std::vector<int>& nodes, std::vector<double>& angle) {
   std::vector<std::size_t> order(nodes.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -154,7 +155,9 @@ RoundName RoundBody::name(const Eigen::VectorXd& motion) const {
   result.circumferential_share = e[1] / most;
   result.axial_share = e[2] / most;
   const int main = e[2] >= std::max(e[0], e[1]) ? 2 : e[0] >= e[1] ? 0 : 1;
-  result.kind = main == 2 ? RoundName::Kind::axial : main == 0 ? RoundName::Kind::radial : RoundName::Kind::circumferential;
+  result.kind = main == 2   ? RoundName::Kind::axial
+                : main == 0 ? RoundName::Kind::radial
+                            : RoundName::Kind::circumferential;
   result.circles = circles(amplitude[result.diameters * directions + main]);
   return result;
 }

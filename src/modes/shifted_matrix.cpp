@@ -4,7 +4,8 @@
 
 namespace railwave {
 
-ShiftedMatrix::ShiftedMatrix(const StiffnessMatrix& stiffness, const Eigen::VectorXd& mass, const std::vector<Vec3>& place)
+ShiftedMatrix::ShiftedMatrix(const StiffnessMatrix& stiffness, const Eigen::VectorXd& mass,
+                             const std::vector<Vec3>& place)
     : size_(static_cast<int>(mass.size())), extra_(stiffness.extra), matrix_(stiffness.lower) {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(size_ + extra_);
   scale.head(size_) = mass.cwiseSqrt().cwiseInverse();

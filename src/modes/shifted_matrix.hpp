@@ -7,8 +7,8 @@
 
 namespace railwave {
 
-/// A - sigma I, factorised as L D L^T, A = M^(-1/2) K M^(-1/2): its negative pivots count the eigenvalues of K u = lambda M u
-/// below sigma (Sylvester's law of inertia).
+/// A - sigma I, factorised as L D L^T, A = M^(-1/2) K M^(-1/2): its negative pivots count the eigenvalues of K u =
+/// lambda M u below sigma (Sylvester's law of inertia).
 class ShiftedMatrix {
  public:
   /// @param mass of each unknown, above 0
@@ -22,7 +22,8 @@ class ShiftedMatrix {
   /// All entries, for small models.
   Eigen::MatrixXd full() const;
 
-  /// Makes ready for count_below() and solve(). Throws std::runtime_error where a pivot vanishes: the shift is an eigenvalue.
+  /// Makes ready for count_below() and solve(). Throws std::runtime_error where a pivot vanishes: the shift is an
+  /// eigenvalue.
   void shift_to(double sigma);
   int count_below() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& x) const;

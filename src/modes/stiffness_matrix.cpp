@@ -75,7 +75,8 @@ class Collector {
 std::vector<ElementStiffness> mode_stiffness(const Model& model) {
   std::vector<ElementStiffness> stiffness;
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p)
-    stiffness.push_back(settling_stiffness(model.scene.parts[p], model.scene.materials[model.assembly.parts[p].material]));
+    stiffness.push_back(
+        settling_stiffness(model.scene.parts[p], model.scene.materials[model.assembly.parts[p].material]));
   return stiffness;
 }
 
@@ -86,7 +87,8 @@ SpringCollector mode_springs(const Model& model) {
   return springs;
 }
 
-StiffnessMatrix stiffness_matrix(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs, int most) {
+StiffnessMatrix stiffness_matrix(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs,
+                                 int most) {
   std::vector<std::map<int, double>> stretches(springs.count());
   StiffnessMatrix result;
   for (std::size_t s = 0; s < springs.count(); ++s) {

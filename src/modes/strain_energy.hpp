@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-/// Strain energy of small motions, as a sum of squares of strains: that of a rigid motion is zero to the square of rounding,
-/// where u.K u would be zero to rounding only and hide a body's slow motions on soft springs.
+/// Strain energy of small motions, as a sum of squares of strains: that of a rigid motion is zero to the square of
+/// rounding, where u.K u would be zero to rounding only and hide a body's slow motions on soft springs.
 class StrainEnergy {
  public:
   StrainEnergy(const Model& model, const SpringCollector& springs);

@@ -29,7 +29,8 @@ TEST_CASE("Blocks tied over meshes that don't match vibrate nearly as one block"
 }
 
 TEST_CASE("A block that slides on oblique planes vibrates as one that slides along the axes", "[modes]") {
-  // Held along one direction only: by a plane's normal for the block as it lies, and for the block and the plane turned alike.
+  // Held along one direction only: by a plane's normal for the block as it lies, and for the block and the plane turned
+  // alike.
   scene::Scene straight = mode_block({0.1, 0.06, 0.04}, {5, 3, 2}, 0.05), turned_one = straight;
   hold(straight, "block.x_min", {true, false, false});
   hold(turned_one, "block.x_min", {true, false, false});
@@ -58,7 +59,8 @@ TEST_CASE("Two masses on springs", "[modes]") {
   lower.stiffness = {0, 0, 1e6};
   scene.connectors = {upper, lower};
   const double m1 = 7.8, m2 = 20, k1 = 1e6, k2 = 2e5;
-  const double trace = (k1 + k2) / m1 + k2 / m2, product = k1 * k2 / (m1 * m2), root = std::sqrt(trace * trace / 4 - product);
+  const double trace = (k1 + k2) / m1 + k2 / m2, product = k1 * k2 / (m1 * m2),
+               root = std::sqrt(trace * trace / 4 - product);
   // Rigid: two ways and three turns of the block, two ways of the mass.
   const auto f = elastic_frequencies(scene, 200, 7);
   REQUIRE(f.size() == 2);

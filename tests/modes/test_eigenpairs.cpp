@@ -12,7 +12,8 @@ TEST_CASE("Eigenpairs: all below a limit, multiple ones in all their copies, wha
   build_model(mode_block({0.1, 0.1, 0.1}, {5, 5, 5}, 0.1), model);  // pairs and triplets, and six rigid motions
   const ModeUnknowns unknowns(model);
   ShiftedMatrix matrix(stiffness_matrix(model, unknowns, mode_springs(model)), unknowns.mass(), unknowns.places());
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
   const int count = 75;
   int expected = count;
   while (values[expected] - values[expected - 1] < 1e-3 * values[expected]) ++expected;

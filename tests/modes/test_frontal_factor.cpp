@@ -6,7 +6,10 @@
 using namespace railwave;
 using namespace railwave::verify;
 
-TEST_CASE("Frontal factor: solves indefinite systems and counts their negative eigenvalues, springs between many nodes included", "[modes]") {
+TEST_CASE(
+    "Frontal factor: solves indefinite systems and counts their negative eigenvalues, springs between many nodes "
+    "included",
+    "[modes]") {
   scene::Scene scene = mode_block({0.3, 0.2, 0.1}, {9, 6, 4}, 0.05);
   scene::Connector spring;
   spring.name = "spring";
@@ -20,7 +23,8 @@ TEST_CASE("Frontal factor: solves indefinite systems and counts their negative e
   const StiffnessMatrix stiffness = stiffness_matrix(model, unknowns, mode_springs(model));
   REQUIRE(stiffness.extra == 3);
   ShiftedMatrix matrix(stiffness, unknowns.mass(), unknowns.places());
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
   const Eigen::VectorXd right = random_vector(matrix.size(), 7);
   // Three turns about the spring are free.
   for (int below : {0, 3, 7, 40, static_cast<int>(values.size()) - 1}) {

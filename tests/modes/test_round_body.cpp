@@ -42,8 +42,9 @@ TEST_CASE("Modes of a free annulus: frequencies against series values, nodal dia
     double frequency;
   };
   using Kind = RoundName::Kind;
-  const std::vector<Expected> expected{{Kind::axial, 0, 2, 570.96},  {Kind::axial, 1, 0, 938.76},   {Kind::axial, 0, 3, 1316.09},
-                                       {Kind::axial, 1, 1, 1942.47}, {Kind::radial, 0, 2, 2107.21}, {Kind::axial, 0, 4, 2185.69}};
+  const std::vector<Expected> expected{{Kind::axial, 0, 2, 570.96},   {Kind::axial, 1, 0, 938.76},
+                                       {Kind::axial, 0, 3, 1316.09},  {Kind::axial, 1, 1, 1942.47},
+                                       {Kind::radial, 0, 2, 2107.21}, {Kind::axial, 0, 4, 2185.69}};
   Model model;
   const ModeList list = modes_of(annulus(), 2300, model);
   std::vector<Mode> elastic;

@@ -10,8 +10,8 @@ using namespace railwave;
 using namespace railwave::verify;
 using Catch::Matchers::WithinRel;
 
-// Natural frequencies (Hz) of steel bodies against series values (E 210 GPa, nu 0.3, 7800 kg/m3). A one-point element bends
-// only by its hourglass stiffness: a coefficient of about a quarter makes that of a cube right.
+// Natural frequencies (Hz) of steel bodies against series values (E 210 GPa, nu 0.3, 7800 kg/m3). A one-point element
+// bends only by its hourglass stiffness: a coefficient of about a quarter makes that of a cube right.
 namespace {
 
 /// @param worst share by which one of them may differ
@@ -29,8 +29,8 @@ void compare(const char* what, const std::vector<double>& found, const std::vect
 }  // namespace
 
 TEST_CASE("Modes of a free cube", "[modes]") {
-  // One eighth of it, its motion symmetric or antisymmetric about each of the planes that cut it out; three of the eight kinds of
-  // symmetry differ from others by the axes' names only.
+  // One eighth of it, its motion symmetric or antisymmetric about each of the planes that cut it out; three of the
+  // eight kinds of symmetry differ from others by the axes' names only.
   std::vector<double> found;
   for (int antisymmetric = 0; antisymmetric <= 3; ++antisymmetric) {
     scene::Scene scene = mode_block({0.05, 0.05, 0.05}, {12, 12, 12}, 0.25);
@@ -44,9 +44,11 @@ TEST_CASE("Modes of a free cube", "[modes]") {
     for (double f : elastic_frequencies(scene, 24700, alike ? 0 : 1)) found.insert(found.end(), alike ? 1 : 3, f);
   }
   std::sort(found.begin(), found.end());
-  // Rayleigh and Ritz with polynomials of degree 11. 22754.15 is Lame's, c_s / (sqrt 2 L), exactly: one motion for each pair of axes.
+  // Rayleigh and Ritz with polynomials of degree 11. 22754.15 is Lame's, c_s / (sqrt 2 L), exactly: one motion for each
+  // pair of axes.
   std::vector<double> expected;
-  for (const auto& [count, f] : std::vector<std::pair<int, double>>{{2, 14627.74}, {3, 19697.43}, {3, 20031.5}, {3, 22754.15}, {3, 23420.43}, {3, 24545.45}})
+  for (const auto& [count, f] : std::vector<std::pair<int, double>>{
+           {2, 14627.74}, {3, 19697.43}, {3, 20031.5}, {3, 22754.15}, {3, 23420.43}, {3, 24545.45}})
     expected.insert(expected.end(), count, f);
   CHECK(found.size() == expected.size());
   compare("free cube, 24 x 24 x 24 by eighths", found, expected);

@@ -14,7 +14,8 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 /// K q by the matrix-free operator, in the free directions.
-Eigen::VectorXd matrix_free(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs, const Eigen::VectorXd& q) {
+Eigen::VectorXd matrix_free(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs,
+                            const Eigen::VectorXd& q) {
   const StaticUnknowns rows(model);
   StaticTangent tangent(model, rows);
   tangent.set_springs(springs, 0);
@@ -29,7 +30,8 @@ Eigen::VectorXd matrix_free(const Model& model, const ModeUnknowns& unknowns, co
   for (int r = 0; r < rows.rows(); ++r) {
     if (rows.follows(r)) continue;
     unknowns.each(r, [&](int first, const ModeUnknowns::Shares& shares) {
-      result.segment(first, shares.cols()) += shares.transpose() * Eigen::Vector3d(force(r, 0), force(r, 1), force(r, 2));
+      result.segment(first, shares.cols()) +=
+          shares.transpose() * Eigen::Vector3d(force(r, 0), force(r, 1), force(r, 2));
     });
   }
   return result;
@@ -64,7 +66,9 @@ scene::Connector connector(const std::string& from, const std::string& to) {
 
 }  // namespace
 
-TEST_CASE("Mode matrix: warped elements, oblique constraints, springs and a point mass as the matrix-free operator has them", "[modes]") {
+TEST_CASE(
+    "Mode matrix: warped elements, oblique constraints, springs and a point mass as the matrix-free operator has them",
+    "[modes]") {
   scene::Scene scene = mode_block({0.3, 0.2, 0.1}, {5, 4, 3}, 0.07);
   scene::PointMass mass = massless("mass", {0.1, 0.1, 0.3});
   mass.mass = 10;

@@ -14,9 +14,9 @@ struct Cantilever {
   double shear_share;                  ///< Cowper's coefficient
   scene::Material material;
 
-  /// Bending moment and shear force of the free end by those of the clamped one have a determinant that vanishes at each
-  /// natural angular frequency. With y = (w, phi, M, V): w' = phi + V/(k G A), phi' = M/(E I), M' = -V - rho I omega^2 phi,
-  /// V' = -rho A omega^2 w.
+  /// Bending moment and shear force of the free end by those of the clamped one have a determinant that vanishes at
+  /// each natural angular frequency. With y = (w, phi, M, V): w' = phi + V/(k G A), phi' = M/(E I), M' = -V - rho I
+  /// omega^2 phi, V' = -rho A omega^2 w.
   double determinant(double omega) const {
     const double inertia = material.density * omega * omega;
     Eigen::Matrix4d a = Eigen::Matrix4d::Zero();

@@ -85,24 +85,10 @@ class Expansion {
   Complaints& complaints_;
 };
 
-/// Viscous hourglass control damps bending waves of long elements, which a hammer test listens to: of 10 m of rail in
-/// elements of 40 x 12 x 5 mm it took nine tenths of the blow's energy.
-void stiffen_tracks(Scene& scene) {
-  for (scene::Part& part : scene.parts) {
-    const bool of_track = std::any_of(scene.tracks.begin(), scene.tracks.end(), [&](const scene::Track& track) {
-      return part.line == track.line && part.name.rfind(track.name + "_", 0) == 0;
-    });
-    if (!of_track) continue;
-    part.hourglass = scene::HourglassType::stiffness;
-    part.hourglass_coefficient = 0.05;
-  }
-}
-
 }  // namespace
 
 void expand_hammers(Scene& scene, Complaints& complaints) {
   Expansion expansion(scene, complaints);
-  if (!scene.hammers.empty()) stiffen_tracks(scene);
   for (const auto& hammer : scene.hammers) expansion.add(hammer);
   for (const auto& probe : scene.probes) expansion.add(probe);
 }

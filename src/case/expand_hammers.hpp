@@ -6,8 +6,7 @@
 namespace railwave::case_file {
 
 /// Adds to the scene the node sets, curves, loads and history sets that its hammers and probes stand for, under the
-/// names that their sections' help tells; with a hammer all that tracks have made gets stiffness hourglass control.
-/// Complains about names that are taken.
+/// names that their sections' help tells. Complains about names that are taken.
 void expand_hammers(scene::Scene& scene, Complaints& complaints);
 
 }  // namespace railwave::case_file

@@ -47,8 +47,7 @@ void add_plate(TrackEntries& entries, const std::string& material, RailSide side
   entries.add(scene.meshes, "meshes", mesh);
   entries.add_part(mesh.name, mesh.name, track.fishplate_material.empty() ? material : track.fishplate_material, track.position);
   // Bolts press on single nodes, and go on doing so: viscous control would give way for ever.
-  scene.parts.back().hourglass = scene::HourglassType::stiffness;
-  scene.parts.back().hourglass_coefficient = 0.05;
+  scene.parts.back().take_hourglass(scene::HourglassType::stiffness);
 
   for (const char* behind : {"", "_2"}) {
     const auto fit = [&](auto one) {

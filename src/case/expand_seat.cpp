@@ -53,8 +53,7 @@ void add_pad(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& 
   scene::Part& part = entries.scene.parts.back();
   part.stiffness_damping = damping;
   // Viscous control would let the layer's inner nodes creep under a lasting load.
-  part.hourglass = scene::HourglassType::stiffness;
-  part.hourglass_coefficient = 0.05;
+  part.take_hourglass(scene::HourglassType::stiffness);
   // The pad lies on the foot; the sleeper's top is level, where a real seat leans with the rail.
   const double rounding = 1e-6, lean = half_foot * std::fabs(entries.track.rail.inclination);
   add_tie(entries, mesh.name + "_foot", mesh.name + ".z_max", seat.rail + ".foot", rounding);

@@ -12,9 +12,8 @@ Section hammer_section() {
                                "Blows on a body. Each becomes a node set `part.NAME`, a load NAME (and a curve NAME, "
                                "unless one is given) shared among the set's nodes by "
                                "their mass, and an entry of `output.history_sets`, so that `railwave frf` knows force "
-                               "and motion where it strikes. In a case with hammers the parts of "
-                               "tracks have stiffness hourglass control, as viscous control would damp the waves; give "
-                               "other parts `hourglass = \"stiffness\"` yourself.");
+                               "and motion where it strikes. Give what is struck, a part or a track, "
+                               "`hourglass = \"stiffness\"`: viscous control damps the waves.");
   section.keys = {
       key("part", &Hammer::part, "what is struck; parts of tracks count").names(whole_part).needed(),
       key("surface", &Hammer::surface, "of the part: only its nodes are struck").otherwise("any node"),

@@ -122,6 +122,8 @@ Section track_section() {
       key("both_rails", &Track::both_rails,
           "whole sleepers on whole beds of ballast, and the other rail too, mirrored at the centre plane: its parts, connectors and so on are `NAME_far_rail`, "
           "`NAME_far_fastening_1` and so on. The middle of each sleeper's underside is held along y, unless the ballast has a lateral stiffness"),
+      key("hourglass", &Track::hourglass, "how hourglass modes of rails and sleepers are resisted; plates and pads have stiffness in any case")
+          .one_of({"viscous", "stiffness"}),
       key("rail_distance", &Track::rail_distance,
           "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y unless the inclination is negative, "
           "or the track mirrored")

@@ -134,8 +134,7 @@ void check_mesh(void* entry, EntryCheck& check) {
 
 void check_part(void* entry, EntryCheck& check) {
   auto& part = *static_cast<scene::Part*>(entry);
-  if (check.given("hourglass_coefficient")) return;
-  part.hourglass_coefficient = part.hourglass == scene::HourglassType::stiffness ? 0.05 : 0.1;
+  if (!check.given("hourglass_coefficient")) part.take_hourglass(part.hourglass);
 }
 
 void check_beam(void* entry, EntryCheck& check) {

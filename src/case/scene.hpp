@@ -77,6 +77,12 @@ struct Part : Place {
   double angle_of_attack = 0;      ///< rad, about z through the mesh's origin, after mirroring
   HourglassType hourglass = HourglassType::viscous;
   double hourglass_coefficient = 0.1;
+
+  /// With the coefficient that goes with a type unless one is given.
+  void take_hourglass(HourglassType type) {
+    hourglass = type;
+    hourglass_coefficient = type == HourglassType::stiffness ? 0.05 : 0.1;
+  }
   double mass_damping = 0;         ///< 1/s: force on a node is that times its mass and velocity, against the velocity
   double stiffness_damping = 0;    ///< s: viscous stress is that times what elasticity makes of the strain's rate
   double linear_bulk_viscosity = 0;     ///< of volumes that shrink, over rho c l times the rate
@@ -312,6 +318,7 @@ struct Track : Place {
   Vec3 position{0, 0, 0};
   bool mirror = false;                        ///< all its parts are mirrored
   bool both_rails = false;                    ///< whole sleepers and the other rail
+  HourglassType hourglass = HourglassType::viscous;  ///< of rails and sleepers
   double rail_distance = 0.755;               ///< m, from the track's centre plane to the middle of the rail's foot
   std::string sleeper = "concrete";
   double pitch = 0.6;                         ///< m

@@ -48,6 +48,7 @@ class TrackEntries {
     part.material = material;
     part.position = position;
     part.mirror = track.mirror;
+    part.take_hourglass(track.hourglass);
     add(scene.parts, "parts", part);
   }
 

@@ -8,6 +8,7 @@ import hammers
 
 TRACK = """
 [tracks.track]
+hourglass = "stiffness"
 start = -1.5
 end = 1.5
 first_sleeper = -1.2

@@ -64,7 +64,10 @@ int run_case(const Arguments& arguments) {
   if (arguments.restart) {
     restart = find_restart(scene.output.file, checkpoint);
     for (const std::string& remark : restart.remarks) std::cout << "restart: " << remark << '\n';
-    if (restart.complete) return done;
+    if (restart.complete) {
+      checkpoint.remove();
+      return done;
+    }
     results.go_on_from(*restart.state);
     keeping.from = &*restart.state;
   }

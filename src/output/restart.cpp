@@ -23,7 +23,7 @@ ResultsThere look_into(const std::string& path) {
     const hdf5::File file = hdf5::File::extend(path);  // mends what a kill left
     const hdf5::Group root = file.root();
     if (!root.has_attribute("run")) throw std::runtime_error("no run of this version of the program wrote it");
-    return {root.text_attribute("run"), root.text_attribute("key"), root.number_attribute("completed") != 0};
+    return {root.text_attribute("run"), root.text_attribute("key"), root.has_attribute("completed") && root.number_attribute("completed") != 0};
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("--restart: the results {} cannot be added to: {}; run the case without --restart, which replaces them", path, error.what()));
   }

@@ -38,7 +38,6 @@ struct Arguments {
   bool markdown = false, schema = false;
   bool restart = false;
   double wall_time = 0;  ///< s; 0: no limit
-  double checkpoint_interval = 300;
 };
 
 volatile std::sig_atomic_t signalled = 0;
@@ -55,11 +54,12 @@ int run_case(const Arguments& arguments) {
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
-  const CheckpointFile checkpoint(default_checkpoint_path(scene.output.file), checkpoint_key(model, RAILWAVE_VERSION));
+  const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
+  check_checkpoint_place(checkpoint.path(), scene.output.file);
   results.keep_checkpoints(checkpoint);
   RunKeeping keeping;
   keeping.checkpoints = &results;
-  keeping.interval = arguments.checkpoint_interval;
+  keeping.interval = scene.checkpoint.interval;
   Restart restart;
   if (arguments.restart) {
     restart = find_restart(scene.output.file, checkpoint);
@@ -176,7 +176,6 @@ int dispatch(int argc, char** argv) {
   run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
   run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4")
       ->check(CLI::PositiveNumber);
-  run_command->add_option("--checkpoint-interval", arguments.checkpoint_interval, "wall seconds between checkpoints; default 300; 0: none")->check(CLI::NonNegativeNumber);
   run_command->callback([&] { code = run_case(arguments); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
   add_case(check_command);

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
+#include "case/error.hpp"
 #include "kernels/patches.hpp"
 #include "model/model.hpp"
 #include "output/hash.hpp"
@@ -138,8 +140,19 @@ std::string checkpoint_key(const Model& model, const std::string& program_versio
   return hash.text();
 }
 
-std::string default_checkpoint_path(const std::string& results_path) {
-  return std::filesystem::path(results_path).replace_extension(".checkpoint.h5").string();
+void check_checkpoint_place(const std::string& path, const std::string& results_path) {
+  const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal(), folder = whole.parent_path();
+  std::error_code ignored;
+  if (whole == std::filesystem::absolute(results_path).lexically_normal())
+    throw InputError(fmt::format("checkpoint.file: {} is the results file; name another file", path));
+  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0)
+    throw InputError(fmt::format("checkpoint.file: {} goes to {}, which is not there or may not be written; make the folder, or name another file", path,
+                                 folder.string()));
+}
+
+std::string checkpoint_path(const scene::Scene& scene) {
+  if (!scene.checkpoint.file.empty()) return scene.checkpoint.file;
+  return std::filesystem::path(scene.output.file).replace_extension(".checkpoint.h5").string();
 }
 
 }  // namespace railwave

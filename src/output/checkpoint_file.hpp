@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "case/scene.hpp"
 #include "solve/run_state.hpp"
 
 namespace railwave {
@@ -41,7 +42,10 @@ class CheckpointFile {
 /// mesh in the solver's order, the program's version.
 std::string checkpoint_key(const Model& model, const std::string& program_version);
 
-/// Where a case's checkpoint lies unless it says so: results.h5 -> results.checkpoint.h5.
-std::string default_checkpoint_path(const std::string& results_path);
+/// Throws InputError unless a checkpoint can be made there: no such folder, not writable, or the results' own place.
+void check_checkpoint_place(const std::string& path, const std::string& results_path);
+
+/// Where a case's checkpoint lies: unless it says so, results.h5 -> results.checkpoint.h5.
+std::string checkpoint_path(const scene::Scene& scene);
 
 }  // namespace railwave

@@ -143,7 +143,9 @@ KINDS = {
     "multiplier": dict(of_contact='algorithm = "multiplier"'),
     "much_else": dict(more=BEAMS + ENDS + PUSHED),
     "symmetric_and_settled": dict(of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'),
-    "subcycling": dict(more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS, of_upper="stiffness_damping = 2e-9", divisions="[40, 5, 3]"),
+    "subcycling": dict(more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS, of_upper="stiffness_damping = 2e-9", end=4e-4,
+                       instead={"divisions = [5, 5, 4]": "divisions = [14, 14, 4]", "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
+                                "divisions = [6, 5, 3]": "divisions = [6, 5, 8]", "0.03001]": "0.08001]"}),
     "mixed": dict(more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8"),
     "float": dict(more='[solver]\nprecision = "float"\n' + BEAMS, of_upper="linear_bulk_viscosity = 0.1"),
     "float_multiplier": dict(more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'),
@@ -151,9 +153,12 @@ KINDS = {
 }
 
 
-def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, divisions=None):
+def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, instead=()):
     text = BLOCKS.format(of_contact=of_contact, of_upper=of_upper, upper=upper, end=end, field_interval=field_interval) + more
-    return text.replace("divisions = [6, 5, 3]", f"divisions = {divisions}") if divisions else text
+    for old in instead:
+        assert old in text
+        text = text.replace(old, instead[old])
+    return text
 
 
 def arrays(path):
@@ -184,7 +189,7 @@ class Folder(unittest.TestCase):
 
     def stop(self, number=signal.SIGTERM):
         """Runs until a checkpoint is there, then sends the signal. False: the run ended before."""
-        run = self.start("--checkpoint-interval", "0.02")
+        run = self.start("--set", "checkpoint.interval=0.02")
         while not self.checkpoint.exists() and run.poll() is None:
             time.sleep(0.002)
         run.send_signal(number)
@@ -208,7 +213,11 @@ class RestartedRuns(Folder):
 def add_kind(name, options):
     def test(self):
         self.write(case(**options))
-        self.run_to_end()
+        said = self.run_to_end()
+        if name == "subcycling":
+            self.assertIn("times fewer element updates", said)
+        if name == "global_step":
+            self.assertRegex(said, "steps between .* renewed [1-9]")
         whole = self.folder / "whole.h5"
         shutil.move(self.results, whole)
         shutil.move(self.results.with_suffix(".xdmf"), whole.with_suffix(".xdmf"))
@@ -291,11 +300,15 @@ class WhatCannotBeTakenUp(Folder):
         said = self.run_to_end("--restart", "--wall-time", "1", code=4)
         self.assertIn(f"step {step}, t =", said)
 
+    def test_no_place_for_checkpoints(self):
+        self.assertIn("checkpoint.file: nowhere/a.h5 goes to", self.run_to_end("--set", "checkpoint.file=nowhere/a.h5", code=2))
+        self.assertIn("is the results file", self.run_to_end("--set", "checkpoint.file=results.h5", code=2))
+
     def test_checkpoint_that_cannot_be_written(self):
         """The run goes on and says so."""
         (self.folder / "results.checkpoint.h5.new").mkdir()
         (self.folder / "results.checkpoint.h5.new" / "in the way").touch()
-        said = self.run_to_end("--checkpoint-interval", "0.02")
+        said = self.run_to_end("--set", "checkpoint.interval=0.02")
         self.assertIn("warning: a checkpoint could not be written", said)
         self.assertIn("completed\n", said)
 

@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <iostream>
 
@@ -11,6 +13,7 @@
 #include "modes/modes_command.hpp"
 #include "output/model_file.hpp"
 #include "output/progress.hpp"
+#include "output/restart.hpp"
 #include "output/results_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/settled_file.hpp"
@@ -22,7 +25,7 @@ namespace railwave {
 namespace {
 
 /// Exit codes, as the README tells them.
-enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, interrupted = 130 };
+enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, out_of_time = 4, interrupted = 130 };
 
 struct Arguments {
   std::string case_file, topic;
@@ -34,6 +37,8 @@ struct Arguments {
   ModesRequest modes;
   std::string mesh_file = "mesh.h5";
   bool markdown = false, schema = false;
+  bool restart = false;
+  double wall_time = 0;  ///< s; 0: no limit
 };
 
 volatile std::sig_atomic_t signalled = 0;
@@ -44,17 +49,38 @@ void on_signal(int) {
 }
 
 int run_case(const Arguments& arguments) {
+  const auto began = std::chrono::steady_clock::now();
   const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
   const Kokkos::ScopeGuard kokkos;
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
+  const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
+  check_checkpoint_place(checkpoint.path(), scene.output.file);
+  results.keep_checkpoints(checkpoint);
+  RunKeeping keeping;
+  keeping.checkpoints = &results;
+  keeping.interval = scene.checkpoint.interval;
+  Restart restart;
+  if (arguments.restart) {
+    restart = find_restart(scene.output.file, checkpoint);
+    for (const std::string& remark : restart.remarks) std::cout << "restart: " << remark << '\n';
+    if (restart.complete) {
+      checkpoint.remove();
+      return done;
+    }
+    results.go_on_from(*restart.state);
+    keeping.from = &*restart.state;
+  }
   Progress progress(std::cout);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   SettledFiles settled(RAILWAVE_VERSION);
-  const RunSummary summary = run(model, {&results, &progress}, &settled);
+  if (arguments.wall_time > 0)
+    keeping.time_left = std::max(1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
   if (summary.completed) return done;
+  if (summary.out_of_time) return out_of_time;
   return signalled != 0 ? interrupted : run_ended_early;
 }
 
@@ -131,6 +157,9 @@ int dispatch(int argc, char** argv) {
   };
   CLI::App* run_command = app.add_subcommand("run", "run a case and write its results");
   add_case(run_command);
+  run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
+  run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4")
+      ->check(CLI::PositiveNumber);
   run_command->callback([&] { code = run_case(arguments); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
   add_case(check_command);

@@ -23,6 +23,7 @@ std::vector<std::string> key_names(const Section& section, const std::string& ty
 Section title_keys();  // keys_run.cpp
 Section settle_section();
 Section time_section();
+Section checkpoint_section();
 Section solver_section();
 Section output_section();
 

@@ -56,6 +56,22 @@ Section time_section() {
   return section;
 }
 
+Section checkpoint_section() {
+  using scene::Checkpoint;
+  auto section = single_section("checkpoint", &Scene::checkpoint,
+                                "What is kept of a run so that `railwave run CASE --restart` goes on where it was stopped or killed; without this "
+                                "section too.");
+  section.keys = {
+      key("interval", &Checkpoint::interval,
+          "between checkpoints, by the clock on the wall; 0 is none but the one where the run is stopped from outside or its `--wall-time` is spent")
+          .in("s")
+          .within(at_least(0)),
+      key("file", &Checkpoint::file, "checkpoint file (HDF5), relative to the folder in which the program runs; the one before it is kept as `FILE.previous`")
+          .otherwise("beside the results: results.checkpoint.h5"),
+  };
+  return section;
+}
+
 Section solver_section() {
   using scene::Solver;
   auto section = single_section("solver", &Scene::solver, "How the time loop computes: its numbers and its steps.");

@@ -268,6 +268,12 @@ enum class Precision { double_precision, mixed, single_precision };
 
 enum class StepEstimate { element, eigenvalue, global };
 
+/// What is kept of a run so that it can be taken up again.
+struct Checkpoint {
+  double interval = 300;           ///< wall seconds; 0: none but where the run is stopped
+  std::string file;                ///< empty: beside the results
+};
+
 /// How the time loop computes; what it computes is the other sections' matter.
 struct Solver {
   Precision precision = Precision::double_precision;  ///< mixed: elements in single, nodes in double; single: both in single
@@ -370,6 +376,7 @@ struct Scene {
   std::vector<Tie> ties;
   Vec3 gravity{0, 0, 0};           ///< m/s2
   Settle settle;
+  Checkpoint checkpoint;
   Time time;
   Solver solver;
   Output output;

@@ -1,5 +1,7 @@
 #include "output/background_writer.hpp"
 
+#include <exception>
+
 namespace railwave {
 namespace {
 
@@ -9,8 +11,8 @@ constexpr std::size_t size_of_history = 1, size_of_fields = 4096, room = 3 * siz
 
 }  // namespace
 
-BackgroundWriter::BackgroundWriter(std::string path, RunDescription description)
-    : writer_(std::move(path), std::move(description)), thread_(room) {
+BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far)
+    : writer_(std::move(path), std::move(description), so_far), thread_(room) {
   thread_.add(hdf5::be_quiet);
 }
 
@@ -25,6 +27,24 @@ void BackgroundWriter::fields(const FieldSource& source, double time, long step)
   }
   const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection_);
   thread_.add([this, snapshot, time, step] { writer_.fields(*snapshot, time, step); }, size_of_fields);
+}
+
+void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {
+  const auto kept = std::make_shared<const RunState>(std::move(state));
+  thread_.add(
+      [this, kept, file] {
+        try {
+          writer_.checkpoint(*kept, file);
+        } catch (const std::exception& error) {
+          trouble_ = std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();
+        }
+      },
+      size_of_fields);
+}
+
+std::string BackgroundWriter::checkpoint_trouble() {
+  thread_.finish();
+  return trouble_;
 }
 
 void BackgroundWriter::end(const RunSummary& summary) {

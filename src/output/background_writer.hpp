@@ -18,12 +18,18 @@ namespace railwave {
 class BackgroundWriter {
  public:
   /// Throws at once what the ResultsWriter's constructor throws.
-  BackgroundWriter(std::string path, RunDescription description);
+  BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
 
   void history(const HistorySample& sample);
 
   /// Fetches from `source` before it returns.
   void fields(const FieldSource& source, double time, long step);
+
+  /// Writes the state after what was given before. What goes wrong with it stops nothing: see checkpoint_trouble().
+  void checkpoint(RunState state, const CheckpointFile& file);
+
+  /// Waits for all that was given; what went wrong with checkpoints, empty: nothing.
+  std::string checkpoint_trouble();
 
   /// Returns when all is on the disk.
   void end(const RunSummary& summary);
@@ -31,6 +37,7 @@ class BackgroundWriter {
  private:
   std::shared_ptr<const FieldSelection> selection_;  ///< made with the first output of fields
   ResultsWriter writer_;                             ///< the thread's
+  std::string trouble_;                              ///< the thread's, until that has finished
   TaskThread thread_;                                // last: ends before the writer goes
 };
 

@@ -1,8 +1,16 @@
 #include "output/hdf5.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <memory>
 #include <stdexcept>
 #include <type_traits>
 
@@ -131,12 +139,13 @@ std::vector<T> Dataset::read_row(hsize_t row) const {
 }
 
 Group Group::create_group(const std::string& name) const {
+  if (extends_ && has(name)) return group(name);
   const hid_t id = H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/"};
+  return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
 }
 
 Group Group::group(const std::string& name) const {
-  return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose), name_ + name + "/"};
+  return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
 }
 
 Dataset Group::dataset(const std::string& name) const {
@@ -159,6 +168,13 @@ template <class T>
 Dataset Group::create_growing(const std::string& name, const Shape& row, const Storage& storage) const {
   constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
   const std::string what = "making " + name_ + name;
+  if (extends_ && has(name)) {
+    Dataset there = dataset(name);
+    Shape found = there.shape();
+    if (found.empty() || !std::equal(found.begin() + 1, found.end(), row.begin(), row.end()))
+      throw std::runtime_error("extending " + name_ + name + ": it is there with another shape");
+    return there;
+  }
   Shape extent{0}, limit{H5S_UNLIMITED}, chunk{storage.rows_in_chunk};
   for (const hsize_t length : row) {
     extent.push_back(length);
@@ -190,15 +206,56 @@ template <class T>
 void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape) const {
   const std::string what = "writing " + name_ + name;
   if (values.size() != count_of(shape)) throw std::logic_error(what + ": the number of values is not that of the shape");
+  if (extends_ && has(name)) {
+    if (dataset(name).shape() != shape) throw std::runtime_error(what + ": it is there with another shape");
+    return;
+  }
   const Handle space = space_of(shape);
   const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   const Handle dataset(check(id, what), H5Dclose);
   if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
 }
 
+template <class Do>
+void Group::each_growing(const Do& one) const {
+  for (const std::string& name : names()) {
+    const Handle id(check(H5Oopen(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Oclose);
+    const H5I_type_t type = H5Iget_type(id.get());
+    if (type == H5I_GROUP) group(name).each_growing(one);
+    if (type != H5I_DATASET) continue;
+    const Handle space = file_space(id.get(), name_ + name);
+    Shape extent(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_ + name)), most = extent;
+    if (extent.empty()) continue;
+    check(H5Sget_simple_extent_dims(space.get(), extent.data(), most.data()), "asking for the shape of " + name_ + name);
+    if (most[0] == H5S_UNLIMITED) one(id.get(), extent, name_ + name);
+  }
+}
+
+std::optional<hsize_t> Group::least_entries() const {
+  std::optional<hsize_t> least;
+  each_growing([&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); });
+  return least;
+}
+
+void Group::cut(hsize_t entries) const {
+  each_growing([&](hid_t id, Shape extent, const std::string& name) {
+    if (extent[0] == entries) return;
+    if (extent[0] < entries) throw std::runtime_error("cutting " + name + ": it has fewer entries");
+    extent[0] = entries;
+    check(H5Dset_extent(id, extent.data()), "cutting " + name);
+  });
+}
+
 Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) const {
   const std::string what = "writing attribute " + name + " of " + name_;
-  if (check(H5Aexists(id_.get(), name.c_str()), what) > 0) check(H5Adelete(id_.get(), name.c_str()), what);
+  if (check(H5Aexists(id_.get(), name.c_str()), what) > 0) {
+    Handle there(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
+    const Handle its_type(check(H5Aget_type(there.get()), what), H5Tclose), its_space(check(H5Aget_space(there.get()), what), H5Sclose);
+    // In its place, so that a kill in the middle of a flush does not find it taken away and not yet put back.
+    if (H5Tequal(its_type.get(), type) > 0 && H5Sextent_equal(its_space.get(), space) > 0) return there;
+    there.close();
+    check(H5Adelete(id_.get(), name.c_str()), what);
+  }
   return {check(H5Acreate2(id_.get(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose};
 }
 
@@ -257,11 +314,11 @@ std::string Group::text_attribute(const std::string& name) const {
   return value;
 }
 
-File File::create(const std::string& path) {
-  stay_out_of_exit();
-  be_quiet();
-  const std::string what = "making results file " + path;
-  const Handle access(check(H5Pcreate(H5P_FILE_ACCESS), what), H5Pclose);
+namespace {
+
+/// Between two flushes only array data reach the disk.
+Handle access_without_eviction(const std::string& what) {
+  Handle access(check(H5Pcreate(H5P_FILE_ACCESS), what), H5Pclose);
   H5AC_cache_config_t cache;
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   check(H5Pget_mdc_config(access.get(), &cache), what);
@@ -270,6 +327,40 @@ File File::create(const std::string& path) {
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
   check(H5Pset_mdc_config(access.get(), &cache), what);
+  return access;
+}
+
+/// A killed program may have left a file that is shorter or longer than its superblock says: HDF5 refuses the one, and what
+/// its structure says of the other's end is out of reach. The superblock of version 0 says it in eight bytes.
+void mend_length(const std::string& path) {
+  constexpr unsigned char begins[9] = {0x89, 'H', 'D', 'F', 13, 10, 0x1a, 10, 0};
+  constexpr long place_of_length = 40;
+  const auto fail = [&] { throw std::runtime_error("mending " + path + ": " + std::strerror(errno)); };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r+b"), std::fclose);
+  if (!file) fail();
+  unsigned char head[place_of_length + 8];
+  if (std::fread(head, 1, sizeof head, file.get()) != sizeof head || std::memcmp(head, begins, sizeof begins) != 0 || head[13] != 8) return;
+  std::uint64_t said = 0;
+  for (int k = 7; k >= 0; --k) said = said << 8 | head[place_of_length + k];
+  if (std::fseek(file.get(), 0, SEEK_END) != 0) fail();
+  const auto length = static_cast<std::uint64_t>(std::ftell(file.get()));
+  if (length == said) return;
+  if (length < said) {
+    if (said - length > (std::uint64_t{1} << 32) || truncate(path.c_str(), static_cast<off_t>(said)) != 0) fail();
+    return;
+  }
+  unsigned char bytes[8];
+  for (int k = 0; k < 8; ++k) bytes[k] = static_cast<unsigned char>(length >> 8 * k);
+  if (std::fseek(file.get(), place_of_length, SEEK_SET) != 0 || std::fwrite(bytes, 1, 8, file.get()) != 8 || std::fflush(file.get()) != 0) fail();
+}
+
+}  // namespace
+
+File File::create(const std::string& path) {
+  stay_out_of_exit();
+  be_quiet();
+  const std::string what = "making results file " + path;
+  const Handle access = access_without_eviction(what);
   return {Handle(check(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose), path};
 }
 
@@ -279,7 +370,16 @@ File File::open(const std::string& path) {
   return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening " + path), H5Fclose), path};
 }
 
-Group File::root() const { return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/"}; }
+File File::extend(const std::string& path) {
+  stay_out_of_exit();
+  be_quiet();
+  mend_length(path);
+  const std::string what = "opening " + path;
+  const Handle access = access_without_eviction(what);
+  return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), what), H5Fclose), path, true};
+}
+
+Group File::root() const { return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_}; }
 
 void File::flush() const { check(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL), "writing " + path_); }
 
@@ -287,6 +387,14 @@ void File::close() {
   if (!is_open()) return;
   flush();
   id_.close();
+}
+
+void bring_to_disk(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool done = file >= 0 && fsync(file) == 0;
+  const std::string reason = std::strerror(errno);
+  if (file >= 0) close(file);
+  if (!done) throw std::runtime_error("writing " + path + ": " + reason);
 }
 
 #define RAILWAVE_FOR_TYPE(T)                                                                          \

@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -68,7 +69,7 @@ struct Storage {
 class Group {
  public:
   Group() = default;
-  Group(Handle id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
+  Group(Handle id, std::string name, bool extends = false) : id_(std::move(id)), name_(std::move(name)), extends_(extends) {}
 
   Group create_group(const std::string& name) const;
   Group group(const std::string& name) const;
@@ -80,9 +81,15 @@ class Group {
   template <class T>
   Dataset create_growing(const std::string& name, const Shape& row, const Storage& storage) const;
 
+  /// In a file opened by File::extend() these take what is there; throw if that is of another shape.
   /// Dataset of fixed shape, written at once.
   template <class T>
   void write(const std::string& name, const std::vector<T>& values, const Shape& shape) const;
+
+  /// Entries of the growing dataset with the fewest in this group and those below; none: there is none.
+  std::optional<hsize_t> least_entries() const;
+  /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer.
+  void cut(hsize_t entries) const;
 
   void set_attribute(const std::string& name, double value) const;
   void set_attribute(const std::string& name, long value) const;
@@ -96,8 +103,11 @@ class Group {
 
  private:
   Handle new_attribute(const std::string& name, hid_t type, hid_t space) const;
+  template <class Do>
+  void each_growing(const Do& one) const;
   Handle id_;
   std::string name_;
+  bool extends_ = false;  ///< takes what is there
 };
 
 class File {
@@ -109,6 +119,10 @@ class File {
   static File create(const std::string& path);
   static File open(const std::string& path);  ///< for reading
 
+  /// For adding to what is there, as if it had just been made: groups and datasets that exist are taken. A file that a killed
+  /// program left open is mended first: its length is made to agree with what it says of it.
+  static File extend(const std::string& path);
+
   bool is_open() const { return id_.get() >= 0; }
   Group root() const;
   void flush() const;
@@ -117,9 +131,13 @@ class File {
   void close();
 
  private:
-  File(Handle id, std::string path) : id_(std::move(id)), path_(std::move(path)) {}
+  File(Handle id, std::string path, bool extends = false) : id_(std::move(id)), path_(std::move(path)), extends_(extends) {}
   Handle id_;
   std::string path_;
+  bool extends_ = false;
 };
+
+/// Has the disk hold what was written of a file, or of a folder's list of names; throws if it refuses.
+void bring_to_disk(const std::string& path);
 
 }  // namespace railwave::hdf5

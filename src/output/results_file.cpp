@@ -103,7 +103,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
   for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
-  writer_ = std::make_unique<BackgroundWriter>(path_, description_);
+  writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_);
 }
 
 void ResultsFile::history(const Model&, const HistorySample& sample) { writer_->history(sample); }
@@ -115,6 +115,18 @@ void ResultsFile::fields(const Model& model, const HistorySample& sample) {
 void ResultsFile::end(const Model&, const RunSummary& summary) {
   writer_->end(summary);
   writer_.reset();
+  if (checkpoint_ && summary.completed) checkpoint_->remove();
 }
+
+void ResultsFile::keep_checkpoints(CheckpointFile file) {
+  description_.key = file.key();
+  checkpoint_ = std::move(file);
+}
+
+void ResultsFile::keep(RunState state) {
+  if (checkpoint_) writer_->checkpoint(std::move(state), *checkpoint_);
+}
+
+std::string ResultsFile::trouble() { return writer_->checkpoint_trouble(); }
 
 }  // namespace railwave

@@ -10,18 +10,28 @@ namespace railwave {
 
 /// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop waits
 /// for the device's copies only. What the disk refuses it throws at the loop's next output, at the latest at the end.
-class ResultsFile : public RunObserver {
+class ResultsFile : public RunObserver, public Checkpoints {
  public:
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
   /// file can be made: to be made before the run's long preparations.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
+  /// Before the run begins: where its states are kept. When the run is complete they are taken away.
+  void keep_checkpoints(CheckpointFile file);
+
+  /// Before the run begins: it goes on from a state that find_restart() found, and so does the file.
+  void go_on_from(const RunState& state) { so_far_ = {state.history_rows, state.field_outputs}; }
+
   void begin(const Model& model) override;
   void history(const Model& model, const HistorySample& sample) override;
   void fields(const Model& model, const HistorySample& sample) override;
   void end(const Model& model, const RunSummary& summary) override;
+  void keep(RunState state) override;
+  std::string trouble() override;
 
  private:
+  std::optional<CheckpointFile> checkpoint_;
+  std::optional<ResultsSoFar> so_far_;
   std::string path_;
   RunDescription description_;
   std::unique_ptr<BackgroundWriter> writer_;

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <random>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -40,6 +41,12 @@ bool another_run_writes(const std::string& path) {
   return locked;
 }
 
+/// So that a checkpoint is not taken for one of another run of the same case.
+std::string own_name() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
 bool any_beam(const std::vector<OutputSet>& sets) {
   return std::any_of(sets.begin(), sets.end(), [](const OutputSet& set) { return set.is_beam(); });
 }
@@ -64,12 +71,27 @@ std::string xdmf_path(const std::string& results_path) {
   return std::filesystem::path(results_path).replace_extension(".xdmf").string();
 }
 
-ResultsWriter::ResultsWriter(std::string path, RunDescription description)
+ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far)
     : path_(std::move(path)),
       description_(std::move(description)),
       xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields),
       last_flush_(std::chrono::steady_clock::now()) {
   check_results_place(path_);
+  if (so_far) extend_file(*so_far);
+  else create_file();
+  const hdf5::Group root = file_.root();
+  root.set_attribute("completed", 0L);
+  root.set_attribute("reason", "the run has not ended, or was killed");
+  std::vector<std::string> contact_names;
+  for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
+  history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets, description_.beams,
+                                               description_.history_positions, description_.loads, description_.history_askers);
+  root.create_group("fields");
+  if (any_beam(description_.sets)) root.create_group("beams");
+  root.create_group("contact");
+}
+
+void ResultsWriter::create_file() {
   file_ = hdf5::File::create(path_ + ".new");
   const hdf5::Group root = file_.root();
   root.set_attribute("format", "Railwave results");
@@ -83,15 +105,27 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description)
   root.set_attribute("element_count", description_.element_count);
   root.set_attribute("step_size", description_.step_size);
   root.set_attribute("end_time", description_.end_time);
-  root.set_attribute("completed", 0L);
-  root.set_attribute("reason", "the run has not ended, or was killed");
-  std::vector<std::string> contact_names;
-  for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
-  history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets, description_.beams,
-                                               description_.history_positions, description_.loads, description_.history_askers);
-  root.create_group("fields");
-  if (any_beam(description_.sets)) root.create_group("beams");
-  root.create_group("contact");
+  root.set_attribute("run", run_ = own_name());
+  root.set_attribute("key", description_.key);
+}
+
+void ResultsWriter::extend_file(const ResultsSoFar& so_far) {
+  file_ = hdf5::File::extend(path_);
+  const hdf5::Group root = file_.root();
+  run_ = root.text_attribute("run");
+  const auto leave = [&](const char* name, long entries) {
+    if (!root.has(name)) return;
+    const hdf5::Group group = root.group(name);
+    const auto there = group.least_entries();
+    if (there && *there < static_cast<hsize_t>(entries))
+      throw std::runtime_error(fmt::format("{} has {} entries in /{}, the checkpoint counts {}: it is not whole", path_, *there, name, entries));
+    group.cut(static_cast<hsize_t>(entries));
+  };
+  leave("history", so_far.history_rows);
+  for (const char* name : {"fields", "beams", "contact"}) leave(name, so_far.field_outputs);
+  outputs_ = static_cast<std::size_t>(so_far.field_outputs);
+  holds_data_ = in_place_ = true;
+  root.set_attribute("restarts", root.has_attribute("restarts") ? static_cast<long>(root.number_attribute("restarts")) + 1 : 1L);
 }
 
 ResultsWriter::~ResultsWriter() {
@@ -118,10 +152,19 @@ void ResultsWriter::create_sections(const FieldSource& source) {
     for (const bool slave : {true, false})
       contact_sides_.push_back({names.name, slave, section.node_count(slave), section.facet_count(slave)});
   }
+  has_sections_ = true;
+  if (outputs_ > 0) tell_earlier_times();
+}
+
+void ResultsWriter::tell_earlier_times() {
+  if (description_.sets.empty() && contact_sides_.empty()) return;
+  const std::string group = description_.sets.empty() ? "/contact/" + contact_sides_.front().contact : description_.sets.front().group();
+  const auto times = file_.root().dataset(group + "/time").read<double>();
+  for (std::size_t k = 0; k < outputs_; ++k) xdmf_.add(times.at(k), k, description_.sets, contact_sides_);
 }
 
 void ResultsWriter::fields(const FieldSource& source, double time, long step) {
-  if (outputs_ == 0) create_sections(source);
+  if (!has_sections_) create_sections(source);
   for (FieldSection& section : field_sections_) section.add_values(source, step);
   for (ContactSection& section : contact_sections_) section.add_values(source, step);
   flush(time);
@@ -146,6 +189,12 @@ void ResultsWriter::flush(std::optional<double> time) {
     in_place_ = true;
   }
   last_flush_ = std::chrono::steady_clock::now();
+}
+
+void ResultsWriter::checkpoint(const RunState& state, const CheckpointFile& file) {
+  flush();
+  hdf5::bring_to_disk(path_);
+  file.write(state, run_);
 }
 
 void ResultsWriter::end(const RunSummary& summary) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "output/checkpoint_file.hpp"
 #include "output/contact_section.hpp"
 #include "output/field_section.hpp"
 #include "output/history_section.hpp"
@@ -36,6 +37,12 @@ struct RunDescription {
   std::vector<LoadNames> loads;
   std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress, plastic_strain
   std::vector<OutputSet> sets;
+  std::string key;                         ///< checkpoint_key(); empty: not known
+};
+
+/// How much of a results file is there already where a run goes on.
+struct ResultsSoFar {
+  long history_rows = 0, field_outputs = 0;
 };
 
 /// Writes results.h5 and its companion results.xdmf (docs/results-file.md says what is in them). Knows plain data only,
@@ -47,7 +54,9 @@ struct RunDescription {
 class ResultsWriter {
  public:
   /// Throws InputError where check_results_place() does.
-  ResultsWriter(std::string path, RunDescription description);
+  /// @param so_far the file is there and is added to, after all that lies beyond has been cut off; throws std::runtime_error
+  /// where it holds less or has other sections
+  ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
   ~ResultsWriter();  ///< removes PATH.new if it never held any data
@@ -56,11 +65,17 @@ class ResultsWriter {
   void fields(const FieldSource& source, double time, long step);
   void end(const RunSummary& summary);
 
+  /// Brings all results so far to the disk, then the state.
+  void checkpoint(const RunState& state, const CheckpointFile& file);
+
   /// Never changes, so any thread may read it.
   const RunDescription& description() const { return description_; }
 
  private:
+  void create_file();
+  void extend_file(const ResultsSoFar& so_far);
   void create_sections(const FieldSource& source);
+  void tell_earlier_times();
 
   /// Writes the waiting history and brings everything to the disk. `time` is that of the fields added since the last
   /// flush, if any. Times go last, by a flush of their own: a killed run may leave half an entry, but then not its time.
@@ -75,6 +90,8 @@ class ResultsWriter {
   std::vector<XdmfContactSide> contact_sides_;
   XdmfFile xdmf_;
   std::size_t outputs_ = 0;
+  bool has_sections_ = false;
+  std::string run_;        ///< a name of this run's own
   bool holds_data_ = false;
   bool in_place_ = false;  ///< whether the file has taken its own name
   std::chrono::steady_clock::time_point last_flush_;

@@ -3,40 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include "kernels/patches.hpp"
+#include "output/hash.hpp"
 #include "output/hdf5.hpp"
 
 namespace railwave {
 namespace {
-
-/// FNV-1a.
-class Hash {
- public:
-  void add(const void* bytes, std::size_t count) {
-    const auto* byte = static_cast<const unsigned char*>(bytes);
-    for (std::size_t i = 0; i < count; ++i) value_ = (value_ ^ byte[i]) * 0x100000001b3u;
-  }
-  void add(const std::string& text) {
-    add(text.data(), text.size());
-    add("", 1);
-  }
-  template <class T>
-  void add(const std::vector<T>& values) {
-    const std::uint64_t count = values.size();
-    add(&count, sizeof count);
-    add(values.data(), values.size() * sizeof(T));
-  }
-  std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
 
 /// visit(name, vector) for every array of a state, in fixed order.
 template <class State, class Visit>

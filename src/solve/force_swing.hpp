@@ -16,6 +16,13 @@ class ForceSwing {
 
   void add(double time, const Vec3& normal_force);
 
+  /// See StateTaker.
+  template <class Archive>
+  void archive(Archive& archive, const std::string& name) {
+    archive.values(name + "_time", time_);
+    archive.values(name + "_force", force_);
+  }
+
   /// Half of what lies between the largest and the smallest force from `from` to `to` of the run, over the static value.
   double swing(double from, double to) const;
   /// s, from when on the force stays within `quiet` of the static value; infinite: it doesn't.

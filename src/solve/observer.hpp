@@ -68,6 +68,10 @@ struct HistorySample {
 struct RunSummary {
   bool completed = false;
   std::string reason;                    ///< when not completed: interrupted, or what went wrong
+  bool out_of_time = false;              ///< it ended because its wall-time budget was spent
+  int checkpoints = 0;                   ///< written
+  double checkpoint_seconds = 0;         ///< s, the loop waited for these in all
+  long first_step = 0;                   ///< at which this process took the run up; 0 unless restarted
   double time = 0;
   long steps = 0;
   double step_size = 0;                  ///< s, the last one

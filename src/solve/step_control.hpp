@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "model/model.hpp"
 
 namespace railwave {
@@ -22,6 +24,17 @@ class StepControl {
   int renewals() const { return renewals_; }
   double smallest() const { return smallest_; }
   double largest() const { return largest_; }
+
+  /// See StateTaker.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive.value("control_begin_time", begin_time_);
+    archive.value("control_begin_step", begin_step_);
+    archive.value("control_renewed_at", renewed_at_);
+    archive.value("control_renewals", renewals_);
+    archive.value("control_smallest", smallest_);
+    archive.value("control_largest", largest_);
+  }
 
  private:
   bool due() const;
@@ -46,6 +59,13 @@ class EverySoOften {
   bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
   /// From `step` on; what is due at that very step stays due.
   void step_changed(long step, double old_size, double new_size);
+
+  /// See StateTaker.
+  template <class Archive>
+  void archive(Archive& archive, const std::string& name) {
+    archive.value(name + "_every", every_);
+    archive.value(name + "_next", next_);
+  }
 
  private:
   double interval_;

@@ -47,6 +47,12 @@ class Schedule {
     fields_.step_changed(model_.step, from, model_.step_size);
   }
 
+  template <class Archive>
+  void archive(Archive& archive) {
+    history_.archive(archive, "history_due");
+    fields_.archive(archive, "fields_due");
+  }
+
  private:
   const Model& model_;
   EverySoOften history_, fields_;
@@ -76,30 +82,96 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
   return in_equilibrium;
 }
 
+/// What the loop itself remembers from one step to the next.
+struct LoopMemory {
+  StepControl control;
+  Schedule due;
+  std::vector<ForceSwing> swings;
+  double total_at_start = 0;
+  long history_rows = 0, field_outputs = 0;
+  double elapsed = 0;  ///< s, of the step before
+
+  template <class Archive>
+  void archive(Archive& archive) {
+    control.archive(archive);
+    due.archive(archive);
+    std::size_t count = swings.size();
+    archive.value("swings", count);
+    swings.resize(count);
+    for (std::size_t c = 0; c < count; ++c) swings[c].archive(archive, fmt::format("swing_{}", c));
+    archive.value("total_at_start", total_at_start);
+    archive.value("history_rows", history_rows);
+    archive.value("field_outputs", field_outputs);
+    archive.value("elapsed", elapsed);
+  }
+};
+
+/// When states are kept and when the wall time is spent.
+class Keeper {
+ public:
+  explicit Keeper(const RunKeeping& keeping) : keeping_(keeping), began_(Clock::now()), last_(began_) {}
+
+  bool out_of_time() const { return keeping_.time_left > 0 && seconds_since(began_) >= keeping_.time_left; }
+  bool due() const { return keeping_.checkpoints && keeping_.interval > 0 && seconds_since(last_) >= keeping_.interval; }
+
+  void keep(Model& model, LoopMemory& memory, RunSummary& summary) {
+    if (!keeping_.checkpoints) return;
+    const auto from = Clock::now();
+    RunState state;
+    take_model_state(model, state);
+    StateTaker taker(state);
+    memory.archive(taker);
+    state.history_rows = memory.history_rows;
+    state.field_outputs = memory.field_outputs;
+    keeping_.checkpoints->keep(std::move(state));
+    ++summary.checkpoints;
+    last_ = Clock::now();
+    summary.checkpoint_seconds += std::chrono::duration<double>(last_ - from).count();
+  }
+
+ private:
+  const RunKeeping& keeping_;
+  Clock::time_point began_, last_;
+};
+
 }  // namespace
 
 void request_stop() { stop_requested = 1; }
 
-RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
+RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping) {
+  Keeper keeper(keeping);
   for (RunObserver* observer : observers) observer->begin(model);
-  const bool in_equilibrium = prepare(model, observers, settled);
+  const bool in_equilibrium = keeping.from || prepare(model, observers, settled);
+  const bool prepared = stop_requested == 0;
 
-  StepControl control(model);
-  Schedule due(model);
+  LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size())};
+  auto& [control, due, swings, total_at_start, history_rows, field_outputs, elapsed] = memory;
   const auto stages = force_stages(model);
-  std::vector<ForceSwing> swings(in_equilibrium ? 0 : model.scene.contacts.size());
+  if (keeping.from) {
+    lay_model_state(model, *keeping.from);
+    StateLayer layer(*keeping.from);
+    memory.archive(layer);
+  }
   RunSummary summary;
   summary.left_out = model.left_out;
-  double total_at_start = 0;
+  summary.first_step = model.step;
   const auto began = Clock::now();
 
   Instant instant;
+  instant.elapsed = elapsed;
   while (true) {
+    bool stopping = false;
+    if (model.subcycling.in_phase(model.step)) {
+      summary.out_of_time = keeper.out_of_time();
+      stopping = summary.out_of_time || stop_requested != 0;
+      // A scene that was stopped while it settled has nothing to go on from.
+      const bool worth_it = prepared && model.step > summary.first_step && !due.last();
+      if (worth_it && (stopping || keeper.due())) keeper.keep(model, memory, summary);
+    }
     instant.time = model.time = control.time();
     const double step_before = model.step_size;
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
-    const bool stopping = stop_requested != 0 && model.subcycling.in_phase(model.step);
     const bool looked_at = due.history() || due.fields() || due.check() || stopping;
     instant.advancing = !looked_at;
     for (const Stage& stage : stages) stage.run(instant);
@@ -116,14 +188,17 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
         observer->progress(model, sample);
       }
       if (!summary.reason.empty()) break;
+      if (due.history()) ++history_rows;
+      if (due.fields()) ++field_outputs;
     }
     if (due.last()) break;
     if (stopping) {
-      summary.reason = fmt::format("interrupted at step {} of {}, t = {:.6g} s", model.step, model.step_count, model.time);
+      summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s", summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
+                                   model.step_count, model.time);
       break;
     }
     advance(model, model.step_size);
-    instant.elapsed = model.step_size;
+    instant.elapsed = elapsed = model.step_size;
   }
 
   summary.step_size = model.step_size;
@@ -133,6 +208,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
   summary.warnings = late_contacts(model);
+  if (keeping.checkpoints)
+    if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)
@@ -141,7 +218,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.time = model.time;
   summary.steps = model.step;
   summary.wall_seconds = seconds_since(began);
-  const double updates = static_cast<double>(model.element_count()) * static_cast<double>(model.step) / model.subcycling.gain();
+  const double updates = static_cast<double>(model.element_count()) * static_cast<double>(model.step - summary.first_step) / model.subcycling.gain();
   summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
   for (RunObserver* observer : observers) observer->end(model, summary);
   return summary;

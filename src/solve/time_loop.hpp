@@ -4,14 +4,24 @@
 
 #include "model/model.hpp"
 #include "solve/observer.hpp"
+#include "solve/run_state.hpp"
 #include "solve/static_state.hpp"
 
 namespace railwave {
 
+/// How a run is kept against its end, and from where it goes on.
+struct RunKeeping {
+  Checkpoints* checkpoints = nullptr;  ///< where states are kept; null: nowhere
+  double interval = 0;                 ///< wall seconds between two; 0: only where the run is stopped from outside
+  double time_left = 0;                ///< wall seconds after which it stops; 0: no such budget
+  const RunState* from = nullptr;      ///< a state of this very run to go on from; null: from the start
+};
+
 /// Runs a model from rest, or from its settled state, to the scene's end (thesis table 2.1) and tells the observers.
 /// Ends early when interrupted (`request_stop`) or when the solution is no longer finite; the summary says which.
 /// @param settled where settled states are kept; null: nowhere
-RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr);
+/// @param keeping throws std::runtime_error where the state to go on from does not fit the model
+RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr, const RunKeeping& keeping = {});
 
 /// Asks the running time loop to stop after the present step. Safe in a signal handler.
 void request_stop();

@@ -1,0 +1,158 @@
+#include "output/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "case/error.hpp"
+#include "kernels/patches.hpp"
+#include "model/model.hpp"
+#include "output/hash.hpp"
+#include "output/hdf5.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr const char* format_name = "Railwave checkpoint 1";
+
+std::string checksum(const RunState& state, const std::string& run) {
+  Hash hash;
+  hash.add(run);
+  hash.add(fmt::format("{} {:.17g} {} {} {}", state.step, state.time, state.history_rows, state.field_outputs, state.back_end));
+  for (const RunState::Values& one : state.values) {
+    hash.add(one.name);
+    hash.add_words(one.bytes.data(), one.bytes.size());
+  }
+  return hash.text();
+}
+
+/// All numbers of a state in one dataset, one after the other; `sizes` tells the arrays apart, `names` what they are.
+RunState read(const std::string& path, const std::string& key, const std::string& run) {
+  const hdf5::File file = hdf5::File::open(path);
+  const hdf5::Group root = file.root();
+  if (!root.has_attribute("format") || root.text_attribute("format") != format_name) throw std::runtime_error("it is no checkpoint of this version of the program");
+  if (root.text_attribute("key") != key) throw std::runtime_error("it is of another case, of this case before it was changed, or of another version of the program");
+  RunState state;
+  state.step = static_cast<long>(root.number_attribute("step"));
+  state.time = root.number_attribute("time");
+  state.history_rows = static_cast<long>(root.number_attribute("history_rows"));
+  state.field_outputs = static_cast<long>(root.number_attribute("field_outputs"));
+  state.back_end = root.text_attribute("back_end");
+  const auto sizes = root.dataset("sizes").read<long>();
+  const auto bytes = root.dataset("values").read<signed char>();
+  const std::string names = root.text_attribute("names");
+  std::size_t from = 0, name = 0;
+  for (const long size : sizes) {
+    const std::size_t end = names.find('\n', name);
+    if (end == std::string::npos || size < 0 || static_cast<std::size_t>(size) > bytes.size() - from) throw std::runtime_error("its numbers make no sense");
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(from);
+    state.values.push_back({names.substr(name, end - name), {first, first + size}});
+    from += static_cast<std::size_t>(size);
+    name = end + 1;
+  }
+  const std::string of = root.text_attribute("run");
+  if (from != bytes.size() || checksum(state, of) != root.text_attribute("checksum"))
+    throw std::runtime_error("its checksum is not that of what it holds; the file has been damaged");
+  if (of != run) throw std::runtime_error("it is of another run than the one whose results are there");
+  return state;
+}
+
+}  // namespace
+
+void CheckpointFile::write(const RunState& state, const std::string& run) const {
+  const std::string beside = path_ + ".new";
+  try {
+    hdf5::File file = hdf5::File::create(beside);
+    const hdf5::Group root = file.root();
+    root.set_attribute("format", format_name);
+    root.set_attribute("key", key_);
+    root.set_attribute("run", run);
+    root.set_attribute("step", state.step);
+    root.set_attribute("time", state.time);
+    root.set_attribute("history_rows", state.history_rows);
+    root.set_attribute("field_outputs", state.field_outputs);
+    root.set_attribute("back_end", state.back_end);
+    std::string names;
+    std::vector<long> sizes;
+    std::vector<signed char> bytes;
+    for (const RunState::Values& one : state.values) {
+      names += one.name + '\n';
+      sizes.push_back(static_cast<long>(one.bytes.size()));
+      bytes.insert(bytes.end(), one.bytes.begin(), one.bytes.end());
+    }
+    root.set_attribute("names", names);
+    root.write("sizes", sizes, {sizes.size()});
+    root.write("values", bytes, {bytes.size()});
+    root.set_attribute("checksum", checksum(state, run));
+    file.close();
+    hdf5::bring_to_disk(beside);
+    std::error_code none_before;
+    std::filesystem::rename(path_, path_ + ".previous", none_before);
+    std::filesystem::rename(beside, path_);
+    hdf5::bring_to_disk(std::filesystem::absolute(path_).parent_path().string());
+  } catch (...) {
+    std::remove(beside.c_str());
+    throw;
+  }
+}
+
+CheckpointFile::Found CheckpointFile::find(const std::string& run) const {
+  Found found;
+  for (const std::string& name : {path_, path_ + ".previous"}) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(name, ignored)) continue;
+    try {
+      found.state = read(name, key_, run);
+      found.file = name;
+      return found;
+    } catch (const std::exception& error) {
+      found.troubles.push_back(fmt::format("{} cannot be used: {}", name, error.what()));
+    }
+  }
+  return found;
+}
+
+void CheckpointFile::remove() const {
+  for (const char* ending : {"", ".previous", ".new"}) std::remove((path_ + ending).c_str());
+}
+
+std::string checkpoint_key(const Model& model, const std::string& program_version) {
+  const scene::Scene& scene = model.scene;
+  Hash hash;
+  hash.add(format_name);
+  hash.add(program_version);
+  hash.add(fmt::format("{} elements of a patch", patch_size));
+  hash.add(scene.static_text);
+  hash.add(fmt::format("time {:.17g} {:.17g} {:.17g}, settled {}", scene.time.end, scene.time.step_scale, scene.time.step, scene.settle.active));
+  hash.add(fmt::format("solver {} {} {} {}", static_cast<int>(scene.solver.precision), static_cast<int>(scene.solver.step_estimate),
+                       scene.solver.subcycling, scene.solver.renew_steps));
+  hash.add(fmt::format("output {:.17g} {:.17g} {} {} {}", scene.output.history_interval, scene.output.field_interval,
+                       fmt::join(scene.output.field_sets, ","), fmt::join(scene.output.fields, ","), fmt::join(scene.output.history_sets, ",")));
+  for (const auto& motion : scene.initial_motions) hash.add(fmt::format("{:.17g}", fmt::join(motion.velocity, ",")));
+  for (const auto& motion : scene.prescribed_motions)
+    hash.add(fmt::format("{:.17g} {:.17g}", fmt::join(motion.velocity, ","), fmt::join(motion.displacement, ",")));
+  hash.add(model.assembly.nodes);
+  hash.add(model.assembly.elements);
+  return hash.text();
+}
+
+void check_checkpoint_place(const std::string& path, const std::string& results_path) {
+  const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal(), folder = whole.parent_path();
+  std::error_code ignored;
+  if (whole == std::filesystem::absolute(results_path).lexically_normal())
+    throw InputError(fmt::format("checkpoint.file: {} is the results file; name another file", path));
+  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0)
+    throw InputError(fmt::format("checkpoint.file: {} goes to {}, which is not there or may not be written; make the folder, or name another file", path,
+                                 folder.string()));
+}
+
+std::string checkpoint_path(const scene::Scene& scene) {
+  if (!scene.checkpoint.file.empty()) return scene.checkpoint.file;
+  return std::filesystem::path(scene.output.file).replace_extension(".checkpoint.h5").string();
+}
+
+}  // namespace railwave

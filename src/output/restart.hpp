@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/checkpoint_file.hpp"
+
+namespace railwave {
+
+/// From where a run goes on.
+struct Restart {
+  bool complete = false;             ///< the results are those of the whole run: nothing is left to do
+  std::optional<RunState> state;     ///< unless complete
+  std::vector<std::string> remarks;  ///< for people
+};
+
+/// The newest good checkpoint that belongs to a results file. Throws InputError, saying what to do, where there is none, and
+/// where the results are missing, unreadable or another run's.
+Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint);
+
+}  // namespace railwave

@@ -1,0 +1,124 @@
+#include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_string.hpp>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "output/checkpoint_file.hpp"
+
+using namespace railwave;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / "railwave_test_checkpoint_file";
+  Folder() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string file() const { return (path / "run.checkpoint.h5").string(); }
+};
+
+RunState state_at(long step) {
+  RunState state;
+  state.step = step;
+  state.time = 0.1 * static_cast<double>(step);
+  state.history_rows = 2 * step;
+  state.field_outputs = step / 2;
+  state.back_end = "abacus";
+  StateTaker taker(state);
+  taker.values("numbers", std::vector<double>{1.5, -0.0, 1e-310, 3});
+  taker.values("none", std::vector<int>{});
+  taker.value("step", step);
+  return state;
+}
+
+void damage(const std::string& path, std::size_t place) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  bytes.at(place) = static_cast<char>(bytes[place] ^ 4);
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// Where a double lies in a file.
+std::size_t place_of(const std::string& path, double value) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}}, sought(reinterpret_cast<const char*>(&value), sizeof value);
+  return bytes.find(sought);
+}
+
+}  // namespace
+
+TEST_CASE("a state comes back from its file as it was") {
+  const Folder folder;
+  const CheckpointFile file(folder.file(), "key");
+  CHECK_FALSE(file.find("run").state);
+  CHECK(file.find("run").troubles.empty());
+  file.write(state_at(6), "run");
+  const CheckpointFile::Found found = file.find("run");
+  REQUIRE(found.state);
+  CHECK(found.file == folder.file());
+  CHECK(found.state->step == 6);
+  CHECK(found.state->time == 0.1 * 6);
+  CHECK(found.state->history_rows == 12);
+  CHECK(found.state->field_outputs == 3);
+  CHECK(found.state->back_end == "abacus");
+  const RunState wanted = state_at(6);
+  REQUIRE(found.state->values.size() == wanted.values.size());
+  for (std::size_t k = 0; k < wanted.values.size(); ++k) {
+    CHECK(found.state->values[k].name == wanted.values[k].name);
+    CHECK(found.state->values[k].bytes == wanted.values[k].bytes);
+  }
+  StateLayer layer(*found.state);
+  long step = 0;
+  layer.value("step", step);
+  CHECK(step == 6);
+  CHECK_THROWS_WITH(layer.value("unheard of", step), ContainsSubstring("unheard of is missing"));
+}
+
+TEST_CASE("a damaged state is refused and the one before it taken") {
+  const Folder folder;
+  const CheckpointFile file(folder.file(), "key");
+  file.write(state_at(6), "run");
+  file.write(state_at(8), "run");
+  CHECK(file.find("run").state->step == 8);
+  damage(folder.file(), place_of(folder.file(), 1.5));
+  CheckpointFile::Found found = file.find("run");
+  REQUIRE(found.state);
+  CHECK(found.state->step == 6);
+  CHECK(found.file == folder.file() + ".previous");
+  REQUIRE(found.troubles.size() == 1);
+  CHECK_THAT(found.troubles[0], ContainsSubstring("its checksum is not that of what it holds"));
+  damage(folder.file() + ".previous", place_of(folder.file() + ".previous", 1.5));
+  found = file.find("run");
+  CHECK_FALSE(found.state);
+  CHECK(found.troubles.size() == 2);
+}
+
+TEST_CASE("a state of another case or run is refused") {
+  const Folder folder;
+  CheckpointFile(folder.file(), "key").write(state_at(6), "run");
+  const CheckpointFile::Found of_case = CheckpointFile(folder.file(), "other").find("run"), of_run = CheckpointFile(folder.file(), "key").find("other");
+  CHECK_FALSE(of_case.state);
+  CHECK_THAT(of_case.troubles.at(0), ContainsSubstring("of another case"));
+  CHECK_FALSE(of_run.state);
+  CHECK_THAT(of_run.troubles.at(0), ContainsSubstring("of another run"));
+}
+
+TEST_CASE("what a kill leaves of the next state harms nothing") {
+  const Folder folder;
+  const CheckpointFile file(folder.file(), "key");
+  file.write(state_at(6), "run");
+  std::ofstream(folder.file() + ".new") << "half a file";
+  CHECK(file.find("run").state->step == 6);
+  // Between the two renamings only the one before has its name.
+  std::filesystem::rename(folder.file(), folder.file() + ".previous");
+  CHECK(file.find("run").state->step == 6);
+  file.write(state_at(8), "run");
+  CHECK(file.find("run").state->step == 8);
+  file.remove();
+  CHECK(std::filesystem::is_empty(folder.path));
+}

@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+"""A run that is stopped and taken up again ends with the results of the unbroken one, bit for bit; what can't be taken up is refused."""
+
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import h5py
+    import numpy
+except ImportError:
+    sys.exit(77)
+
+PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+
+BLOCKS = """
+[materials.steel]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+yield_stress = 2e8
+tangent_modulus = 21e9
+hardening_beta = 0.5
+[materials.elastic]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+[meshes.lower]
+type = "box"
+size = [0.06, 0.05, 0.03]
+divisions = [6, 5, 3]
+[meshes.upper]
+type = "box"
+size = [0.04, 0.04, 0.03]
+divisions = [5, 5, 4]
+[parts.lower]
+mesh = "lower"
+material = "steel"
+[parts.upper]
+mesh = "upper"
+material = "{upper}"
+position = [0.005, 0.005, 0.03001]
+{of_upper}
+[constraints.floor]
+target = "lower.z_min"
+fixed = ["x", "y", "z"]
+[contacts.between]
+slave = "upper.z_min"
+master = "lower.z_max"
+friction = 0.3
+{of_contact}
+[initial_motion.fall]
+parts = ["upper"]
+velocity = [2, 1, -12]
+angular_velocity = [0, 30, 10]
+[gravity]
+acceleration = [0, 0, -9.81]
+[time]
+end = {end}
+[output]
+history_interval = 1e-5
+field_interval = {field_interval}
+field_sets = ["upper", "lower.z_max"]
+fields = ["displacement", "velocity", "stress", "plastic_strain"]
+history_sets = ["upper.z_max"]
+progress_interval = 0.5
+"""
+
+WEIGHT = """
+[points.weight]
+mass = 3
+position = [0.03, 0.03, 0.2]
+[connectors.spring]
+from = "{hub}"
+to = "weight"
+stiffness = [1e6, 1e6, 4e7]
+damping = [100, 100, 3000]
+preload = [0, 0, -3e3]
+[curves.rise]
+type = "cosine_ramp"
+duration = 3e-4
+[loads.turn]
+type = "torque"
+target = "upper.z_max"
+axis = [0, 0, 1]
+moment = 200
+curve = "rise"
+[loads.press]
+type = "pressure"
+target = "upper.x_min"
+pressure = 2e7
+curve = "rise"
+"""
+
+RIB = """
+[meshes.rib]
+type = "box"
+size = [0.02, 0.02, 0.02]
+divisions = [2, 2, 2]
+[parts.rib]
+mesh = "rib"
+material = "elastic"
+position = [0.06, 0.012, 0.002]
+[ties.rib]
+slave = "rib.x_min"
+master = "lower.x_max"
+"""
+
+BEAMS = WEIGHT.format(hub="hub") + RIB + """
+[points.hub]
+mass = 0.5
+position = [0.025, 0.025, 0.075]
+[beams.spokes]
+from = "hub"
+to = "upper.z_max"
+material = "elastic"
+radius = 0.004
+count = 4
+orientation = [0, 0, 1]
+divisions = 2
+"""
+
+ENDS = """
+[non_reflecting.side]
+target = "lower.y_max"
+"""
+
+PUSHED = """
+[prescribed_motion.push]
+target = "rib.x_max"
+velocity = [-1.5, 0, 0]
+directions = ["x"]
+"""
+
+KINDS = {
+    "penalty": dict(of_contact="damping = 0.1\nfriction_decay = 0.5\ndynamic_friction = 0.1", of_upper="stiffness_damping = 2e-8\nmass_damping = 20"),
+    "multiplier": dict(of_contact='algorithm = "multiplier"'),
+    "much_else": dict(more=BEAMS + ENDS + PUSHED),
+    "symmetric_and_settled": dict(of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'),
+    "subcycling": dict(more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS, of_upper="stiffness_damping = 2e-9", end=4e-4,
+                       instead={"divisions = [5, 5, 4]": "divisions = [14, 14, 4]", "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
+                                "divisions = [6, 5, 3]": "divisions = [6, 5, 8]", "0.03001]": "0.08001]"}),
+    "mixed": dict(more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8"),
+    "float": dict(more='[solver]\nprecision = "float"\n' + BEAMS, of_upper="linear_bulk_viscosity = 0.1"),
+    "float_multiplier": dict(more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'),
+    "global_step": dict(more='[solver]\nstep_estimate = "global"\nrenew_steps = 97\n'),
+}
+
+
+def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, instead=()):
+    text = BLOCKS.format(of_contact=of_contact, of_upper=of_upper, upper=upper, end=end, field_interval=field_interval) + more
+    for old in instead:
+        assert old in text
+        text = text.replace(old, instead[old])
+    return text
+
+
+def arrays(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.results, self.checkpoint = self.folder / "results.h5", self.folder / "results.checkpoint.h5"
+
+    def write(self, text):
+        (self.folder / "case.toml").write_text(text)
+
+    def start(self, *options):
+        return subprocess.Popen([PROGRAM, "run", "case.toml", *options], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def run_to_end(self, *options, code=0):
+        run = self.start(*options)
+        said, complaint = run.communicate(timeout=120)
+        self.assertEqual(run.returncode, code, said + complaint)
+        return said + complaint
+
+    def stop(self, number=signal.SIGTERM):
+        """Runs until a checkpoint is there, then sends the signal. False: the run ended before."""
+        run = self.start("--set", "checkpoint.interval=0.02")
+        while not self.checkpoint.exists() and run.poll() is None:
+            time.sleep(0.002)
+        run.send_signal(number)
+        said, complaint = run.communicate(timeout=120)
+        self.assertEqual(complaint, "")
+        self.assertIn(run.returncode, (130, -number), said)
+        return said
+
+    def assert_same(self, one, other):
+        first, second = arrays(one), arrays(other)
+        self.assertEqual(sorted(first), sorted(second))
+        different = [name for name in first if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()]
+        self.assertEqual(different, [])
+        self.assertEqual(one.with_suffix(".xdmf").read_text(), other.with_suffix(".xdmf").read_text())
+
+
+class RestartedRuns(Folder):
+    """Made below: one test for each kind of scene."""
+
+
+def add_kind(name, options):
+    def test(self):
+        self.write(case(**options))
+        said = self.run_to_end()
+        if name == "subcycling":
+            self.assertIn("times fewer element updates", said)
+        if name == "global_step":
+            self.assertRegex(said, "steps between .* renewed [1-9]")
+        whole = self.folder / "whole.h5"
+        shutil.move(self.results, whole)
+        shutil.move(self.results.with_suffix(".xdmf"), whole.with_suffix(".xdmf"))
+        said = self.stop()
+        self.assertIn("interrupted at step", said)
+        said = self.run_to_end("--restart")
+        self.assertIn("restart: goes on from results.checkpoint.h5: step ", said)
+        self.assertNotIn("step 0,", said)
+        self.assert_same(whole, self.results)
+        self.assertFalse(self.checkpoint.exists())
+        with h5py.File(self.results, "r") as file:
+            self.assertEqual(file.attrs["completed"], 1)
+            self.assertEqual(file.attrs["restarts"], 1)
+            if name == "much_else":
+                for term in ("friction", "plastic", "damping", "connector"):
+                    self.assertGreater(abs(file["history/energy/" + term][-1]), 0, term)
+    setattr(RestartedRuns, "test_" + name, test)
+
+
+for name_, options_ in KINDS.items():
+    add_kind(name_, options_)
+
+
+class WhatCannotBeTakenUp(Folder):
+    def setUp(self):
+        super().setUp()
+        self.write(case())
+
+    def test_nothing_is_there(self):
+        self.assertIn("there are no results results.h5 to add to", self.run_to_end("--restart", code=2))
+        self.assertFalse(self.results.exists())
+
+    def test_complete_run(self):
+        self.run_to_end()
+        self.assertIn("nothing to do: results.h5 holds the whole run", self.run_to_end("--restart"))
+
+    def test_another_case(self):
+        self.stop()
+        before = self.results.read_bytes()
+        self.write(case(end=1.3e-3))
+        self.assertIn("of this case before it was changed", self.run_to_end("--restart", code=2))
+        self.assertEqual(before, self.results.read_bytes())
+
+    def test_damaged_checkpoints(self):
+        self.stop()
+        previous = self.checkpoint.with_name("results.checkpoint.h5.previous")
+        self.assertTrue(previous.exists())
+        for damaged in (self.checkpoint, previous):
+            content = bytearray(damaged.read_bytes())
+            content[len(content) // 2] ^= 1
+            damaged.write_bytes(content)
+            if damaged is self.checkpoint:
+                kept = {path: path.read_bytes() for path in self.folder.iterdir()}
+                said = self.run_to_end("--restart")
+                self.assertIn("results.checkpoint.h5 cannot be used: its checksum is not that of what it holds", said)
+                self.assertIn("goes on from results.checkpoint.h5.previous", said)
+                for path, bytes_ in kept.items():
+                    path.write_bytes(bytes_)
+        said = self.run_to_end("--restart", code=2)
+        self.assertEqual(said.count("its checksum is not that"), 2)
+
+    def test_results_of_another_run(self):
+        self.stop()
+        kept = self.checkpoint.read_bytes()
+        for path in self.folder.glob("results.checkpoint.h5*"):
+            path.unlink()
+        self.stop(signal.SIGKILL)
+        for path in self.folder.glob("results.checkpoint.h5*"):
+            path.unlink()
+        self.checkpoint.write_bytes(kept)
+        self.assertIn("it is of another run than the one whose results are there", self.run_to_end("--restart", code=2))
+
+    def test_wall_time(self):
+        self.write(case(end=1))
+        said = self.run_to_end("--wall-time", "1", code=4)
+        self.assertIn("NOT completed: the wall time is spent at step", said)
+        with h5py.File(self.checkpoint, "r") as file:
+            step = int(file.attrs["step"])
+        self.assertIn(f"spent at step {step} of", said)
+        said = self.run_to_end("--restart", "--wall-time", "1", code=4)
+        self.assertIn(f"step {step}, t =", said)
+
+    def test_no_place_for_checkpoints(self):
+        self.assertIn("checkpoint.file: nowhere/a.h5 goes to", self.run_to_end("--set", "checkpoint.file=nowhere/a.h5", code=2))
+        self.assertIn("is the results file", self.run_to_end("--set", "checkpoint.file=results.h5", code=2))
+
+    def test_checkpoint_that_cannot_be_written(self):
+        """The run goes on and says so."""
+        (self.folder / "results.checkpoint.h5.new").mkdir()
+        (self.folder / "results.checkpoint.h5.new" / "in the way").touch()
+        said = self.run_to_end("--set", "checkpoint.interval=0.02")
+        self.assertIn("warning: a checkpoint could not be written", said)
+        self.assertIn("completed\n", said)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -9,7 +9,7 @@
 namespace railwave {
 
 /// Runs a model from rest, or from its settled state, to the scene's end (thesis table 2.1) and tells the observers.
-/// Ends early when interrupted (`request_stop`) or when the solution is no longer finite; the summary says which.
+/// Ends early when interrupted (`request_stop`) or when the watch finds something fatal; the summary says which.
 /// @param settled where settled states are kept; null: nowhere
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr);
 

@@ -27,6 +27,8 @@ Section checkpoint_section();
 Section solver_section();
 Section output_section();
 
+Section watch_section();  // keys_watch.cpp
+
 Section mesh_section();  // keys_meshes.cpp
 Section seam_section();
 

@@ -284,6 +284,22 @@ struct Solver {
   bool elements_in_single() const { return precision != Precision::double_precision; }
 };
 
+/// What a run looks out for: beyond a limit it warns, beyond a fatal one it stops.
+struct Watch {
+  bool active = true;
+  double energy_error = 0.05;        ///< of the balance, over the energy that the run was given
+  double fatal_energy_error = 0.5;   ///< the same; the run stops
+  double kinetic_growth = 0.1;       ///< kinetic energy beyond what the run was given, over that
+  double hourglass_share = 0.2;      ///< hourglass energy of a part over its elastic one, each the largest so far
+  double hourglass_distortion = 0.1; ///< hourglass displacement of an element over its size
+  double penetration = 0.1;          ///< of a contact node over the size of the face under it
+  double volume_ratio = 0.3;         ///< smallest Jacobian of an element over its undeformed one; the run stops at 0
+  double speed = 500;                ///< m/s, of a node
+  double fatal_speed = 20000;        ///< m/s; the run stops
+  int chatter = 10;                  ///< times that a contact node was seen to open and to close again
+  double box = 0;                    ///< m, half the edge of what is written about a fault; 0: six times the element's size
+};
+
 struct Output {
   std::string file = "results.h5"; ///< relative to the folder the program runs in unless absolute
   double history_interval = 0;     ///< s; 0: every step
@@ -379,6 +395,7 @@ struct Scene {
   Checkpoint checkpoint;
   Time time;
   Solver solver;
+  Watch watch;
   Output output;
 };
 

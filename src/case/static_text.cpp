@@ -9,8 +9,8 @@ namespace railwave::case_file {
 namespace {
 
 /// * stands for any name.
-constexpr std::array<const char*, 15> without = {
-    ".title", ".time", ".checkpoint", ".output", ".solver.step_estimate", ".solver.subcycling", ".solver.renew_steps",
+constexpr std::array<const char*, 16> without = {
+    ".title", ".time", ".checkpoint", ".watch", ".output", ".solver.step_estimate", ".solver.subcycling", ".solver.renew_steps",
     ".settle.active", ".settle.max_steps", ".settle.cache", ".settle.cache_folder", ".initial_motion.*.velocity",
     ".prescribed_motion.*.velocity", ".prescribed_motion.*.displacement",
     ".probes"};

@@ -8,80 +8,11 @@
 
 #include "model/stable_step.hpp"
 #include "output/atomic_file.hpp"
-#include "output/hdf5.hpp"
+#include "output/grid_writer.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return result;
-}
-
-/// A grid's name for ParaView.
-std::string shown(const std::string& parent, const std::string& name) {
-  return parent.empty() || parent == "/parts" ? name : parent.substr(1) + " " + name;
-}
-
-/// One grid: a group of the HDF5 file and the XDMF text that names its arrays.
-class GridWriter {
- public:
-  /// @param corners of a cell; 1: points
-  GridWriter(const hdf5::Group& parent, const std::string& parent_path, const std::string& name, const std::string& file, int corners)
-      : group_(parent.create_group(name)), path_(file + ":" + escaped(parent_path + "/" + name) + "/"), corners_(corners) {
-    text_ = fmt::format("   <Grid Name=\"{}\" GridType=\"Uniform\">\n", escaped(shown(parent_path, name)));
-  }
-
-  void cells(const std::vector<Vec3>& nodes, std::vector<int> connectivity) {
-    std::vector<double> flat;
-    for (const Vec3& x : nodes) flat.insert(flat.end(), x.begin(), x.end());
-    group_.write("coordinates", flat, {nodes.size(), 3});
-    count_ = connectivity.size() / corners_;
-    group_.write("connectivity", connectivity, {count_, static_cast<hsize_t>(corners_)});
-    const char* type = corners_ == 8 ? "Hexahedron" : corners_ == 4 ? "Quadrilateral" : corners_ == 2 ? "Polyline" : "Polyvertex";
-    text_ += fmt::format("    <Topology TopologyType=\"{}\" NodesPerElement=\"{}\" NumberOfElements=\"{}\">\n", type, corners_, count_) +
-             item("connectivity", fmt::format("{} {}", count_, corners_), "Int", 4) + "    </Topology>\n    <Geometry GeometryType=\"XYZ\">\n" +
-             item("coordinates", fmt::format("{} 3", nodes.size()), "Float", 8) + "    </Geometry>\n";
-  }
-
-  template <class Number>
-  void values(const std::string& name, const std::vector<Number>& by_cell) {
-    group_.write(name, by_cell, {by_cell.size()});
-    const bool whole = std::is_same_v<Number, int>;
-    text_ += fmt::format("    <Attribute Name=\"{}\" AttributeType=\"Scalar\" Center=\"Cell\">\n", name) +
-             item(name, fmt::format("{}", by_cell.size()), whole ? "Int" : "Float", whole ? 4 : 8) + "    </Attribute>\n";
-  }
-
-  std::string text() const { return text_ + "   </Grid>\n"; }
-
- private:
-  std::string item(const std::string& name, const std::string& shape, const char* number, int bytes) const {
-    return fmt::format("     <DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"{}\" Dimensions=\"{}\">{}{}</DataItem>\n", number, bytes, shape,
-                       path_, name);
-  }
-
-  hdf5::Group group_;
-  std::string path_;
-  int corners_;
-  hsize_t count_ = 0;
-  std::string text_;
-};
-
-/// Cells that use some of the model's nodes, with a numbering of their own.
-struct Piece {
-  std::vector<Vec3> nodes;
-  std::vector<int> connectivity;
-
-  Piece(const std::vector<Vec3>& all, const std::vector<int>& corners) {
-    std::vector<int> used = corners;
-    std::sort(used.begin(), used.end());
-    used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (int n : used) nodes.push_back(all[n]);
-    for (int n : corners) connectivity.push_back(static_cast<int>(std::lower_bound(used.begin(), used.end(), n) - used.begin()));
-  }
-};
 
 class ModelFileWriter {
  public:
@@ -216,9 +147,7 @@ class ModelFileWriter {
 void write_model_file(const Model& model, const std::string& path) {
   check_results_place(path);
   const ModelFileWriter writer(model, path);
-  write_whole_file(xdmf_path(path), "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n <Domain>\n"
-                                    "  <Grid Name=\"model\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
-                                        writer.grids() + "  </Grid>\n </Domain>\n</Xdmf>\n");
+  write_grids(xdmf_path(path), writer.grids());
 }
 
 }  // namespace railwave

@@ -1,11 +1,13 @@
 #include "output/results_file.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
+#include "output/fault_file.hpp"
 #include "solve/beams.hpp"
 
 namespace railwave {
@@ -112,10 +114,14 @@ void ResultsFile::fields(const Model& model, const HistorySample& sample) {
   writer_->fields(ModelFields(model), sample.time, sample.step);
 }
 
-void ResultsFile::end(const Model&, const RunSummary& summary) {
+void ResultsFile::end(const Model& model, const RunSummary& summary) {
   writer_->end(summary);
   writer_.reset();
   if (checkpoint_ && summary.completed) checkpoint_->remove();
+  // Only now does nobody else touch HDF5.
+  const std::string beside = fault_path(path_);
+  if (summary.fault) write_fault_file(model, *summary.fault, beside);
+  else for (const std::string& old : {beside, xdmf_path(beside)}) std::remove(old.c_str());
 }
 
 void ResultsFile::keep_checkpoints(CheckpointFile file) {

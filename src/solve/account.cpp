@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kernels/block_sum.hpp"
+#include "kernels/watch_terms.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
@@ -148,8 +149,26 @@ struct Work {
   KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const { sum[0] += work(c); }
 };
 
+/// Shares a group's energies out among its parts: a patch lies in one.
+void share_out(const Model& model, const ElementGroup& group, const Array<double* [2]>& patch_energy, std::vector<PartEnergy>& by_part) {
+  Kokkos::parallel_for("add_dissipated", Range(0, group.patches.count), AddDissipated{patch_energy, group.patches.hourglass_energy, power_sums});
+  const auto energy = to_host(patch_energy);
+  const auto& parts = model.assembly.parts;
+  std::size_t p = 0;
+  for (int patch = 0; patch < group.patches.count; ++patch) {
+    const auto holds = [&](std::size_t part) {
+      const int within = group.first_element[patch] - parts[part].first_element;
+      return within >= 0 && within < parts[part].element_count;
+    };
+    if (!holds(p))
+      for (p = 0; p + 1 < parts.size() && !holds(p);) ++p;
+    by_part[p].internal += energy(patch, 0);
+    by_part[p].hourglass += energy(patch, 1);
+  }
+}
+
 template <class S, class Hourglass>
-void element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy) {
+void element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, std::vector<PartEnergy>* by_part) {
   const auto patch_energy = unset_array<double* [2]>("patch energy", group.patches.count);
   with_material(group, [&](const auto& material) {
     using State = PatchState<S, std::decay_t<decltype(material)>, Hourglass>;
@@ -159,6 +178,7 @@ void element_energy(const Model& model, const ElementGroup& group, EnergyAccount
   block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
+  if (by_part != nullptr) share_out(model, group, patch_energy, *by_part);
   if (group.damping.active()) {
     block_sum(Work{group.damping.energy}, group.patches.count, sum, model.sum_space);
     energy.damping += sum[0];
@@ -169,22 +189,23 @@ void element_energy(const Model& model, const ElementGroup& group, EnergyAccount
 }
 
 template <class S>
-void element_energies(const Model& model, EnergyAccount& energy) {
+void element_energies(const Model& model, EnergyAccount& energy, std::vector<PartEnergy>* by_part) {
+  if (by_part != nullptr) by_part->assign(model.assembly.parts.size(), {});
   for (const ElementGroup& group : model.elements) {
-    if (group.hourglass == scene::HourglassType::viscous) element_energy<S, ViscousHourglass>(model, group, energy);
-    else element_energy<S, StiffnessHourglass>(model, group, energy);
+    if (group.hourglass == scene::HourglassType::viscous) element_energy<S, ViscousHourglass>(model, group, energy, by_part);
+    else element_energy<S, StiffnessHourglass>(model, group, energy, by_part);
   }
 }
 
 }  // namespace
 
-EnergyAccount account_energies(const Model& model, double step) {
+EnergyAccount account_energies(const Model& model, double step, std::vector<PartEnergy>* by_part) {
   EnergyAccount energy;
   double sum[3];
   block_sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
   energy.kinetic = sum[0];
   energy.external_work = sum[1];
-  with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy); });
+  with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy, by_part); });
   for (const ContactPair& pair : model.contacts) {
     sum[2] = 0;
     if (pair.has_springs()) block_sum(ContactEnergy{pair.arrays, pair.law}, pair.arrays.slave_count, sum, model.sum_space);
@@ -294,11 +315,11 @@ MeanMotion mean_motion(const Model& model, int set) {
   return mean;
 }
 
-HistorySample take_sample(const Model& model, double step) {
+HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
   HistorySample sample;
   sample.time = model.time;
   sample.step = model.step;
-  sample.energy = account_energies(model, step);
+  sample.energy = account_energies(model, step, by_part);
   for (const ContactPair& pair : model.contacts)
     if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
   for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));

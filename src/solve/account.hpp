@@ -9,7 +9,8 @@ namespace railwave {
 /// independent of the forces that move the nodes, so the balance tests the time integration:
 /// kinetic v(n-1/2) M v(n+1/2) / 2, elastic stress and strain, penalty and connector springs.
 /// `balance_error` is left zero: the time loop knows the start.
-EnergyAccount account_energies(const Model& model, double step);
+/// @param by_part if not null: gets the energies of each part of the assembly
+EnergyAccount account_energies(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
 
 /// kinetic + stored + dissipated - external work: constant in an exact run.
 double balance_total(const EnergyAccount& energy);
@@ -21,6 +22,7 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair);
 MeanMotion mean_motion(const Model& model, int set);
 
 /// Everything that a history row holds, at the present instant.
-HistorySample take_sample(const Model& model, double step);
+/// @param by_part as of account_energies()
+HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
 
 }  // namespace railwave

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "solve/fault.hpp"
 
 namespace railwave {
 
@@ -64,6 +66,12 @@ struct HistorySample {
   std::vector<LoadTotals> loads;         ///< one for each of the scene's loads
 };
 
+/// Energies of one part's elements, J.
+struct PartEnergy {
+  double internal = 0;
+  double hourglass = 0;
+};
+
 /// How a run ended.
 struct RunSummary {
   bool completed = false;
@@ -82,6 +90,7 @@ struct RunSummary {
   double wall_seconds = 0;
   double element_steps_per_second = 0;   ///< of the element updates that were made
   std::vector<std::string> swings;       ///< where the run began unsettled: how its contact forces oscillated
+  std::optional<Fault> fault;            ///< what stopped it, if the watch did
   std::vector<std::string> warnings;     ///< what may have cost accuracy
   std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute
 };
@@ -100,6 +109,8 @@ class RunObserver {
   virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/) {}
   /// At every history sample, and every few hundred steps where histories are rarer.
   virtual void progress(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  /// Once for each kind of thing that the watch warns of, when it is first seen; again if it becomes fatal.
+  virtual void warning(const Model& /*model*/, const Fault& /*fault*/) {}
   virtual void end(const Model& /*model*/, const RunSummary& /*summary*/) {}
 };
 

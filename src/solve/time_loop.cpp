@@ -14,6 +14,7 @@
 #include "solve/stages.hpp"
 #include "solve/static_start.hpp"
 #include "solve/step_control.hpp"
+#include "solve/watch.hpp"
 
 namespace railwave {
 namespace {
@@ -57,15 +58,6 @@ class Schedule {
   const Model& model_;
   EverySoOften history_, fields_;
 };
-
-/// What is wrong with the solution, or nothing.
-std::string fault_in(const HistorySample& sample) {
-  if (!std::isfinite(balance_total(sample.energy)))
-    return fmt::format("the solution is no longer finite at step {}, t = {:.6g} s; lower time.step_scale, or look for elements "
-                       "that are badly shaped or overloaded (`railwave check` names the worst)",
-                       sample.step, sample.time);
-  return {};
-}
 
 /// @return whether the run begins in equilibrium
 bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
@@ -146,6 +138,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
 
   LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size())};
   auto& [control, due, swings, total_at_start, history_rows, field_outputs, elapsed] = memory;
+  Watch watch(model);
   const auto stages = force_stages(model);
   if (keeping.from) {
     lay_model_state(model, *keeping.from);
@@ -172,22 +165,28 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     const double step_before = model.step_size;
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
-    const bool looked_at = due.history() || due.fields() || due.check() || stopping;
+    const bool looked_at = due.history() || due.fields() || due.check() || stopping || (watch.due(model.step) && model.subcycling.in_phase(model.step));
     instant.advancing = !looked_at;
     for (const Stage& stage : stages) stage.run(instant);
 
     if (looked_at) {
-      HistorySample sample = take_sample(model, model.step_size);
+      HistorySample sample = take_sample(model, model.step_size, watch.part_energies(model.step));
       if (model.step == 0) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
-      summary.reason = fault_in(sample);
+      for (const Fault& fault : watch.look(sample))
+        for (RunObserver* observer : observers) observer->warning(model, fault);
+      if (const Fault* fault = watch.fatal()) {
+        summary.fault = *fault;
+        summary.reason = fault->told();
+      }
+      const bool broken = summary.fault.has_value();
       for (std::size_t c = 0; c < swings.size(); ++c) swings[c].add(sample.time, sample.contacts[c].normal_force);
       for (RunObserver* observer : observers) {
-        if (due.history() || stopping) observer->history(model, sample);
-        if (summary.reason.empty() && (due.fields() || stopping)) observer->fields(model, sample);
+        if (due.history() || stopping || broken) observer->history(model, sample);
+        if (due.fields() || stopping || broken) observer->fields(model, sample);
         observer->progress(model, sample);
       }
-      if (!summary.reason.empty()) break;
+      if (broken) break;
       if (due.history()) ++history_rows;
       if (due.fields()) ++field_outputs;
     }
@@ -207,7 +206,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.step_renewals = control.renewals();
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
-  summary.warnings = late_contacts(model);
+  summary.warnings = watch.told();
+  for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
   if (keeping.checkpoints)
     if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))

@@ -1,0 +1,34 @@
+#include "case/keys.hpp"
+
+// What a run looks out for.
+namespace railwave::case_file {
+
+Section watch_section() {
+  using scene::Watch;
+  auto section = single_section(
+      "watch", &scene::Scene::watch,
+      "What a run looks out for, every 512 steps and at its beginning more often. Beyond a limit it warns, once for each kind, and tells "
+      "where, when and the likely cause; beyond a fatal one it stops, writes its last state, and the culprit's surroundings beside the "
+      "results as NAME.fault.h5 and .xdmf. docs/watch.md tells more.");
+  section.keys = {
+      key("active", &Watch::active, "`false` leaves all of it out; a run whose solution is no longer finite stops even so"),
+      key("energy_error", &Watch::energy_error, "error of the energy balance, over the energy that the run was given").within(above(0)),
+      key("fatal_energy_error", &Watch::fatal_energy_error, "the same, at which the run stops").within(above(0)),
+      key("kinetic_growth", &Watch::kinetic_growth, "kinetic energy beyond what the run was given, over that").within(above(0)),
+      key("hourglass_share", &Watch::hourglass_share, "hourglass energy of a part over its elastic one, each the largest so far").within(above(0)),
+      key("hourglass_distortion", &Watch::hourglass_distortion, "how far an hourglass mode moves an element's corners, over its size")
+          .within(above(0)),
+      key("penetration", &Watch::penetration, "of a contact node, over the size of the face under it").within(above(0)),
+      key("volume_ratio", &Watch::volume_ratio, "smallest Jacobian of an element over that of the undeformed one; the run stops at 0")
+          .within(inside(0, 1)),
+      key("speed", &Watch::speed, "of a node").in("m/s").within(above(0)),
+      key("fatal_speed", &Watch::fatal_speed, "of a node, at which the run stops").in("m/s").within(above(0)),
+      key("chatter", &Watch::chatter, "times that a contact node was seen to open and to close again").within(at_least(1)),
+      key("box", &Watch::box, "half the edge of the box about a fatal fault that is written; 0 is six times the element's size")
+          .in("m")
+          .within(at_least(0)),
+  };
+  return section;
+}
+
+}  // namespace railwave::case_file

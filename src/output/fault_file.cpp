@@ -1,0 +1,73 @@
+#include "output/fault_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "model/fields.hpp"
+#include "output/grid_writer.hpp"
+#include "output/results_writer.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr double elements_about = 6;
+
+bool in_box(const Model& model, int element, const Vec3& centre, double half_edge) {
+  for (int n : model.assembly.elements[element])
+    for (int i = 0; i < 3; ++i)
+      if (std::fabs(model.assembly.nodes[n][i] - centre[i]) > half_edge) return false;
+  return true;
+}
+
+std::string write_part(const Model& model, const Fault& fault, const hdf5::Group& parts, const std::string& file, const std::string& name,
+                       const std::vector<int>& elements) {
+  std::vector<int> corners, nodes, culprit;
+  for (int e : elements) {
+    corners.insert(corners.end(), model.assembly.elements[e].begin(), model.assembly.elements[e].end());
+    culprit.push_back(e == fault.element ? 1 : 0);
+  }
+  nodes = corners;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const Piece piece(model.assembly.nodes, corners);
+  GridWriter grid(parts, "/parts", name, file, 8);
+  grid.cells(piece.nodes, piece.connectivity);
+  for (const auto& [field, called] : {std::pair{NodeField::displacement, "displacement"}, {NodeField::velocity, "velocity"}, {NodeField::acceleration, "acceleration"}})
+    grid.node_values(called, node_field(model, field, nodes).values, 3);
+  grid.cell_values("stress", element_stress(model, elements).values, 6);
+  grid.values("plastic_strain", element_plastic_strain(model, elements).values);
+  grid.values("element", elements);
+  grid.values("culprit", culprit);
+  return grid.text();
+}
+
+}  // namespace
+
+std::string fault_path(const std::string& results_path) {
+  return std::filesystem::path(results_path).replace_extension(".fault.h5").string();
+}
+
+bool write_fault_file(const Model& model, const Fault& fault, const std::string& path) {
+  if (fault.element < 0) return false;
+  const double half_edge = model.scene.watch.box > 0 ? model.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
+  check_results_place(path);
+  hdf5::File file = hdf5::File::create(path);
+  const hdf5::Group root = file.root(), parts = root.create_group("parts");
+  root.set_attribute("format", "Railwave fault");
+  root.set_attribute("fault", fault.told());
+  root.set_attribute("time", model.time);
+  root.set_attribute("step", model.step);
+  std::string grids;
+  for (const auto& part : model.assembly.parts) {
+    std::vector<int> elements;
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      if (e == fault.element || in_box(model, e, fault.place, half_edge)) elements.push_back(e);
+    if (!elements.empty()) grids += write_part(model, fault, parts, escaped(std::filesystem::path(path).filename().string()), part.name, elements);
+  }
+  file.close();
+  write_grids(xdmf_path(path), grids);
+  return true;
+}
+
+}  // namespace railwave

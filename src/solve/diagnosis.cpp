@@ -1,0 +1,203 @@
+#include "solve/diagnosis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solve/diagnosis_step.hpp"
+
+namespace railwave {
+namespace {
+
+/// Waves of solids are between those of soft rubber and of diamond, m/s.
+constexpr double slowest_wave = 5, fastest_wave = 25000;
+/// Strain of a load's own making that no steel stands.
+constexpr double much_strain = 0.05;
+
+double length_of(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+int part_of_target(const Model& model, const std::string& target) {
+  const std::string name = target.substr(0, target.find('.'));
+  for (std::size_t p = 0; p < model.scene.parts.size(); ++p)
+    if (model.scene.parts[p].name == name) return static_cast<int>(p);
+  return -1;
+}
+
+const scene::Material& material_of(const Model& model, int part) { return model.scene.materials[model.assembly.parts[part].material]; }
+
+double largest_of(const scene::Curve* curve) {
+  if (curve == nullptr || curve->type != scene::CurveType::table) return 1;
+  double largest = 0;
+  for (const auto& point : curve->points) largest = std::fmax(largest, std::fabs(point[1]));
+  return largest;
+}
+
+void curves(const Model& model, std::vector<Cause>& causes) {
+  for (const scene::Curve& curve : model.scene.curves)
+    for (const auto& point : curve.points)
+      if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
+        causes.push_back({"curve", fmt::format("curve {} has a value that is no number: mend curves.{}", curve.name, curve.name), 100});
+}
+
+void materials(const Model& model, std::vector<Cause>& causes) {
+  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
+    const scene::Material& material = material_of(model, static_cast<int>(p));
+    const double speed = material.dilatational_speed();
+    if (speed >= slowest_wave && speed <= fastest_wave) continue;
+    causes.push_back({"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus "
+                                              "(Pa); a table in mm and tonnes must be converted",
+                                              material.name, model.scene.parts[p].name, speed, material.name), 90});
+  }
+}
+
+/// Speed of what begins or is made to move, m/s; its part's waves bound what a body can take.
+void speeds(const Model& model, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  const double limit = model.scene.watch.speed;
+  if (!(evidence.first.speed.value > limit)) return;
+  std::string sources;
+  for (const auto& motion : model.scene.initial_motions) sources += fmt::format(" initial_motion.{}", motion.name);
+  for (const auto& motion : model.scene.prescribed_motions) sources += fmt::format(" prescribed_motion.{}", motion.name);
+  causes.push_back({"speed", fmt::format("bodies begin with {:.4g} m/s: see{} (velocity in m/s, angular_velocity in rad/s)", evidence.first.speed.value, sources),
+                    85});
+}
+
+/// Strain that a load makes where it acts: its pressure over Young's modulus, or its force on a node over that and the
+/// square of the elements there.
+void loads(const Model& model, std::vector<Cause>& causes) {
+  for (const LoadArrays& arrays : model.loads) {
+    const scene::Load& load = *arrays.load;
+    const int part = part_of_target(model, load.target);
+    if (part < 0 || model.assembly.parts[part].element_count == 0) continue;
+    const double modulus = material_of(model, part).youngs_modulus, factor = largest_of(arrays.curve);
+    double stress = 0;
+    if (load.type == scene::LoadType::pressure) stress = std::fabs(load.pressure);
+    else if (load.type == scene::LoadType::traction) stress = length_of(load.traction);
+    else {
+      const auto nodes = model.assembly.node_sets.find(load.target);
+      if (nodes == model.assembly.node_sets.end() || nodes->second.empty()) continue;
+      Vec3 low = model.assembly.nodes[nodes->second[0]], high = low;
+      for (int n : nodes->second)
+        for (int i = 0; i < 3; ++i) {
+          low[i] = std::fmin(low[i], model.assembly.nodes[n][i]);
+          high[i] = std::fmax(high[i], model.assembly.nodes[n][i]);
+        }
+      const auto& range = model.assembly.parts[part];
+      double size = 0;
+      for (int e = range.first_element; e < range.first_element + range.element_count; ++e) size += model.element_length[e] / range.element_count;
+      const double across = size + length_of({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+      const double force = load.type == scene::LoadType::torque ? std::fabs(load.moment) / across : length_of(load.force);
+      stress = force / (size * size * static_cast<double>(nodes->second.size()));
+    }
+    const double strain = stress * factor / modulus;
+    if (!(strain > much_strain)) continue;
+    const bool pressure = load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction;
+    causes.push_back({"load", fmt::format("load {} strains the elements under it by about {:.3g}: see loads.{} ({}) and its curve", load.name, strain, load.name,
+                                          pressure ? "Pa" : load.type == scene::LoadType::torque ? "N m" : "N"),
+                      70 + std::fmin(9, std::log10(strain / much_strain))});
+  }
+}
+
+/// A body that a load drives and nothing holds.
+void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  if (fault.kind != FaultKind::speed && fault.kind != FaultKind::inversion) return;
+  for (const scene::Load& load : model.scene.loads) {
+    const int part = part_of_target(model, load.target);
+    if (part < 0) continue;
+    const std::string& name = model.scene.parts[part].name;
+    const auto concerns = [&](const std::string& target) { return target.substr(0, target.find('.')) == name; };
+    bool held = false;
+    for (const auto& one : model.scene.constraints) held = held || concerns(one.target);
+    for (const auto& one : model.scene.connectors) held = held || concerns(one.from) || concerns(one.to);
+    for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
+    for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
+    for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
+    for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);
+    if (held || !(evidence.kinetic_share > 0.5)) continue;
+    causes.push_back({"unheld", fmt::format("nothing holds part {} against load {}, whose work has gone into its motion: add constraints or connectors", name,
+                                            load.name), 75});
+  }
+}
+
+void contacts(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
+    const scene::Contact& contact = *model.contacts[c].contact;
+    if (c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
+      causes.push_back({"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
+                                                           "contacts.{}.close_gap", contact.name, evidence.first.penetration[c].value, contact.name), 80});
+    const bool pressed = fault.kind == FaultKind::penetration && c < evidence.last.penetration.size() && evidence.last.penetration[c].value > model.scene.watch.penetration;
+    if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
+      causes.push_back({"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,
+                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 60 : 20});
+    if (fault.kind == FaultKind::chatter)
+      causes.push_back({"chatter", fmt::format("nodes of contact {} bounce: give it damping (contacts.{}.damping), or a softer penalty_scale", contact.name,
+                                               contact.name), 30});
+  }
+}
+
+void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
+    const scene::Part& part = model.scene.parts[p];
+    const auto& range = model.assembly.parts[p];
+    const int seen = evidence.last.distortion.place;
+    const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
+    const bool distorted = here && evidence.last.distortion.value > 0.5 * model.scene.watch.hourglass_distortion;
+    if (part.hourglass_coefficient < 0.01 && (distorted || fault.kind == FaultKind::hourglass_distortion))
+      causes.push_back({"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about 0.1",
+                                                            part.name, part.name, part.hourglass_coefficient), 68});
+    if (fault.kind == FaultKind::hourglass_share && part.name == fault.part)
+      causes.push_back({"coarse mesh", fmt::format("part {} is bent or loaded at points over few elements: refine it there, or raise parts.{}.hourglass_coefficient",
+                                                   part.name, part.name), 30});
+  }
+}
+
+void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  const double at_first = evidence.first.jacobian.value;
+  if (evidence.first.jacobian.place >= 0 && at_first < 0.5)
+    causes.push_back({"mesh", fmt::format("element {} is badly shaped before anything moves: its smallest Jacobian is a tenth of the mean or less; mend the mesh "
+                                          "(`railwave check` names the worst)", evidence.first.jacobian.place), 58});
+  else if (fault.kind == FaultKind::inversion || fault.kind == FaultKind::hourglass_distortion)
+    causes.push_back({"overstrained", fmt::format("part {} is strained beyond what its elements can follow: see what presses or hits it, or let its material yield "
+                                                  "(materials.{}.yield_stress)", fault.part.empty() ? "?" : fault.part,
+                                                  fault.part.empty() ? "NAME" : model.scene.parts[part_of_target(model, fault.part)].material), 25});
+}
+
+}  // namespace
+
+std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence) {
+  std::vector<Cause> causes;
+  curves(model, causes);
+  materials(model, causes);
+  speeds(model, evidence, causes);
+  loads(model, causes);
+  unheld(model, fault, evidence, causes);
+  contacts(model, fault, evidence, causes);
+  hourglass(model, fault, evidence, causes);
+  shape(model, fault, evidence, causes);
+  for (Cause& cause : steps_too_long(model)) causes.push_back(std::move(cause));
+  if (causes.empty())
+    causes.push_back({"unknown", "none of the known causes is apparent: lower time.step_scale to see whether that mends it, and look at the fault's surroundings", 0});
+  std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.weight > b.weight; });
+  return causes;
+}
+
+std::vector<Fault> absurd_materials(const Model& model) {
+  std::vector<Cause> causes;
+  materials(model, causes);
+  std::vector<Fault> faults;
+  if (causes.empty()) return faults;
+  for (std::size_t p = 0; p < model.scene.parts.size() && faults.empty(); ++p) {
+    const double speed = material_of(model, static_cast<int>(p)).dilatational_speed();
+    if (speed >= slowest_wave && speed <= fastest_wave) continue;
+    Fault fault;
+    fault.kind = FaultKind::material;
+    fault.value = fault.worst = speed;
+    fault.limit = speed > fastest_wave ? fastest_wave : slowest_wave;
+    fault.part = model.scene.parts[p].name;
+    fault.causes = causes;
+    faults.push_back(fault);
+  }
+  return faults;
+}
+
+}  // namespace railwave

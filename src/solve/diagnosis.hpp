@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "model/model.hpp"
+#include "solve/fault.hpp"
+#include "solve/watch_measures.hpp"
+
+namespace railwave {
+
+/// What is known when something is found: the first look, the last with finite values, and whether the fault's looks differ.
+struct WatchEvidence {
+  WatchMeasures first, last;
+  double kinetic_share = 0;  ///< kinetic energy over the work of loads, where these work
+};
+
+/// What may have brought a fault about, the likeliest first: from the step against what elements, contact springs, connectors
+/// and beams allow, from what the case asks for (loads, speeds, materials, hourglass control, curves) and from what the first
+/// look saw (penetration, shape).
+std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence);
+
+/// Materials whose waves are faster or slower than any solid's, as faults of their own: a matter of units.
+std::vector<Fault> absurd_materials(const Model& model);
+
+}  // namespace railwave

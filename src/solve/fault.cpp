@@ -1,0 +1,35 @@
+#include "solve/fault.hpp"
+
+#include <fmt/format.h>
+
+namespace railwave {
+
+const char* name_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::not_finite: return "the solution is no longer finite";
+    case FaultKind::inversion: return "an element is squeezed or inverted: its smallest Jacobian over the undeformed one";
+    case FaultKind::energy: return "energy balance: its error over the energy that the run was given";
+    case FaultKind::speed: return "speed of a node, m/s";
+    case FaultKind::kinetic: return "kinetic energy without work: what is beyond the energy that the run was given, over that";
+    case FaultKind::hourglass_share: return "hourglass energy of a part over its elastic energy";
+    case FaultKind::hourglass_distortion: return "hourglass mode of an element over its size";
+    case FaultKind::penetration: return "contact penetration over the size of the face under it";
+    case FaultKind::chatter: return "contact chatter: times that a node was seen to open and to close";
+    case FaultKind::material: return "wave speed of a material, m/s";
+  }
+  return "";
+}
+
+std::string Fault::told() const {
+  std::string text = name_of(kind);
+  if (kind != FaultKind::not_finite) text += fmt::format(": {:.4g}, limit {:.4g}", value, limit);
+  text += fmt::format("; at t = {:.6g} s, step {}", time, step);
+  if (!part.empty()) text += fmt::format(", part {}", part);
+  if (element_in_part >= 0) text += fmt::format(", element {}", element_in_part);
+  if (element >= 0 || node >= 0) text += fmt::format(" near ({:.4g}, {:.4g}, {:.4g}) m", place[0], place[1], place[2]);
+  if (!causes.empty()) text += "; likely cause: " + causes[0].told;
+  if (causes.size() > 1) text += "; or else: " + causes[1].told;
+  return text;
+}
+
+}  // namespace railwave

@@ -1,0 +1,153 @@
+#include <catch2/catch_test_macros.hpp>
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "case/read_case.hpp"
+#include "source_folder.hpp"
+#include "tests/watch/seeded.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+/// What a run's watch said, and when things had gone wrong.
+struct Witness : RunObserver {
+  std::vector<Fault> warnings;
+  long first_warning = -1, last_good = 0, odd_since = -1;
+  RunSummary summary;
+
+  void warning(const Model& model, const Fault& fault) override {
+    warnings.push_back(fault);
+    if (first_warning < 0) first_warning = model.step;
+  }
+  /// A hundredth of what the run was given is no rounding.
+  void progress(const Model& model, const HistorySample& sample) override {
+    given = std::max({given, std::fabs(sample.energy.external_work), sample.energy.kinetic - sample.energy.balance_error});
+    const bool good = std::isfinite(sample.energy.balance_error) && std::fabs(sample.energy.balance_error) <= 0.01 * given;
+    if (good && odd_since < 0) last_good = model.step;
+    if (!good && odd_since < 0) odd_since = last_good;
+  }
+  void end(const Model&, const RunSummary& ended) override { summary = ended; }
+  double given = 0;
+};
+
+constexpr long steps = 40000;
+
+struct Outcome {
+  std::string told, cause;
+  double wasted = 0;  ///< share of the run between the last good look and the stop, or the first warning where it goes on
+  Witness witness;
+};
+
+Outcome outcome_of(const Seed& seed, long limit = steps) {
+  Model model;
+  if (seed.mesh) {
+    Assembly assembly = assemble(seed.scene);
+    seed.mesh(assembly);
+    build_model(seed.scene, assembly, model);
+  } else {
+    build_model(seed.scene, model);
+  }
+  if (seed.spoil) seed.spoil(model);
+  model.step_count = limit;
+  model.scene.output.history_interval = model.scene.output.field_interval = 1e9 * model.step_size;
+  Outcome outcome;
+  run(model, {&outcome.witness});
+  const RunSummary& summary = outcome.witness.summary;
+  if (const Fault* fault = summary.fault ? &*summary.fault : outcome.witness.warnings.empty() ? nullptr : &outcome.witness.warnings.front()) {
+    outcome.told = fault->told();
+    outcome.cause = fault->causes.at(0).name;
+  }
+  const long until = summary.fault ? summary.steps : outcome.witness.first_warning;
+  outcome.wasted = outcome.witness.odd_since < 0 ? 0 : static_cast<double>(std::max(0L, until - outcome.witness.odd_since)) / static_cast<double>(limit);
+  return outcome;
+}
+
+}  // namespace
+
+TEST_CASE("twenty seeded instabilities are all named, nearly all with the true cause first, before a twentieth of the run is wasted") {
+  int named = 0, right = 0, count = 0;
+  for (const Seed& seed : seeds()) {
+    ++count;
+    const Outcome outcome = outcome_of(seed, seed.cause == "unheld" || seed.cause == "soft penalty" ? 20000 : steps);
+    const std::string& told = outcome.told;
+    const auto at = told.find("likely cause: ");
+    const bool is_named = !told.empty() && at != std::string::npos;
+    const std::string cause = outcome.cause;
+    named += is_named;
+    right += cause == seed.cause;
+    std::cout << fmt::format("{} {:<44} | {:<28} | {} | stop {} | wasted {:.3f} %\n    {}\n", cause == seed.cause ? "ok " : "-- ", seed.what, seed.cause, cause,
+                             outcome.witness.summary.steps, 100 * outcome.wasted, told)
+              << std::flush;
+    INFO(seed.what << ": " << told);
+    CHECK(is_named);
+    CHECK(outcome.wasted < 0.05);
+  }
+  CHECK(count == 20);
+  CHECK(named == count);
+  CHECK(right >= 18);
+}
+
+namespace {
+
+/// All that the watch says of a sound scene.
+std::string said_of(scene::Scene scene, double end) {
+  scene.time.end = end;
+  scene.output.history_interval = end / 20;
+  scene.output.field_interval = end;
+  Model model;
+  build_model(scene, model);
+  Witness witness;
+  run(model, {&witness});
+  std::string said;
+  for (const Fault& fault : witness.warnings) said += fault.told() + '\n';
+  if (!witness.summary.completed) said += "ended: " + witness.summary.reason;
+  return said;
+}
+
+}  // namespace
+
+TEST_CASE("sound scenes bring no warning") {
+  CHECK(said_of(pressed_block(), 2e-3) == "");
+  CHECK(said_of(pressed_blocks(1), 1e-3) == "");
+  CHECK(said_of(sprung_mass(1e8, 100), 2e-3) == "");
+  CHECK(said_of(bent_beam(), 2e-2) == "");
+  TwoBlocks sliding;
+  sliding.upper_divisions = {4, 4, 2};
+  sliding.lower_divisions = {8, 8, 3};
+  sliding.friction = 0.3;
+  for (const auto algorithm : both_algorithms) {
+    sliding.algorithm = algorithm;
+    scene::Scene scene = sliding.scene(1);
+    hold(scene, "lower.z_min", {true, true, true});
+    press(scene, "upper.z_max", 1e6).curve = "ramp";
+    add_ramp(scene, "ramp", 0, 2e-4);
+    scene::InitialMotion motion;
+    motion.name = "slide";
+    motion.parts = {"upper"};
+    motion.velocity = {1, 0, 0};
+    scene.initial_motions.push_back(motion);
+    INFO(name_of(algorithm));
+    CHECK(said_of(scene, 1e-3) == "");
+  }
+}
+
+TEST_CASE("an inactive watch stops a run that is no longer finite and says nothing else") {
+  std::vector<Seed> all = seeds();
+  Seed& seed = all[1];
+  seed.scene.watch.active = false;
+  const Outcome outcome = outcome_of(seed);
+  REQUIRE(outcome.witness.summary.fault);
+  CHECK(outcome.witness.summary.fault->kind == FaultKind::not_finite);
+  CHECK(outcome.witness.warnings.size() == 1);
+  CHECK(!outcome.witness.summary.completed);
+}
+
+TEST_CASE("a limit that is set is the one that counts") {
+  scene::Scene scene = pressed_block();
+  scene.watch.speed = 1e-6;
+  const std::string said = said_of(scene, 2e-4);
+  CHECK(said.find("limit 1e-06") != std::string::npos);
+}

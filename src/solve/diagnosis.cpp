@@ -100,7 +100,7 @@ void loads(const Model& model, std::vector<Cause>& causes) {
 
 /// A body that a load drives and nothing holds.
 void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  if (fault.kind != FaultKind::speed && fault.kind != FaultKind::inversion) return;
+  if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > model.scene.watch.speed)) return;
   for (const scene::Load& load : model.scene.loads) {
     const int part = part_of_target(model, load.target);
     if (part < 0) continue;
@@ -125,10 +125,10 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
     if (c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
       causes.push_back({"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
                                                            "contacts.{}.close_gap", contact.name, evidence.first.penetration[c].value, contact.name), 80});
-    const bool pressed = fault.kind == FaultKind::penetration && c < evidence.last.penetration.size() && evidence.last.penetration[c].value > model.scene.watch.penetration;
+    const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > model.scene.watch.penetration;
     if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
       causes.push_back({"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,
-                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 60 : 20});
+                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 59 : 20});
     if (fault.kind == FaultKind::chatter)
       causes.push_back({"chatter", fmt::format("nodes of contact {} bounce: give it damping (contacts.{}.damping), or a softer penalty_scale", contact.name,
                                                contact.name), 30});
@@ -178,6 +178,8 @@ std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const W
   if (causes.empty())
     causes.push_back({"unknown", "none of the known causes is apparent: lower time.step_scale to see whether that mends it, and look at the fault's surroundings", 0});
   std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.weight > b.weight; });
+  // Most meshes are stable beyond what their worst element is alone: that is worth telling only where nothing else is.
+  causes.erase(std::remove_if(causes.begin() + 1, causes.end(), [](const Cause& one) { return one.name == possible_step_cause; }), causes.end());
   return causes;
 }
 

@@ -8,9 +8,10 @@
 
 namespace railwave {
 
-/// What is known when something is found: the first look, the last with finite values, and whether the fault's looks differ.
+/// What is known when something is found: the first look, the last with finite values, and what was seen between.
 struct WatchEvidence {
   WatchMeasures first, last;
+  std::vector<double> deepest;  ///< by contact pair: largest penetration so far, over the face's size
   double kinetic_share = 0;  ///< kinetic energy over the work of loads, where these work
 };
 

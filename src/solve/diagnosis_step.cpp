@@ -48,10 +48,14 @@ void elements(const Model& model, std::vector<Cause>& causes) {
                                                        ratio, part.name, part.name, mend), weight(ratio, true)});
   else if (!by_control && ratio > 1) {
     const bool certain = step > stable.elements;
-    causes.push_back({"step beyond elements",
-                      fmt::format("the step is {:.3g} times the stable step of element {} of part {}{}", ratio, element - model.assembly.parts[p].first_element, part.name,
-                                  certain ? fmt::format(": {}", mend) : std::string(", alone: solver.step_estimate = \"eigenvalue\" is safe for bodies one element thick")),
-                      weight(certain ? step / stable.elements : ratio, certain)});
+    const int lowest = certain ? stable.element : element, q = part_of_element(model, lowest);
+    const auto who = [&](double times) {
+      return fmt::format("the step is {:.3g} times the stable step of element {} of part {}", times, lowest - model.assembly.parts[q].first_element,
+                         model.scene.parts[q].name);
+    };
+    if (certain) causes.push_back({"step beyond elements", fmt::format("{}: {}", who(step / stable.elements), mend), weight(step / stable.elements, true)});
+    else causes.push_back({possible_step_cause, who(ratio) + ", alone: solver.step_estimate = \"eigenvalue\" is safe for bodies one element thick",
+                           weight(ratio, false)});
   }
 }
 

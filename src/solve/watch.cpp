@@ -48,6 +48,9 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
     if (finite(sample) && std::isfinite(now.speed.value)) evidence_.last = now;
     else if (evidence_.last.speed.place < 0) evidence_.last.speed.place = now.speed.place;
   }
+  evidence_.deepest.resize(evidence_.last.penetration.size());
+  for (std::size_t c = 0; c < evidence_.deepest.size(); ++c)
+    evidence_.deepest[c] = std::max(evidence_.deepest[c], evidence_.last.penetration[c].value);
   if (!begun_) {
     given_at_start_ = magnitude(sample.energy);
     for (Fault& fault : absurd_materials(model_)) {

@@ -26,8 +26,8 @@ struct Witness : RunObserver {
   void progress(const Model& model, const HistorySample& sample) override {
     given = std::max({given, std::fabs(sample.energy.external_work), sample.energy.kinetic - sample.energy.balance_error});
     const bool good = std::isfinite(sample.energy.balance_error) && std::fabs(sample.energy.balance_error) <= 0.01 * given;
-    if (good && odd_since < 0) last_good = model.step;
-    if (!good && odd_since < 0) odd_since = last_good;
+    if (good) last_good = model.step;
+    odd_since = good ? -1 : last_good;
   }
   void end(const Model&, const RunSummary& ended) override { summary = ended; }
   double given = 0;
@@ -78,7 +78,7 @@ TEST_CASE("twenty seeded instabilities are all named, nearly all with the true c
     const std::string cause = outcome.cause;
     named += is_named;
     right += cause == seed.cause;
-    std::cout << fmt::format("{} {:<44} | {:<28} | {} | stop {} | wasted {:.3f} %\n    {}\n", cause == seed.cause ? "ok " : "-- ", seed.what, seed.cause, cause,
+    std::cout << fmt::format("{} {:<44} | {:<28} | {} | until step {} | wasted {:.3f} %\n    {}\n", cause == seed.cause ? "ok " : "-- ", seed.what, seed.cause, cause,
                              outcome.witness.summary.steps, 100 * outcome.wasted, told)
               << std::flush;
     INFO(seed.what << ": " << told);

@@ -110,6 +110,7 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
     for (const auto& one : model.scene.constraints) held = held || concerns(one.target);
     for (const auto& one : model.scene.connectors) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
+    for (const auto& one : model.scene.contacts) held = held || concerns(one.slave) || concerns(one.master);
     for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
     for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);

@@ -140,7 +140,7 @@ inline std::vector<Seed> seeds() {
                    Vec3 mean{};
                    for (int k : {1, 3, 4})
                      for (int i = 0; i < 3; ++i) mean[i] += assembly.nodes[element[k]][i] / 3;
-                   for (int i = 0; i < 3; ++i) assembly.nodes[element[0]][i] += 0.97 * (mean[i] - assembly.nodes[element[0]][i]);
+                   for (int i = 0; i < 3; ++i) assembly.nodes[element[0]][i] += 0.985 * (mean[i] - assembly.nodes[element[0]][i]);
                  }});
   all.push_back({"half a face of initial penetration", "initial penetration", changed(pressed_blocks(1), [](Scene& scene) { scene.parts[0].position[2] = -0.004; })});
   all.push_back({"springs of contact a thousandth as stiff", "soft penalty", pressed_blocks(1e-4, 2e8)});

@@ -28,10 +28,9 @@ struct RowLoads {
 
   /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
   KOKKOS_INLINE_FUNCTION Vector3 without_torque(const RowShare& share) const {
-    const bool given = share.law == RowShare::given || connectors.count == 0, torque = !given && share.law >= connectors.count;
-    const int c = given ? share.contribution : torque ? 0 : share.law;
-    const auto& from = given ? extra.contribution : connectors.force;
-    return (torque ? 0.0 : share.weight) * row(from, c);
+    const bool torque = share.law >= connectors.count, connector = share.law >= 0 && !torque;
+    const auto& from = connector ? connectors.force : extra.contribution;
+    return (torque ? 0.0 : share.weight) * row(from, connector ? share.law : share.contribution);
   }
 
   /// Gives the contributions of torques their values.

@@ -25,14 +25,14 @@ class Expansion {
     load.target = hammer.part + "." + hammer.name;
     for (int i = 0; i < 3; ++i) load.force[i] = hammer.peak * hammer.direction[i];
     load.curve = hammer.curve.empty() ? hammer.name : hammer.curve;
-    add_named(scene_.loads, "loads", load, hammer.line, subject);
+    add_entry(scene_.loads, "loads", load, hammer.line, subject, complaints_);
     if (!hammer.curve.empty()) return;
     scene::Curve blow;
     blow.name = hammer.name;
     blow.type = scene::CurveType::half_sine;
     blow.start = hammer.start;
     blow.duration = hammer.duration;
-    add_named(scene_.curves, "curves", blow, hammer.line, subject);
+    add_entry(scene_.curves, "curves", blow, hammer.line, subject, complaints_);
   }
 
   void add(const scene::Probe& probe) {
@@ -69,16 +69,6 @@ class Expansion {
     const std::string history = set.part + "." + name;
     if (std::find(histories.begin(), histories.end(), history) == histories.end()) histories.push_back(history);
     return true;
-  }
-
-  template <class Entry>
-  void add_named(std::vector<Entry>& entries, const char* section, Entry entry, int line, const std::string& subject) {
-    entry.line = line;
-    if (const Entry* other = find_entry(entries, entry.name))
-      complaints_.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject,
-                                          section, entry.name, other->line));
-    else
-      entries.push_back(std::move(entry));
   }
 
   Scene& scene_;

@@ -10,8 +10,6 @@ namespace {
 
 using scene::Vec3;
 
-/// The largest box of a connector's area that bounds nothing along y and z.
-constexpr double far = 1e3;
 /// More than half of any foot's width, m.
 constexpr double half_foot = 0.08;
 
@@ -24,7 +22,7 @@ void add_springs(TrackEntries& entries, const scene::Sleeper& kind, const RailSe
   fastening.damping = damping;
   fastening.spread = kind.fastening_spread;
   const double x = entries.track.position[0] + seat.x, half = 0.5 * *kind.pad_length;
-  fastening.area = {{{x - half, -far, -far}, {x + half, far, far}}};
+  fastening.area = {{{x - half, -unbounded, -unbounded}, {x + half, unbounded, unbounded}}};
   entries.add(entries.scene.connectors, "connectors", fastening);
 }
 

@@ -180,16 +180,13 @@ class Expansion : private TrackEntries {
       line.part = sleeper;
       line.surface = "z_min";
       const double x = track.position[0] + place.x, y = across(track, centre(track)), slack = 1e-6;
-      line.box = {{{x - *kind.width, y - slack, -far}, {x + *kind.width, y + slack, far}}};
+      line.box = {{{x - *kind.width, y - slack, -unbounded}, {x + *kind.width, y + slack, unbounded}}};
       // All sleepers have a set of this name.
       scene.node_sets.push_back(line);
       middle.target = sleeper + ".centre";
     }
     add(scene.constraints, "constraints", middle);
   }
-
-  /// The largest box of a set that bounds nothing along z.
-  static constexpr double far = 1e3;
 
   Track far_;
   std::vector<RailExpansion> rails_;

@@ -18,6 +18,21 @@ const Entry* find_entry(const std::vector<Entry>& entries, const std::string& na
   return found == entries.end() ? nullptr : &*found;
 }
 
+/// m: the sides of a box that bounds nothing.
+inline constexpr double unbounded = 1e3;
+
+/// Adds an entry that a section makes; complains of a name that is there already.
+/// @param subject the section, and `line` its line
+template <class Entry>
+void add_entry(std::vector<Entry>& entries, const char* section, Entry entry, int line, const std::string& subject, Complaints& complaints) {
+  entry.line = line;
+  if (const Entry* other = find_entry(entries, entry.name)) {
+    complaints.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject, section, entry.name, other->line));
+    return;
+  }
+  entries.push_back(std::move(entry));
+}
+
 /// Adds what a track makes to the scene, under names that begin with the track's, or with a prefix of one of its rails.
 class TrackEntries {
  public:
@@ -33,12 +48,7 @@ class TrackEntries {
   /// Complains of a name that is there already.
   template <class Entry>
   void add(std::vector<Entry>& entries, const char* section, Entry entry) {
-    entry.line = track.line;
-    if (const Entry* other = find_entry(entries, entry.name)) {
-      complain(fmt::format("makes [{}.{}], which is there already (line {}); rename one", section, entry.name, other->line));
-      return;
-    }
-    entries.push_back(std::move(entry));
+    add_entry(entries, section, std::move(entry), track.line, subject(), complaints_);
   }
 
   void add_part(const std::string& name, const std::string& mesh, const std::string& material, const scene::Vec3& position) {
@@ -52,9 +62,11 @@ class TrackEntries {
     add(scene.parts, "parts", part);
   }
 
-  void complain(const std::string& what) { complaints_.add({track.line}, "[tracks." + track.name + "]: " + what); }
+  void complain(const std::string& what) { complaints_.add({track.line}, subject() + ": " + what); }
 
  private:
+  std::string subject() const { return "[tracks." + track.name + "]"; }
+
   Complaints& complaints_;
   std::string prefix_;
 };

@@ -9,6 +9,7 @@
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
+#include "post/set_names.hpp"
 
 namespace railwave {
 namespace {
@@ -40,34 +41,6 @@ std::vector<std::string> split(const std::string& text, char between) {
     else parts.back() += c;
   }
   return parts;
-}
-
-/// Whether `name` is `pattern`, whose stars stand for any letters.
-bool matches(const char* pattern, const char* name) {
-  if (*pattern == '\0') return *name == '\0';
-  if (*pattern == '*') return matches(pattern + 1, name) || (*name != '\0' && matches(pattern, name + 1));
-  return *pattern == *name && matches(pattern + 1, name + 1);
-}
-
-/// By alphabet, but numbers by their value: row_2 comes before row_10.
-bool before(const std::string& a, const std::string& b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (digit(a[i]) && digit(b[j])) {
-      const std::size_t end_a = std::min(a.size(), a.find_first_not_of("0123456789", i)), end_b = std::min(b.size(), b.find_first_not_of("0123456789", j));
-      const double number_a = std::strtod(a.substr(i, end_a - i).c_str(), nullptr), number_b = std::strtod(b.substr(j, end_b - j).c_str(), nullptr);
-      if (number_a != number_b) return number_a < number_b;
-      i = end_a;
-      j = end_b;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i;
-      ++j;
-    }
-  }
-  return a.size() - i < b.size() - j;
 }
 
 void set_direction(ChannelPlace& place, const std::string& text, const Asked& asked) {
@@ -161,11 +134,11 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
   const auto entries = split(text.substr(0, at), '+');
   std::vector<std::vector<ChannelPlace>> channels;
   auto sets = names.sets;
-  std::sort(sets.begin(), sets.end(), before);
+  std::sort(sets.begin(), sets.end(), in_number_order);
   for (const std::string& entry : entries) {
     std::size_t count = 0;
     for (const std::string& set : sets)
-      if (matches(entry.c_str(), set.c_str())) {
+      if (matches_pattern(entry.c_str(), set.c_str())) {
         place.owner = set;
         channels.push_back({place});
         ++count;
@@ -217,7 +190,7 @@ std::string ChannelNames::summary() const {
   std::string text;
   const auto add = [&](std::vector<std::string> owners, const char* what, const std::vector<std::string>& quantities) {
     if (owners.empty()) return;
-    std::sort(owners.begin(), owners.end(), before);
+    std::sort(owners.begin(), owners.end(), in_number_order);
     const std::size_t more = owners.size() > most ? owners.size() - most : 0;
     owners.resize(owners.size() - more);
     const std::string form = what + (quantities.size() == 1 ? quantities[0] : quantities.empty() ? "NAME" : '(' + joined(quantities, "|") + ')');

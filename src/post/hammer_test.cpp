@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "post/history_series.hpp"
+#include "post/set_names.hpp"
 
 namespace railwave {
 namespace {
@@ -28,12 +29,6 @@ double struck_samples(const std::vector<double>& force) {
 
 std::string vector_text(const Eigen::Vector3d& v) { return fmt::format("{:.17g},{:.17g},{:.17g}", v[0], v[1], v[2]); }
 
-bool fits(const char* pattern, const char* name) {
-  if (*pattern == '\0') return *name == '\0';
-  if (*pattern == '*') return fits(pattern + 1, name) || (*name != '\0' && fits(pattern, name + 1));
-  return *pattern == *name && fits(pattern + 1, name + 1);
-}
-
 std::string behind_dot(const std::string& set) {
   return set.substr(set.find('.') == std::string::npos ? 0 : set.find('.') + 1);
 }
@@ -46,17 +41,6 @@ double largest(const std::vector<double>& values, std::size_t from) {
 
 void note(std::vector<std::string>& notes, const std::string& text) {
   if (std::find(notes.begin(), notes.end(), text) == notes.end()) notes.push_back(text);
-}
-
-/// Names in the order of the numbers in them: row_2 before row_10.
-bool by_number(const std::string& a, const std::string& b) {
-  const auto number_at = [](const std::string& text) {
-    return text.find_last_not_of("0123456789") == std::string::npos ? 0 : text.find_last_not_of("0123456789") + 1;
-  };
-  const auto i = number_at(a), j = number_at(b);
-  const std::string head_a = a.substr(0, i), head_b = b.substr(0, j);
-  if (head_a != head_b || i == a.size() || j == b.size()) return a < b;
-  return std::atof(a.c_str() + i) < std::atof(b.c_str() + j);
 }
 
 }  // namespace
@@ -85,7 +69,7 @@ HammerTest::HammerTest(const std::vector<std::string>& files, const std::string&
   for (const std::string& file : files) results_.emplace_back(file);
   const hdf5::Group history = results_.front().history();
   if (history.has("set")) sets_ = history.group("set").names();
-  std::sort(sets_.begin(), sets_.end(), by_number);
+  std::sort(sets_.begin(), sets_.end(), in_number_order);
   if (sets_.empty())
     throw InputError(fmt::format(
         "{} has the history of no set; add a section [probes.NAME] to the case, or name sets in output.history_sets",
@@ -182,9 +166,7 @@ std::vector<std::string> HammerTest::sets_named(const std::string& name) const {
   take([&](const std::string& set) { return set == name; });
   take([&](const std::string& set) { return behind_dot(set) == name; });
   take([&](const std::string& set) { return asker(set) == "probe " + name; });
-  take([&](const std::string& set) {
-    return fits(name.c_str(), set.c_str()) || fits(name.c_str(), behind_dot(set).c_str());
-  });
+  take([&](const std::string& set) { return matches_pattern(name, set) || matches_pattern(name, behind_dot(set)); });
   return found;
 }
 

@@ -37,7 +37,7 @@ void curves(const Model& model, std::vector<Cause>& causes) {
   for (const scene::Curve& curve : model.scene.curves)
     for (const auto& point : curve.points)
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
-        causes.push_back({"curve", fmt::format("curve {} has a value that is no number: mend curves.{}", curve.name, curve.name), 100});
+        causes.push_back(Cause{"curve", fmt::format("curve {} has a value that is no number: mend curves.{}", curve.name, curve.name), 100});
 }
 
 void materials(const Model& model, std::vector<Cause>& causes) {
@@ -45,7 +45,7 @@ void materials(const Model& model, std::vector<Cause>& causes) {
     const scene::Material& material = material_of(model, static_cast<int>(p));
     const double speed = material.dilatational_speed();
     if (speed >= slowest_wave && speed <= fastest_wave) continue;
-    causes.push_back({"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus "
+    causes.push_back(Cause{"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus "
                                               "(Pa); a table in mm and tonnes must be converted",
                                               material.name, model.scene.parts[p].name, speed, material.name), 90});
   }
@@ -58,7 +58,7 @@ void speeds(const Model& model, const WatchEvidence& evidence, std::vector<Cause
   std::string sources;
   for (const auto& motion : model.scene.initial_motions) sources += fmt::format(" initial_motion.{}", motion.name);
   for (const auto& motion : model.scene.prescribed_motions) sources += fmt::format(" prescribed_motion.{}", motion.name);
-  causes.push_back({"speed", fmt::format("bodies begin with {:.4g} m/s: see{} (velocity in m/s, angular_velocity in rad/s)", evidence.first.speed.value, sources),
+  causes.push_back(Cause{"speed", fmt::format("bodies begin with {:.4g} m/s: see{} (velocity in m/s, angular_velocity in rad/s)", evidence.first.speed.value, sources),
                     85});
 }
 
@@ -92,7 +92,7 @@ void loads(const Model& model, std::vector<Cause>& causes) {
     const double strain = stress * factor / modulus;
     if (!(strain > much_strain)) continue;
     const bool pressure = load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction;
-    causes.push_back({"load", fmt::format("load {} strains the elements under it by about {:.3g}: see loads.{} ({}) and its curve", load.name, strain, load.name,
+    causes.push_back(Cause{"load", fmt::format("load {} strains the elements under it by about {:.3g}: see loads.{} ({}) and its curve", load.name, strain, load.name,
                                           pressure ? "Pa" : load.type == scene::LoadType::torque ? "N m" : "N"),
                       70 + std::fmin(9, std::log10(strain / much_strain))});
   }
@@ -115,7 +115,7 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
     for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
     for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);
     if (held || !(evidence.kinetic_share > 0.5)) continue;
-    causes.push_back({"unheld", fmt::format("nothing holds part {} against load {}, whose work has gone into its motion: add constraints or connectors", name,
+    causes.push_back(Cause{"unheld", fmt::format("nothing holds part {} against load {}, whose work has gone into its motion: add constraints or connectors", name,
                                             load.name), 75});
   }
 }
@@ -124,14 +124,14 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const scene::Contact& contact = *model.contacts[c].contact;
     if (c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
-      causes.push_back({"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
+      causes.push_back(Cause{"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
                                                            "contacts.{}.close_gap", contact.name, evidence.first.penetration[c].value, contact.name), 80});
     const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > model.scene.watch.penetration;
     if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
-      causes.push_back({"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,
-                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 59 : 20});
+      causes.push_back(Cause{"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,
+                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 59.0 : 20.0});
     if (fault.kind == FaultKind::chatter)
-      causes.push_back({"chatter", fmt::format("nodes of contact {} bounce: give it damping (contacts.{}.damping), or a softer penalty_scale", contact.name,
+      causes.push_back(Cause{"chatter", fmt::format("nodes of contact {} bounce: give it damping (contacts.{}.damping), or a softer penalty_scale", contact.name,
                                                contact.name), 30});
   }
 }
@@ -144,10 +144,10 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
     const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
     const bool distorted = here && evidence.last.distortion.value > 0.5 * model.scene.watch.hourglass_distortion;
     if (part.hourglass_coefficient < 0.01 && (distorted || fault.kind == FaultKind::hourglass_distortion))
-      causes.push_back({"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about 0.1",
+      causes.push_back(Cause{"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about 0.1",
                                                             part.name, part.name, part.hourglass_coefficient), 68});
     if (fault.kind == FaultKind::hourglass_share && part.name == fault.part)
-      causes.push_back({"coarse mesh", fmt::format("part {} is bent or loaded at points over few elements: refine it there, or raise parts.{}.hourglass_coefficient",
+      causes.push_back(Cause{"coarse mesh", fmt::format("part {} is bent or loaded at points over few elements: refine it there, or raise parts.{}.hourglass_coefficient",
                                                    part.name, part.name), 30});
   }
 }
@@ -155,10 +155,10 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
 void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   const double at_first = evidence.first.jacobian.value;
   if (evidence.first.jacobian.place >= 0 && at_first < 0.5)
-    causes.push_back({"mesh", fmt::format("element {} is badly shaped before anything moves: its smallest Jacobian is a tenth of the mean or less; mend the mesh "
+    causes.push_back(Cause{"mesh", fmt::format("element {} is badly shaped before anything moves: its smallest Jacobian is a tenth of the mean or less; mend the mesh "
                                           "(`railwave check` names the worst)", evidence.first.jacobian.place), 58});
   else if (fault.kind == FaultKind::inversion || fault.kind == FaultKind::hourglass_distortion)
-    causes.push_back({"overstrained", fmt::format("part {} is strained beyond what its elements can follow: see what presses or hits it, or let its material yield "
+    causes.push_back(Cause{"overstrained", fmt::format("part {} is strained beyond what its elements can follow: see what presses or hits it, or let its material yield "
                                                   "(materials.{}.yield_stress)", fault.part.empty() ? "?" : fault.part,
                                                   fault.part.empty() ? "NAME" : model.scene.parts[part_of_target(model, fault.part)].material), 25});
 }
@@ -177,7 +177,7 @@ std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const W
   shape(model, fault, evidence, causes);
   for (Cause& cause : steps_too_long(model)) causes.push_back(std::move(cause));
   if (causes.empty())
-    causes.push_back({"unknown", "none of the known causes is apparent: lower time.step_scale to see whether that mends it, and look at the fault's surroundings", 0});
+    causes.push_back(Cause{"unknown", "none of the known causes is apparent: lower time.step_scale to see whether that mends it, and look at the fault's surroundings", 0});
   std::stable_sort(causes.begin(), causes.end(), [](const Cause& a, const Cause& b) { return a.weight > b.weight; });
   // Most meshes are stable beyond what their worst element is alone: that is worth telling only where nothing else is.
   causes.erase(std::remove_if(causes.begin() + 1, causes.end(), [](const Cause& one) { return one.name == possible_step_cause; }), causes.end());

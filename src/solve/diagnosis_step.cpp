@@ -38,13 +38,13 @@ void elements(const Model& model, std::vector<Cause>& causes) {
   // Control counts where it, not the elastic modes, has shortened the element's step.
   const bool by_control = own.control < free.step;
   if (by_control && step > own.control)
-    causes.push_back({"hourglass control too strong", fmt::format("the step is {:.3g} times what the hourglass control of part {} allows: lower "
+    causes.push_back(Cause{"hourglass control too strong", fmt::format("the step is {:.3g} times what the hourglass control of part {} allows: lower "
                                                                   "parts.{}.hourglass_coefficient ({:.3g}), or {}",
                                                                   step / own.control, part.name, part.name, part.hourglass_coefficient, mend),
                       weight(step / own.control, true)});
   const double ratio = step / stable.eigenvalue;
   if (!by_control && part.damped() && stable.eigenvalue < 0.9 * free.step && ratio > 1)
-    causes.push_back({"damping of a part", fmt::format("the step is {:.3g} times what the damping of part {} allows: lower parts.{}.stiffness_damping and its like, or {}",
+    causes.push_back(Cause{"damping of a part", fmt::format("the step is {:.3g} times what the damping of part {} allows: lower parts.{}.stiffness_damping and its like, or {}",
                                                        ratio, part.name, part.name, mend), weight(ratio, true)});
   else if (!by_control && ratio > 1) {
     const bool certain = step > stable.elements;
@@ -53,7 +53,7 @@ void elements(const Model& model, std::vector<Cause>& causes) {
       return fmt::format("the step is {:.3g} times the stable step of element {} of part {}", times, lowest - model.assembly.parts[q].first_element,
                          model.scene.parts[q].name);
     };
-    if (certain) causes.push_back({"step beyond elements", fmt::format("{}: {}", who(step / stable.elements), mend), weight(step / stable.elements, true)});
+    if (certain) causes.push_back(Cause{"step beyond elements", fmt::format("{}: {}", who(step / stable.elements), mend), weight(step / stable.elements, true)});
     else causes.push_back({possible_step_cause, who(ratio) + ", alone: solver.step_estimate = \"eigenvalue\" is safe for bodies one element thick",
                            weight(ratio, false)});
   }
@@ -69,7 +69,7 @@ void contact_springs(const Model& model, std::vector<Cause>& causes) {
     if (pair.has_springs() && (stiffest == nullptr || pair.contact->penalty_scale * pair.growth > stiffest->contact->penalty_scale * stiffest->growth)) stiffest = &pair;
   if (stiffest == nullptr) return;
   const scene::Contact& contact = *stiffest->contact;
-  causes.push_back({"step beyond contact springs",
+  causes.push_back(Cause{"step beyond contact springs",
                     fmt::format("the penalty springs of contact {} are stiffer than the step allows, which is {:.3g} times theirs: lower contacts.{}.penalty_scale "
                                 "({:.3g}), or {}", contact.name, ratio, contact.name, contact.penalty_scale, mend), weight(ratio, true) + 0.01});
 }
@@ -106,7 +106,7 @@ std::vector<Cause> steps_too_long(const Model& model) {
   connectors(model, causes);
   const double beams = model.stable_step.beam > 0 ? model.step_size / model.stable_step.beam : 0;
   if (beams > 1)
-    causes.push_back({"step beyond beams", fmt::format("the step is {:.3g} times what the beams allow: make beams.NAME.divisions fewer, or {}", beams, mend),
+    causes.push_back(Cause{"step beyond beams", fmt::format("the step is {:.3g} times what the beams allow: make beams.NAME.divisions fewer, or {}", beams, mend),
                       weight(beams, true) + 0.03});
   return causes;
 }

@@ -1,3 +1,9 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/error.hpp"
+#include "mesh/vectors.hpp"
 #include "model/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
 #include "solve/beams.hpp"
@@ -31,6 +37,34 @@ Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, con
                           ? model.assembly.node_sets.at(part)
                           : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
   return centre_of_mass(model, nodes, to_host(position));
+}
+
+void refuse_moving_held_nodes(const Model& model) {
+  std::vector<Vec3> velocity(model.assembly.nodes.size(), Vec3{0, 0, 0});
+  double fastest = 0;
+  for (const scene::InitialMotion& motion : model.scene.initial_motions)
+    for (const std::string& name : motion.parts) {
+      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
+      const auto& nodes = model.assembly.node_sets.at(name);
+      const Vec3 w = nodes.size() > 1 ? turned_with_part_of(model.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
+      for (int n : nodes) {
+        const Vec3 turning = cross(w, difference(model.assembly.nodes[n], centre));
+        for (int i = 0; i < 3; ++i) velocity[n][i] += motion.velocity[i] + turning[i];
+        fastest = std::fmax(fastest, length(velocity[n]));
+      }
+    }
+  for (const scene::Constraint& constraint : model.scene.constraints)
+    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target))
+      for (int a = 0; a < 3; ++a) {
+        const double along = dot(constraint.axes[a], velocity[n]);
+        if (!constraint.fixed[a] || std::fabs(along) <= 1e-6 * fastest) continue;
+        const Vec3& x = model.assembly.nodes[n];
+        throw InputError(fmt::format(
+            "{}:{}: [constraints.{}] holds the node at ({:.6g}, {:.6g}, {:.6g}) m along ({:.4g}, {:.4g}, {:.4g}), in which an initial motion gives it "
+            "{:.4g} m/s; give {} a [prescribed_motion] in place of the constraint, or take the direction out of one of both",
+            model.scene.path, constraint.line, constraint.name, x[0], x[1], x[2], constraint.axes[a][0], constraint.axes[a][1], constraint.axes[a][2],
+            along, constraint.target));
+      }
 }
 
 void set_initial_motion(Model& model) {

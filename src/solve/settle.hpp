@@ -33,6 +33,10 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
 Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position);
 
+/// A held node that moved would do work that nobody counts.
+/// @throws InputError where an initial motion moves a node in a direction in which a constraint holds it
+void refuse_moving_held_nodes(const Model& model);
+
 /// Adds the scene's initial motions to the velocities, v = V + omega x (x - centre), in the present configuration.
 void set_initial_motion(Model& model);
 

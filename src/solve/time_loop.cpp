@@ -61,6 +61,7 @@ class Schedule {
 
 /// @return whether the run begins in equilibrium
 bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
+  refuse_moving_held_nodes(model);
   bool in_equilibrium = false;
   if (model.scene.settle.active) {
     const SettleReport report = come_to_rest(model, settled, [&](const SettleReport& so_far) {

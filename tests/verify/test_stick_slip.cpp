@@ -51,12 +51,11 @@ struct Dragged {
     made.contacts[0].dynamic_friction = at_speed;
     made.contacts[0].friction_decay = decay;
     made.time.step_scale = 0.6;
-    hold(made, "lower", {true, true, true});  // a held direction keeps the velocity that it began with
-    scene::InitialMotion moving;
+    scene::PrescribedMotion moving;
     moving.name = "belt";
-    moving.parts = {"lower"};
+    moving.target = "lower";
     moving.velocity = {belt, 0, 0};
-    made.initial_motions.push_back(moving);
+    made.prescribed_motions.push_back(moving);
     add_force(made, "upper", {0, 0, -pressing}, "");
     scene::Connector held;
     held.name = "spring";
@@ -80,7 +79,9 @@ TEST_CASE("a block on a spring dragged by a belt sticks and slips with the perio
   Model model;
   build_model(dragged.scene(7 * exact.period), model);
   Recorder recorder;
-  REQUIRE(run(model, {&recorder}).completed);
+  const RunSummary summary = run(model, {&recorder});
+  INFO(summary.reason);
+  REQUIRE(summary.completed);
 
   // Slips: where the spring's force falls through the dynamic friction's.
   const double level = dragged.at_speed * dragged.pressing / dragged.spring;

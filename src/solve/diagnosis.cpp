@@ -86,7 +86,7 @@ void loads(const Model& model, std::vector<Cause>& causes) {
   }
 }
 
-/// A body that a load drives and nothing holds.
+/// A body that a load drives and nothing holds: a contact that is apart does not.
 void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > model.scene.watch.speed)) return;
   for (const scene::Load& load : model.scene.loads) {
@@ -98,7 +98,10 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
     for (const auto& one : model.scene.constraints) held = held || concerns(one.target);
     for (const auto& one : model.scene.connectors) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
-    for (const auto& one : model.scene.contacts) held = held || concerns(one.slave) || concerns(one.master);
+    for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
+      const auto& one = model.scene.contacts[c];
+      held = held || ((concerns(one.slave) || concerns(one.master)) && c < evidence.touching.size() && evidence.touching[c] > 0);
+    }
     for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
     for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);
@@ -117,7 +120,7 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
     const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > model.scene.watch.penetration;
     if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
       causes.push_back({"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,
-                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 59 : 20});
+                                                    contact.name, contact.penalty_scale), contact.penalty_scale < 0.5 ? 59.0 : 20.0});
     if (fault.kind == FaultKind::chatter)
       causes.push_back({"chatter", fmt::format("nodes of contact {} bounce: give it damping (contacts.{}.damping), or a softer penalty_scale", contact.name,
                                                contact.name), 30});
@@ -156,7 +159,7 @@ void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence
 std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence) {
   std::vector<Cause> causes;
   curves(model, causes);
-  for (Fault& fault : absurd_units(model)) causes.push_back(std::move(fault.causes[0]));
+  for (Fault& unit : absurd_units(model)) causes.push_back(std::move(unit.causes[0]));
   speeds(model, evidence, causes);
   loads(model, causes);
   unheld(model, fault, evidence, causes);

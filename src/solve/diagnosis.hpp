@@ -13,6 +13,7 @@ struct WatchEvidence {
   WatchMeasures first, last;
   Extreme worst_shape;          ///< smallest Jacobian at a corner over the mean of its element, undeformed
   std::vector<double> deepest;  ///< by contact pair: largest penetration so far, over the face's size
+  std::vector<int> touching;    ///< by contact of the scene: nodes in contact now
   double kinetic_share = 0;  ///< kinetic energy over the work of loads, where these work
 };
 

@@ -59,6 +59,8 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
     evidence_.deepest[c] = std::max(evidence_.deepest[c], evidence_.last.penetration[c].value);
   if (!begun_) look_at_beginning(sample);
   begun_ = true;
+  evidence_.touching.clear();
+  for (const ContactTotals& contact : sample.contacts) evidence_.touching.push_back(contact.nodes_in_contact);
   const double work = std::fabs(sample.energy.external_work);
   evidence_.kinetic_share = work > 0 ? sample.energy.kinetic / work : 0;
   if (!finite(sample)) {
@@ -210,7 +212,7 @@ std::string Watch::worst_told() const {
   std::string line;
   for (int kind = 0; kind < fault_kinds; ++kind)
     if (const Worst& worst = worst_[kind]; worst.seen)
-      line += fmt::format("{}{} {:.2g} ({:.3g})", line.empty() ? "" : ", ", key_of(static_cast<FaultKind>(kind)), worst.value, worst.limit);
+      line += fmt::format("{}{} {:.3g} ({:.3g})", line.empty() ? "" : ", ", key_of(static_cast<FaultKind>(kind)), worst.value, worst.limit);
   return line;
 }
 

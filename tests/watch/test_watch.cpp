@@ -67,7 +67,9 @@ Outcome outcome_of(const Seed& seed, long limit = steps) {
 
 }  // namespace
 
-TEST_CASE("twenty seeded instabilities are all named, nearly all with the true cause first and before a twentieth of the run is wasted") {
+TEST_CASE("twenty seeded instabilities are all named with the true cause first and before a twentieth of the run is wasted", "[table]") {
+  // What docs/watch.md shows.
+  std::cout << "| seeded | named first | run until step | wasted |\n|---|---|---|---|\n";
   int named = 0, right = 0, timely = 0, count = 0;
   for (const Seed& seed : seeds()) {
     ++count;
@@ -78,18 +80,15 @@ TEST_CASE("twenty seeded instabilities are all named, nearly all with the true c
     const std::string cause = outcome.cause;
     named += is_named;
     right += cause == seed.cause;
-    std::cout << fmt::format("{} {:<44} | {:<28} | {} | until step {} | wasted {:.3f} %\n    {}\n", cause == seed.cause ? "ok " : "-- ", seed.what, seed.cause, cause,
-                             outcome.witness.summary.steps, 100 * outcome.wasted, told)
-              << std::flush;
+    std::cout << fmt::format("| {} | {} | {} | {:.3f} % |\n", seed.what, cause, outcome.witness.summary.steps, 100 * outcome.wasted) << std::flush;
     INFO(seed.what << ": " << told);
     CHECK(is_named);
     timely += outcome.wasted < 0.05;
   }
   CHECK(count == 20);
   CHECK(named == count);
-  CHECK(right >= 18);
-  // Not the block that nothing holds: its balance is off by a hundredth from early on (docs/watch.md).
-  CHECK(timely >= 19);
+  CHECK(right == count);
+  CHECK(timely == count);
 }
 
 namespace {

@@ -21,10 +21,6 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// Steps between looks at the solution where no output asks for one earlier: whole rounds of any levels.
-constexpr long steps_between_checks = 512;
-static_assert(steps_between_checks % (1L << (most_levels - 1)) == 0);
-
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -41,7 +37,6 @@ class Schedule {
   bool last() const { return model_.step == model_.step_count; }
   bool history() const { return history_.due(model_.step) || last(); }
   bool fields() const { return fields_.due(model_.step) || last(); }
-  bool check() const { return model_.step % steps_between_checks == 0; }
 
   void step_changed(double from) {
     history_.step_changed(model_.step, from, model_.step_size);
@@ -194,7 +189,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
     const bool asked_for = due.history() || due.fields() || stopping;
-    const bool looked_at = asked_for || due.check() || (watch.due(model.step) && model.subcycling.in_phase(model.step));
+    const bool looked_at = asked_for || (watch.due(model.step) && model.subcycling.in_phase(model.step));
     instant.advancing = !looked_at;
     if (looked_at && !asked_for) looks.begin();
     for (const Stage& stage : stages) stage.run(instant);

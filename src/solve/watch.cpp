@@ -12,9 +12,14 @@
 namespace railwave {
 namespace {
 
-constexpr long steps_between_looks = 512, steps_when_odd = 32;
+/// Between regular looks: a 64th of the run, but within these bounds; powers of two, whole rounds of any levels.
+constexpr long fewest_between_looks = 512, most_between_looks = 4096, looks_of_run = 64;
+constexpr long steps_when_odd = 32;
+static_assert(fewest_between_looks % (1L << (most_levels - 1)) == 0);
 /// Smallest Jacobian at a corner, over the mean.
 constexpr double flattest_corner = 0.03;
+/// Of the whole model's deformation: parts that have less are measured by that.
+constexpr double least_share = 0.1;
 
 double magnitude(const EnergyAccount& energy) {
   return std::fabs(energy.kinetic) + std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.connector) +
@@ -34,10 +39,14 @@ bool Watch::due(long step) const {
   if (regular(step)) return true;
   if (!arrays_) return false;
   const bool power_of_two = (step & (step - 1)) == 0;
-  return (step < steps_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
+  return (step < most_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
 }
 
-bool Watch::regular(long step) const { return step % steps_between_looks == 0 || step == model_.step_count; }
+bool Watch::regular(long step) const {
+  long between = fewest_between_looks;
+  while (between < most_between_looks && 2 * between * looks_of_run <= model_.step_count) between *= 2;
+  return step % between == 0 || step == model_.step_count;
+}
 
 bool Watch::finite(const HistorySample& sample) const { return std::isfinite(balance_total(sample.energy)); }
 
@@ -104,7 +113,9 @@ void Watch::look_at_energies(const HistorySample& sample) {
   // What is off but stays so needs no closer look.
   odd_ = error > 0.2 * limit.energy_error && error > 1.1 * error_before_;
   if (regular(sample.step)) error_before_ = error;
-  judge(FaultKind::energy, error, {limit.energy_error, limit.fatal_energy_error}, sample, evidence_.last.speed);
+  // In the first steps under a load little is given.
+  if (sample.step >= steps_when_odd || error > limit.fatal_energy_error)
+    judge(FaultKind::energy, error, {limit.energy_error, limit.fatal_energy_error}, sample, evidence_.last.speed);
   judge(FaultKind::kinetic, beyond, {limit.kinetic_growth}, sample, evidence_.last.speed);
 }
 
@@ -118,9 +129,9 @@ void Watch::look_at_parts(const HistorySample& sample) {
   // The first waves under a load are no picture of the run.
   if (sample.step == 0 || !regular(sample.step)) return;
   for (std::size_t p = 0; p < by_part_.size(); ++p) {
-    // Parts that hardly deform have nothing to be spoilt.
-    const double elastic = most_of_part_[p].internal, hourglass = most_of_part_[p].hourglass;
-    if (!(elastic > 1e-3 * all)) continue;
+    // Parts that hardly deform have little to be spoilt.
+    const double elastic = std::max(most_of_part_[p].internal, least_share * all), hourglass = most_of_part_[p].hourglass;
+    if (!(elastic > 0)) continue;
     Extreme where;
     const auto& range = model_.assembly.parts[p];
     const int seen = evidence_.last.distortion.place;

@@ -18,7 +18,8 @@ class Watch {
  public:
   explicit Watch(const Model& model);
 
-  /// Whether it wants to look at this step: every 512 steps, at the first powers of two, and every 32 while something odd grows.
+  /// Whether it wants to look at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every 4096; at
+  /// the first powers of two; and every 32 while something odd grows.
   bool due(long step) const;
 
   /// Where a sample's part energies are wanted; null: nowhere.

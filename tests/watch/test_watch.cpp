@@ -93,8 +93,16 @@ TEST_CASE("twenty seeded instabilities are all named with the true cause first a
 
 namespace {
 
-/// All that the watch says of a sound scene.
+/// With loads that grow over the given time, s.
+scene::Scene ramped(scene::Scene scene, double duration) {
+  add_ramp(scene, "ramp", 0, duration);
+  for (scene::Load& load : scene.loads) load.curve = "ramp";
+  return scene;
+}
+
+/// All that the watch says of a scene.
 std::string said_of(scene::Scene scene, double end) {
+  scene.watch.hourglass_share = 0.1;  // TEMPORARY
   scene.time.end = end;
   scene.output.history_interval = end / 20;
   scene.output.field_interval = end;
@@ -111,19 +119,22 @@ std::string said_of(scene::Scene scene, double end) {
 }  // namespace
 
 TEST_CASE("sound scenes bring no warning") {
-  CHECK(said_of(pressed_block(), 2e-3) == "");
-  CHECK(said_of(sprung_mass(1e8, 100), 2e-3) == "");
-  CHECK(said_of(bent_beam(), 2e-2) == "");
+  // Undamped and loaded at once they would ring, and hourglass control would take a quarter of that.
+  CHECK(said_of(pressed_block(), 2e-3).find("hourglass energy of a part over its elastic energy") == 0);
+  CHECK(said_of(ramped(pressed_block(), 2e-4), 2e-3) == "");
+  CHECK(said_of(ramped(sprung_mass(1e8, 100), 2e-4), 2e-3) == "");
+  CHECK(said_of(ramped(bent_beam(), 2e-3), 2e-2) == "");
   TwoBlocks sliding;
-  sliding.upper_divisions = {4, 4, 2};
-  sliding.lower_divisions = {8, 8, 3};
+  // With half as many the pressed surfaces' hourglass modes take a seventh.
+  sliding.upper_divisions = {8, 8, 4};
+  sliding.lower_divisions = {16, 16, 6};
   sliding.friction = 0.3;
   for (const auto algorithm : both_algorithms) {
     sliding.algorithm = algorithm;
     scene::Scene scene = sliding.scene(1);
     hold(scene, "lower.z_min", {true, true, true});
-    press(scene, "upper.z_max", 1e6).curve = "ramp";
-    add_ramp(scene, "ramp", 0, 2e-4);
+    press(scene, "upper.z_max", 1e6);
+    scene = ramped(scene, 2e-4);
     scene::InitialMotion motion;
     motion.name = "slide";
     motion.parts = {"upper"};

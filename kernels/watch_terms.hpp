@@ -6,10 +6,11 @@
 
 namespace railwave {
 
-/// An element's shape where nothing has moved: its smallest Jacobian at a corner, m3 (no less than a tenth of the mean), the
-/// sizes of its four hourglass modes, m, and its size, m.
+/// An element's shape where nothing has moved: its smallest Jacobian at a corner, m3, what its change is measured by (that
+/// Jacobian, but no less than a tenth of the mean: corners may be flat from the beginning), the sizes of its four hourglass
+/// modes, m, and its size, m.
 struct ElementShapes {
-  static constexpr int jacobian = 0, mode = 1, size = 5, values = 6;
+  static constexpr int jacobian = 0, scale = 1, mode = 2, size = 6, values = 7;
   int count = 0;
   Array<int* [8]> corners;
   Array<float* [values]> undeformed;
@@ -47,7 +48,8 @@ struct ElementShape {
   }
 };
 
-/// Minus the smallest Jacobian over the undeformed one; the largest change of an hourglass mode over the element's size.
+/// Minus the smallest Jacobian over the undeformed one, as far as that is large enough (1 + (J - J_0)/scale); the largest
+/// change of an hourglass mode over the element's size.
 struct ElementWatch {
   static constexpr int values = 2;
   ElementShapes shapes;
@@ -56,7 +58,7 @@ struct ElementWatch {
   KOKKOS_INLINE_FUNCTION void operator()(int e, double* value) const {
     ElementShape now;
     for (int N = 0; N < 8; ++N) now.x[N] = row(position, shapes.corners(e, N));
-    value[0] = -now.smallest_jacobian() / shapes.undeformed(e, ElementShapes::jacobian);
+    value[0] = (shapes.undeformed(e, ElementShapes::jacobian) - now.smallest_jacobian()) / shapes.undeformed(e, ElementShapes::scale) - 1;
     value[1] = 0;
     for (int m = 0; m < 4; ++m) {
       const double change = std::fabs(now.hourglass_mode(m) - shapes.undeformed(e, ElementShapes::mode + m));

@@ -7,7 +7,7 @@ Section watch_section() {
   using scene::Watch;
   auto section = single_section(
       "watch", &scene::Scene::watch,
-      "What a run looks out for, every 512 steps and at its beginning more often. Beyond a limit it warns, once for each kind, and tells "
+      "What a run looks out for, some 64 times and at its beginning more often. Beyond a limit it warns, once for each kind, and tells "
       "where, when and the likely cause; beyond a fatal one it stops, writes its last state, and the culprit's surroundings beside the "
       "results as NAME.fault.h5 and .xdmf. docs/watch.md tells more.");
   section.keys = {

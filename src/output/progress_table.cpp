@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t most_force_samples = 20000;
 constexpr long lines_between_headings = 30;
-/// Of the largest elastic energy: the usual bound for explicit runs. Where sliding friction feeds hourglass modes faster than a weak
-/// viscous control drains them it was 14 and 27 % (docs/verification.md), and under 1 % in the same runs with a stronger one.
-constexpr double largest_hourglass_share = 0.1;
 
 double size(const Vec3& vector) { return std::hypot(vector[0], vector[1], vector[2]); }
 
@@ -107,10 +104,6 @@ void ProgressTable::print_energies() const {
   out_ << fmt::format("  energy balance error, J: {:.4g} at the end, {:.4g} at most\n", last_.energy.balance_error, largest_balance_error_);
   out_ << fmt::format("    the most, of the largest energy ({:.6g} J): {}; of the largest elastic energy ({:.6g} J): {}\n", largest_energy_,
                       share(largest_balance_error_, largest_energy_), largest_elastic_energy_, share(largest_balance_error_, largest_elastic_energy_));
-  if (last_.energy.hourglass > largest_hourglass_share * largest_elastic_energy_)
-    out_ << fmt::format("  warning: hourglass control took {} of the largest elastic energy; hourglass modes may have spoilt the solution. Compare with a run of\n"
-                        "    a larger parts.NAME.hourglass_coefficient or a finer mesh\n",
-                        share(last_.energy.hourglass, largest_elastic_energy_));
 }
 
 void ProgressTable::print_contacts() const {
@@ -145,6 +138,9 @@ void ProgressTable::end(const RunSummary& summary) {
   for (const std::string& line : summary.subcycling) out_ << "  subcycling: " << line << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n", duration_text(summary.wall_seconds),
                       1e-6 * summary.element_steps_per_second, plan_.element_count);
+  if (!summary.watched.empty())
+    out_ << fmt::format("  watch, worst values (limits): {}\n    its looks took {:.2g} s, {:.2g} % of the run\n", summary.watched, summary.watch_seconds,
+                        100 * summary.watch_seconds / std::max(summary.wall_seconds, 1e-9));
   if (summary.checkpoints > 0)
     out_ << fmt::format("  {} checkpoints, for which the run waited {:.3g} s in all, {:.2g} % of its time\n", summary.checkpoints,
                         summary.checkpoint_seconds, 100 * summary.checkpoint_seconds / std::max(summary.wall_seconds, 1e-9));

@@ -66,6 +66,18 @@ struct PlasticEnergy {
   }
 };
 
+/// Adds the work of plastic flow of a patch's slots to what the patch has stored.
+template <class S>
+struct AddPlastic {
+  PlasticEnergy<S> of_slot;
+  Array<double* [2]> energy;
+  KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
+    double sum = 0;
+    for (int slot = p * patch_size; slot < (p + 1) * patch_size; ++slot) of_slot(slot, &sum);
+    energy(p, 0) += sum;
+  }
+};
+
 /// Stored in the penalty springs; dissipated by friction, and by the springs' damping.
 struct ContactEnergy {
   static constexpr int values = 3;
@@ -150,8 +162,11 @@ struct Work {
 };
 
 /// Shares a group's energies out among its parts: a patch lies in one.
+template <class S>
 void share_out(const Model& model, const ElementGroup& group, const Array<double* [2]>& patch_energy, std::vector<PartEnergy>& by_part) {
   Kokkos::parallel_for("add_dissipated", Range(0, group.patches.count), AddDissipated{patch_energy, group.patches.hourglass_energy, power_sums});
+  if (group.plastic.active())
+    Kokkos::parallel_for("add_plastic", Range(0, group.patches.count), AddPlastic<S>{{group.patches, group.plastic}, patch_energy});
   const auto energy = to_host(patch_energy);
   const auto& parts = model.assembly.parts;
   std::size_t p = 0;
@@ -178,7 +193,7 @@ void element_energy(const Model& model, const ElementGroup& group, EnergyAccount
   block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
   energy.internal += sum[0];
   energy.hourglass += sum[1];
-  if (by_part != nullptr) share_out(model, group, patch_energy, *by_part);
+  if (by_part != nullptr) share_out<S>(model, group, patch_energy, *by_part);
   if (group.damping.active()) {
     block_sum(Work{group.damping.energy}, group.patches.count, sum, model.sum_space);
     energy.damping += sum[0];

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "solve/diagnosis_step.hpp"
+#include "solve/diagnosis_units.hpp"
 
 namespace railwave {
 namespace {
 
-/// Waves of solids are between those of soft rubber and of diamond, m/s.
-constexpr double slowest_wave = 5, fastest_wave = 25000;
 /// Strain of a load's own making that no steel stands.
 constexpr double much_strain = 0.05;
 
@@ -38,17 +37,6 @@ void curves(const Model& model, std::vector<Cause>& causes) {
     for (const auto& point : curve.points)
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
         causes.push_back(Cause{"curve", fmt::format("curve {} has a value that is no number: mend curves.{}", curve.name, curve.name), 100});
-}
-
-void materials(const Model& model, std::vector<Cause>& causes) {
-  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
-    const scene::Material& material = material_of(model, static_cast<int>(p));
-    const double speed = material.dilatational_speed();
-    if (speed >= slowest_wave && speed <= fastest_wave) continue;
-    causes.push_back(Cause{"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus "
-                                              "(Pa); a table in mm and tonnes must be converted",
-                                              material.name, model.scene.parts[p].name, speed, material.name), 90});
-  }
 }
 
 /// Speed of what begins or is made to move, m/s; its part's waves bound what a body can take.
@@ -98,7 +86,7 @@ void loads(const Model& model, std::vector<Cause>& causes) {
   }
 }
 
-/// A body that a load drives and nothing holds.
+/// A body that a load drives and nothing holds: a contact that is apart does not.
 void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > model.scene.watch.speed)) return;
   for (const scene::Load& load : model.scene.loads) {
@@ -110,7 +98,10 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
     for (const auto& one : model.scene.constraints) held = held || concerns(one.target);
     for (const auto& one : model.scene.connectors) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
-    for (const auto& one : model.scene.contacts) held = held || concerns(one.slave) || concerns(one.master);
+    for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
+      const auto& one = model.scene.contacts[c];
+      held = held || ((concerns(one.slave) || concerns(one.master)) && c < evidence.touching.size() && evidence.touching[c] > 0);
+    }
     for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
     for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);
@@ -153,10 +144,10 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
 }
 
 void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  const double at_first = evidence.first.jacobian.value;
-  if (evidence.first.jacobian.place >= 0 && at_first < 0.5)
-    causes.push_back(Cause{"mesh", fmt::format("element {} is badly shaped before anything moves: its smallest Jacobian is a tenth of the mean or less; mend the mesh "
-                                          "(`railwave check` names the worst)", evidence.first.jacobian.place), 58});
+  const Extreme& worst = evidence.worst_shape;
+  if (worst.place >= 0 && worst.value < 0.05)
+    causes.push_back(Cause{"mesh", fmt::format("the model's element {} is badly shaped before anything moves, its smallest Jacobian at a corner being {:.2g} of the mean: "
+                                          "mend the mesh (`railwave check` names the worst)", worst.place, worst.value), 58});
   else if (fault.kind == FaultKind::inversion || fault.kind == FaultKind::hourglass_distortion)
     causes.push_back(Cause{"overstrained", fmt::format("part {} is strained beyond what its elements can follow: see what presses or hits it, or let its material yield "
                                                   "(materials.{}.yield_stress)", fault.part.empty() ? "?" : fault.part,
@@ -168,7 +159,7 @@ void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence
 std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence) {
   std::vector<Cause> causes;
   curves(model, causes);
-  materials(model, causes);
+  for (Fault& unit : absurd_units(model)) causes.push_back(std::move(unit.causes[0]));
   speeds(model, evidence, causes);
   loads(model, causes);
   unheld(model, fault, evidence, causes);
@@ -182,25 +173,6 @@ std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const W
   // Most meshes are stable beyond what their worst element is alone: that is worth telling only where nothing else is.
   causes.erase(std::remove_if(causes.begin() + 1, causes.end(), [](const Cause& one) { return one.name == possible_step_cause; }), causes.end());
   return causes;
-}
-
-std::vector<Fault> absurd_materials(const Model& model) {
-  std::vector<Cause> causes;
-  materials(model, causes);
-  std::vector<Fault> faults;
-  if (causes.empty()) return faults;
-  for (std::size_t p = 0; p < model.scene.parts.size() && faults.empty(); ++p) {
-    const double speed = material_of(model, static_cast<int>(p)).dilatational_speed();
-    if (speed >= slowest_wave && speed <= fastest_wave) continue;
-    Fault fault;
-    fault.kind = FaultKind::material;
-    fault.value = fault.worst = speed;
-    fault.limit = speed > fastest_wave ? fastest_wave : slowest_wave;
-    fault.part = model.scene.parts[p].name;
-    fault.causes = causes;
-    faults.push_back(fault);
-  }
-  return faults;
 }
 
 }  // namespace railwave

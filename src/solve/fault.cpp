@@ -16,8 +16,30 @@ const char* name_of(FaultKind kind) {
     case FaultKind::penetration: return "contact penetration over the size of the face under it";
     case FaultKind::chatter: return "contact chatter: times that a node was seen to open and to close";
     case FaultKind::material: return "wave speed of a material, m/s";
+    case FaultKind::yield: return "yield stress of a material over its Young's modulus";
+    case FaultKind::size: return "mean size of a part's elements, m";
+    case FaultKind::shape: return "an element badly shaped before anything moves: its smallest Jacobian at a corner over the mean";
   }
   return "";
+}
+
+const char* key_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::inversion: return "volume_ratio";
+    case FaultKind::energy: return "energy_error";
+    case FaultKind::speed: return "speed";
+    case FaultKind::kinetic: return "kinetic_growth";
+    case FaultKind::hourglass_share: return "hourglass_share";
+    case FaultKind::hourglass_distortion: return "hourglass_distortion";
+    case FaultKind::penetration: return "penetration";
+    case FaultKind::chatter: return "chatter";
+    case FaultKind::not_finite:
+    case FaultKind::material:
+    case FaultKind::yield:
+    case FaultKind::size:
+    case FaultKind::shape: break;
+  }
+  return nullptr;
 }
 
 std::string Fault::told() const {

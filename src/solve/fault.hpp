@@ -8,7 +8,9 @@
 namespace railwave {
 
 /// What the watch looks at.
-enum class FaultKind { not_finite, inversion, energy, speed, kinetic, hourglass_share, hourglass_distortion, penetration, chatter, material };
+enum class FaultKind { not_finite, inversion, energy, speed, kinetic, hourglass_share, hourglass_distortion, penetration, chatter, material, yield, size, shape };
+
+inline constexpr int fault_kinds = 13;
 
 /// What may have brought a fault about, and how to mend it.
 struct Cause {
@@ -24,8 +26,6 @@ struct Fault {
   double time = 0;             ///< s
   long step = 0;
   double value = 0, limit = 0; ///< in the unit of what is watched
-  double worst = 0;            ///< the value when it was worst
-  double worst_time = 0;       ///< s
   std::string part;            ///< of the culprit; empty: no part
   int element = -1;            ///< number among the model's elements, -1: none
   int element_in_part = -1;    ///< number within its part
@@ -39,5 +39,8 @@ struct Fault {
 
 /// The quantity's name, as in messages.
 const char* name_of(FaultKind kind);
+
+/// The key of [watch] that limits it; null: none does.
+const char* key_of(FaultKind kind);
 
 }  // namespace railwave

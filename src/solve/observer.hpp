@@ -68,7 +68,7 @@ struct HistorySample {
 
 /// Energies of one part's elements, J.
 struct PartEnergy {
-  double internal = 0;
+  double internal = 0;   ///< elastic, and the work of plastic flow
   double hourglass = 0;
 };
 
@@ -79,6 +79,8 @@ struct RunSummary {
   bool out_of_time = false;              ///< it ended because its wall-time budget was spent
   int checkpoints = 0;                   ///< written
   double checkpoint_seconds = 0;         ///< s, the loop waited for these in all
+  double watch_seconds = 0;              ///< s, that looks of the watch added to the run
+  std::string watched;                   ///< the worst values that it saw, and their limits; empty: it saw nothing
   long first_step = 0;                   ///< at which this process took the run up; 0 unless restarted
   double time = 0;
   long steps = 0;

@@ -21,10 +21,6 @@ namespace {
 
 volatile std::sig_atomic_t stop_requested = 0;
 
-/// Steps between looks at the solution where no output asks for one earlier: whole rounds of any levels.
-constexpr long steps_between_checks = 512;
-static_assert(steps_between_checks % (1L << (most_levels - 1)) == 0);
-
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -41,7 +37,6 @@ class Schedule {
   bool last() const { return model_.step == model_.step_count; }
   bool history() const { return history_.due(model_.step) || last(); }
   bool fields() const { return fields_.due(model_.step) || last(); }
-  bool check() const { return model_.step % steps_between_checks == 0; }
 
   void step_changed(double from) {
     history_.step_changed(model_.step, from, model_.step_size);
@@ -80,6 +75,7 @@ struct LoopMemory {
   StepControl control;
   Schedule due;
   std::vector<ForceSwing> swings;
+  Watch watch;
   double total_at_start = 0;
   long history_rows = 0, field_outputs = 0;
   double elapsed = 0;  ///< s, of the step before
@@ -92,11 +88,37 @@ struct LoopMemory {
     archive.value("swings", count);
     swings.resize(count);
     for (std::size_t c = 0; c < count; ++c) swings[c].archive(archive, fmt::format("swing_{}", c));
+    watch.archive(archive);
     archive.value("total_at_start", total_at_start);
     archive.value("history_rows", history_rows);
     archive.value("field_outputs", field_outputs);
     archive.value("elapsed", elapsed);
   }
+};
+
+/// What looks of the watch cost: a step that nothing else asked to look at, less what a step takes anyhow; where something else
+/// did, the watch's own part alone.
+class LookTime {
+ public:
+  void begin() {
+    ExecutionSpace().fence();
+    from_ = Clock::now();
+  }
+  void end(bool whole_step) {
+    ExecutionSpace().fence();
+    seconds_ += seconds_since(from_);
+    whole_steps_ += whole_step;
+  }
+  double seconds(double of_run, long steps) const {
+    const long others = steps - whole_steps_;
+    const double usual = others > 0 ? std::max(0.0, of_run - seconds_) / static_cast<double>(others) : 0;
+    return std::max(0.0, seconds_ - static_cast<double>(whole_steps_) * usual);
+  }
+
+ private:
+  Clock::time_point from_;
+  double seconds_ = 0;
+  long whole_steps_ = 0;
 };
 
 /// When states are kept and when the wall time is spent.
@@ -137,9 +159,9 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   const bool in_equilibrium = keeping.from || prepare(model, observers, settled);
   const bool prepared = stop_requested == 0;
 
-  LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size())};
-  auto& [control, due, swings, total_at_start, history_rows, field_outputs, elapsed] = memory;
-  Watch watch(model);
+  LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size()),
+                    Watch(model)};
+  auto& [control, due, swings, watch, total_at_start, history_rows, field_outputs, elapsed] = memory;
   const auto stages = force_stages(model);
   if (keeping.from) {
     lay_model_state(model, *keeping.from);
@@ -150,6 +172,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.left_out = model.left_out;
   summary.first_step = model.step;
   const auto began = Clock::now();
+  LookTime looks;
 
   Instant instant;
   instant.elapsed = elapsed;
@@ -166,15 +189,20 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     const double step_before = model.step_size;
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
-    const bool looked_at = due.history() || due.fields() || due.check() || stopping || (watch.due(model.step) && model.subcycling.in_phase(model.step));
+    const bool asked_for = due.history() || due.fields() || stopping;
+    const bool looked_at = asked_for || (watch.due(model.step) && model.subcycling.in_phase(model.step));
     instant.advancing = !looked_at;
+    if (looked_at && !asked_for) looks.begin();
     for (const Stage& stage : stages) stage.run(instant);
 
     if (looked_at) {
       HistorySample sample = take_sample(model, model.step_size, watch.part_energies(model.step));
       if (model.step == 0) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
-      for (const Fault& fault : watch.look(sample))
+      if (asked_for) looks.begin();
+      const std::vector<Fault> found = watch.look(sample);
+      if (asked_for) looks.end(false);
+      for (const Fault& fault : found)
         for (RunObserver* observer : observers) observer->warning(model, fault);
       if (const Fault* fault = watch.fatal()) {
         summary.fault = *fault;
@@ -199,6 +227,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     }
     advance(model, model.step_size);
     instant.elapsed = elapsed = model.step_size;
+    if (looked_at && !asked_for) looks.end(true);
   }
 
   summary.step_size = model.step_size;
@@ -208,6 +237,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
   summary.warnings = watch.told();
+  summary.watched = watch.worst_told();
   for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
   if (keeping.checkpoints)
     if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
@@ -219,6 +249,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.time = model.time;
   summary.steps = model.step;
   summary.wall_seconds = seconds_since(began);
+  summary.watch_seconds = looks.seconds(summary.wall_seconds - summary.checkpoint_seconds, model.step - summary.first_step);
   const double updates = static_cast<double>(model.element_count()) * static_cast<double>(model.step - summary.first_step) / model.subcycling.gain();
   summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
   for (RunObserver* observer : observers) observer->end(model, summary);

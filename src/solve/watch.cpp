@@ -7,11 +7,19 @@
 
 #include "mesh/hexahedron.hpp"
 #include "solve/account.hpp"
+#include "solve/diagnosis_units.hpp"
 
 namespace railwave {
 namespace {
 
-constexpr long steps_between_looks = 512, steps_when_odd = 32;
+/// Between regular looks: a 64th of the run, but within these bounds; powers of two, whole rounds of any levels.
+constexpr long fewest_between_looks = 512, most_between_looks = 4096, looks_of_run = 64;
+constexpr long steps_when_odd = 32;
+static_assert(fewest_between_looks % (1L << (most_levels - 1)) == 0);
+/// Smallest Jacobian at a corner, over the mean.
+constexpr double flattest_corner = 0.03;
+/// Of the whole model's deformation: parts that have less are measured by that.
+constexpr double least_share = 0.1;
 
 double magnitude(const EnergyAccount& energy) {
   return std::fabs(energy.kinetic) + std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.connector) +
@@ -23,14 +31,21 @@ double magnitude(const EnergyAccount& energy) {
 Watch::Watch(const Model& model) : model_(model) {
   if (!model.scene.watch.active) return;
   arrays_ = std::make_unique<WatchArrays>(model);
+  evidence_.worst_shape = arrays_->worst_shape();
   most_of_part_.resize(model.assembly.parts.size());
 }
 
 bool Watch::due(long step) const {
-  if (step % steps_between_looks == 0) return true;
+  if (regular(step)) return true;
   if (!arrays_) return false;
   const bool power_of_two = (step & (step - 1)) == 0;
-  return (step < steps_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
+  return (step < most_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
+}
+
+bool Watch::regular(long step) const {
+  long between = fewest_between_looks;
+  while (between < most_between_looks && 2 * between * looks_of_run <= model_.step_count) between *= 2;
+  return step % between == 0 || step == model_.step_count;
 }
 
 bool Watch::finite(const HistorySample& sample) const { return std::isfinite(balance_total(sample.energy)); }
@@ -41,7 +56,7 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
     if (!finite(sample)) note(FaultKind::not_finite, true, 0, 0, sample, {}, false);
     return new_;
   }
-  const bool whole = due(sample.step) || !finite(sample) || model_.step == model_.step_count;
+  const bool whole = due(sample.step) || !finite(sample);
   if (whole) {
     WatchMeasures now = arrays_->measure(model_);
     if (!begun_) evidence_.first = now;
@@ -51,16 +66,10 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   evidence_.deepest.resize(evidence_.last.penetration.size());
   for (std::size_t c = 0; c < evidence_.deepest.size(); ++c)
     evidence_.deepest[c] = std::max(evidence_.deepest[c], evidence_.last.penetration[c].value);
-  if (!begun_) {
-    given_at_start_ = magnitude(sample.energy);
-    for (Fault& fault : absurd_materials(model_)) {
-      fault.time = fault.worst_time = sample.time;
-      fault.step = sample.step;
-      new_.push_back(fault);
-      found_.push_back(std::move(fault));
-    }
-  }
+  if (!begun_) look_at_beginning(sample);
   begun_ = true;
+  evidence_.touching.clear();
+  for (const ContactTotals& contact : sample.contacts) evidence_.touching.push_back(contact.nodes_in_contact);
   const double work = std::fabs(sample.energy.external_work);
   evidence_.kinetic_share = work > 0 ? sample.energy.kinetic / work : 0;
   if (!finite(sample)) {
@@ -73,23 +82,25 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   return new_;
 }
 
+void Watch::look_at_beginning(const HistorySample& sample) {
+  given_at_start_ = magnitude(sample.energy);
+  for (Fault& fault : absurd_units(model_)) {
+    fault.time = sample.time;
+    fault.step = sample.step;
+    add(std::move(fault));
+  }
+  const Extreme worst = evidence_.worst_shape;
+  if (worst.place >= 0 && worst.value < flattest_corner) note(FaultKind::shape, false, worst.value, flattest_corner, sample, worst, true);
+}
+
 void Watch::look_at_model(const HistorySample& sample) {
   const scene::Watch& limit = model_.scene.watch;
   const WatchMeasures& now = evidence_.last;
-  if (now.jacobian.place >= 0 && !(now.jacobian.value > limit.volume_ratio)) {
-    const bool inverted = !(now.jacobian.value > 0) && !(evidence_.first.jacobian.value <= 0 && sample.step == 0);
-    note(FaultKind::inversion, inverted, now.jacobian.value, inverted ? 0 : limit.volume_ratio, sample, now.jacobian, true);
-  }
-  if (now.distortion.place >= 0 && now.distortion.value > limit.hourglass_distortion)
-    note(FaultKind::hourglass_distortion, false, now.distortion.value, limit.hourglass_distortion, sample, now.distortion, true);
-  if (now.speed.value > limit.speed) {
-    const bool fatal = now.speed.value > limit.fatal_speed;
-    note(FaultKind::speed, fatal, now.speed.value, fatal ? limit.fatal_speed : limit.speed, sample, now.speed, false);
-  }
-  for (const Extreme& one : now.penetration)
-    if (one.value > limit.penetration) note(FaultKind::penetration, false, one.value, limit.penetration, sample, one, false);
-  for (const Extreme& one : now.chatter)
-    if (one.value > limit.chatter) note(FaultKind::chatter, false, one.value, limit.chatter, sample, one, false);
+  if (now.jacobian.place >= 0) judge(FaultKind::inversion, now.jacobian.value, {limit.volume_ratio, 0}, sample, now.jacobian, true);
+  if (now.distortion.place >= 0) judge(FaultKind::hourglass_distortion, now.distortion.value, {limit.hourglass_distortion}, sample, now.distortion, true);
+  judge(FaultKind::speed, now.speed.value, {limit.speed, limit.fatal_speed}, sample, now.speed);
+  for (const Extreme& one : now.penetration) judge(FaultKind::penetration, one.value, {limit.penetration}, sample, one);
+  for (const Extreme& one : now.chatter) judge(FaultKind::chatter, one.value, {static_cast<double>(limit.chatter)}, sample, one);
 }
 
 /// What the run was given: what it began with, and the most that loads have worked so far.
@@ -99,54 +110,66 @@ void Watch::look_at_energies(const HistorySample& sample) {
   given_ = std::max(given_, given_at_start_ + std::fabs(energy.external_work) - std::min(0.0, energy.connector));
   if (!(given_ > 0)) return;
   const double error = std::fabs(energy.balance_error) / given_, beyond = energy.kinetic / given_ - 1;
-  odd_ = error > 0.2 * limit.energy_error;
-  if (error > limit.energy_error) {
-    const bool fatal = error > limit.fatal_energy_error;
-    note(FaultKind::energy, fatal, error, fatal ? limit.fatal_energy_error : limit.energy_error, sample, evidence_.last.speed, false);
-  }
-  if (beyond > limit.kinetic_growth) note(FaultKind::kinetic, false, beyond, limit.kinetic_growth, sample, evidence_.last.speed, false);
+  // What is off but stays so needs no closer look.
+  odd_ = error > 0.2 * limit.energy_error && error > 1.1 * error_before_;
+  if (regular(sample.step)) error_before_ = error;
+  // In the first steps under a load little is given.
+  if (sample.step >= steps_when_odd || error > limit.fatal_energy_error)
+    judge(FaultKind::energy, error, {limit.energy_error, limit.fatal_energy_error}, sample, evidence_.last.speed);
+  judge(FaultKind::kinetic, beyond, {limit.kinetic_growth}, sample, evidence_.last.speed);
 }
 
 void Watch::look_at_parts(const HistorySample& sample) {
-  const double limit = model_.scene.watch.hourglass_share;
   double all = 0;
   for (std::size_t p = 0; p < by_part_.size(); ++p) {
     most_of_part_[p].internal = std::max(most_of_part_[p].internal, by_part_[p].internal);
     most_of_part_[p].hourglass = std::max(most_of_part_[p].hourglass, by_part_[p].hourglass);
     all += most_of_part_[p].internal;
   }
+  // The first waves under a load are no picture of the run.
+  if (sample.step == 0 || !regular(sample.step)) return;
   for (std::size_t p = 0; p < by_part_.size(); ++p) {
-    // Parts that hardly deform have nothing to be spoilt.
-    const double elastic = most_of_part_[p].internal, hourglass = most_of_part_[p].hourglass;
-    if (!(elastic > 1e-3 * all) || !(hourglass > limit * elastic)) continue;
+    // Parts that hardly deform have little to be spoilt.
+    const double elastic = std::max(most_of_part_[p].internal, least_share * all), hourglass = most_of_part_[p].hourglass;
+    if (!(elastic > 0)) continue;
     Extreme where;
     const auto& range = model_.assembly.parts[p];
     const int seen = evidence_.last.distortion.place;
     where.place = seen >= range.first_element && seen < range.first_element + range.element_count ? seen : range.first_element;
-    note(FaultKind::hourglass_share, false, hourglass / elastic, limit, sample, where, true);
+    judge(FaultKind::hourglass_share, hourglass / elastic, {model_.scene.watch.hourglass_share}, sample, where, true);
   }
 }
 
-void Watch::note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where, bool at_element) {
-  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind; });
+void Watch::judge(FaultKind kind, double value, Limits limits, const HistorySample& sample, Extreme where, bool at_element) {
   const bool lower_is_worse = kind == FaultKind::inversion;
-  if (known != found_.end() && (lower_is_worse ? value < known->worst : value > known->worst)) {
-    known->worst = value;
-    known->worst_time = sample.time;
-  }
+  const auto passes = [&](double limit) { return lower_is_worse ? !(value > limit) : !(value <= limit); };
+  Worst& worst = worst_[static_cast<int>(kind)];
+  if (!worst.seen || passes(worst.value)) worst = {value, limits.warning, sample.time, true};
+  if (!passes(limits.warning)) return;
+  const bool fatal = passes(limits.fatal);
+  note(kind, fatal, value, fatal ? limits.fatal : limits.warning, sample, where, at_element);
+}
+
+void Watch::note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where, bool at_element) {
   // What has become fatal is told anew.
+  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind; });
   if (known != found_.end() && (known->fatal || !fatal)) return;
   Fault fault;
   fault.kind = kind;
   fault.fatal = fatal;
-  fault.time = fault.worst_time = sample.time;
+  fault.time = sample.time;
   fault.step = sample.step;
-  fault.value = fault.worst = value;
+  fault.value = value;
   fault.limit = limit;
   if (at_element) place_at_element(fault, where.place);
   else place_at_node(fault, where.place);
   fault.causes = likely_causes(model_, fault, evidence_);
+  add(std::move(fault));
+}
+
+void Watch::add(Fault fault) {
   new_.push_back(fault);
+  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == fault.kind; });
   if (known != found_.end()) *known = std::move(fault);
   else found_.push_back(std::move(fault));
 }
@@ -189,10 +212,19 @@ std::vector<std::string> Watch::told() const {
   std::vector<std::string> lines;
   for (const Fault& fault : found_) {
     std::string line = "watch: " + fault.told();
-    if (fault.worst != fault.value) line += fmt::format(" (worst {:.4g}, at t = {:.6g} s)", fault.worst, fault.worst_time);
+    const Worst& worst = worst_[static_cast<int>(fault.kind)];
+    if (worst.seen && worst.value != fault.value) line += fmt::format(" (worst {:.4g}, at t = {:.6g} s)", worst.value, worst.time);
     lines.push_back(std::move(line));
   }
   return lines;
+}
+
+std::string Watch::worst_told() const {
+  std::string line;
+  for (int kind = 0; kind < fault_kinds; ++kind)
+    if (const Worst& worst = worst_[kind]; worst.seen)
+      line += fmt::format("{}{} {:.3g} ({:.3g})", line.empty() ? "" : ", ", key_of(static_cast<FaultKind>(kind)), worst.value, worst.limit);
+  return line;
 }
 
 }  // namespace railwave

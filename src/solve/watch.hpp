@@ -1,12 +1,14 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "solve/diagnosis.hpp"
 #include "solve/observer.hpp"
+#include "solve/run_state.hpp"
 
 namespace railwave {
 
@@ -16,7 +18,8 @@ class Watch {
  public:
   explicit Watch(const Model& model);
 
-  /// Whether it wants to look at this step: every 512 steps, at the first powers of two, and every 32 once something is odd.
+  /// Whether it wants to look at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every 4096; at
+  /// the first powers of two; and every 32 while something odd grows.
   bool due(long step) const;
 
   /// Where a sample's part energies are wanted; null: nowhere.
@@ -30,29 +33,49 @@ class Watch {
   /// What must stop the run; null: nothing.
   const Fault* fatal() const;
 
-  /// Everything found, the first of each kind with the worst since.
-  const std::vector<Fault>& found() const { return found_; }
-
-  /// Lines for the summary.
+  /// Lines for the summary: everything found, the first of each kind with the worst since.
   std::vector<std::string> told() const;
 
+  /// The worst value of each kind and its limit, whether passed or not, under the names that the keys of [watch] have.
+  std::string worst_told() const;
+
+  /// All that it remembers: a run that is taken up again warns as the unbroken one.
+  void archive(StateTaker& state) { archive_all(state); }
+  void archive(StateLayer& state) { archive_all(state); }
+
  private:
+  struct Worst {
+    double value = 0, limit = 0, time = 0;  ///< s
+    bool seen = false;
+  };
+  struct Limits {
+    double warning, fatal = std::numeric_limits<double>::infinity();
+  };
+
+  void look_at_beginning(const HistorySample& sample);
   void look_at_model(const HistorySample& sample);
   void look_at_energies(const HistorySample& sample);
   void look_at_parts(const HistorySample& sample);
+  void judge(FaultKind kind, double value, Limits limits, const HistorySample& sample, Extreme where, bool at_element = false);
   void note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where, bool at_element);
+  void add(Fault fault);
   void place_at_element(Fault& fault, int element) const;
   void place_at_node(Fault& fault, int node) const;
   bool finite(const HistorySample& sample) const;
+  bool regular(long step) const;
+  template <class Archive>
+  void archive_all(Archive& archive);
 
   const Model& model_;
   std::unique_ptr<WatchArrays> arrays_;  ///< null in an inactive watch
   WatchEvidence evidence_;
   bool begun_ = false, odd_ = false;
   double given_at_start_ = 0, given_ = 0;  ///< J
+  double error_before_ = 0;                ///< of the balance, at the last of the regular looks
+  std::array<Worst, fault_kinds> worst_;   ///< by kind
   std::vector<PartEnergy> by_part_, most_of_part_;
   std::vector<Fault> found_;
-  std::vector<Fault> new_;
+  std::vector<Fault> new_;  ///< of the present look
 };
 
 }  // namespace railwave

@@ -1,5 +1,7 @@
 #include "solve/watch_measures.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "kernels/block_largest.hpp"
@@ -30,13 +32,30 @@ WatchArrays::WatchArrays(const Model& model) {
       for (int i = 0; i < 3; ++i) shape.x[N][i] = model.assembly.nodes[elements[e][N]][i];
     }
     const double volume = hexahedron_volume(corners_of(model.assembly.nodes, elements[e]));
-    undeformed(e, ElementShapes::jacobian) = static_cast<float>(std::fmax(shape.smallest_jacobian(), 0.1 * volume / 8));
+    const double jacobian = shape.smallest_jacobian(), mean = volume / 8;
+    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
+    undeformed(e, ElementShapes::jacobian) = static_cast<float>(jacobian);
+    undeformed(e, ElementShapes::scale) = static_cast<float>(std::fmax(jacobian, 0.1 * mean));
     for (int m = 0; m < 4; ++m) undeformed(e, ElementShapes::mode + m) = static_cast<float>(shape.hourglass_mode(m));
     undeformed(e, ElementShapes::size) = static_cast<float>(std::cbrt(volume));
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);
   for (const ContactPair& pair : model.contacts) changes_.push_back(Array<int*>("watched contact", pair.arrays.slave_count));
+}
+
+void WatchArrays::archive(StateTaker& state) {
+  for (std::size_t c = 0; c < changes_.size(); ++c) state.values(fmt::format("watch_contact_{}", c), to_vector(changes_[c]));
+}
+
+void WatchArrays::archive(StateLayer& state) {
+  for (std::size_t c = 0; c < changes_.size(); ++c) {
+    const std::string name = fmt::format("watch_contact_{}", c);
+    std::vector<int> seen;
+    state.values(name, seen);
+    if (seen.size() != changes_[c].extent(0)) refuse_state(name, fmt::format("has {} values, not {}", seen.size(), changes_[c].extent(0)));
+    changes_[c] = to_device("watched contact", seen);
+  }
 }
 
 WatchMeasures WatchArrays::measure(const Model& model) const {

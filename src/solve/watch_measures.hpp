@@ -4,6 +4,7 @@
 
 #include "kernels/watch_terms.hpp"
 #include "model/model.hpp"
+#include "solve/run_state.hpp"
 
 namespace railwave {
 
@@ -15,7 +16,7 @@ struct Extreme {
 
 /// What one look at the whole model found.
 struct WatchMeasures {
-  Extreme jacobian;                   ///< smallest over the undeformed one; element
+  Extreme jacobian;                   ///< smallest over the undeformed one, 1 in the beginning; element
   Extreme distortion;                 ///< largest hourglass mode over the size; element
   Extreme speed;                      ///< m/s; node
   std::vector<Extreme> penetration;   ///< by contact pair: over the face's size; node of the model
@@ -28,8 +29,16 @@ class WatchArrays {
   explicit WatchArrays(const Model& model);
   WatchMeasures measure(const Model& model) const;
 
+  /// Smallest Jacobian at a corner over the mean of its element, undeformed; element.
+  Extreme worst_shape() const { return worst_shape_; }
+
+  /// What was seen of contact nodes up to now.
+  void archive(StateTaker& state);
+  void archive(StateLayer& state);
+
  private:
   ElementShapes shapes_;
+  Extreme worst_shape_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
 };
 

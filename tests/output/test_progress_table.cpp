@@ -94,18 +94,14 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   CHECK_THAT(text, ContainsSubstring("left out, because the scene does not need it\n    gravity\n    connectors\n"));
 }
 
-TEST_CASE("the summary warns of hourglass energy, of a share that matters only") {
-  const auto summary_with = [](double hourglass) {
-    std::ostringstream out;
-    ProgressTable table(out, plan(), [] { return 0.0; });
-    HistorySample s = sample(0);
-    s.energy.hourglass = hourglass;
-    table.history(s);
-    table.end({});
-    return out.str();
-  };
-  CHECK_THAT(summary_with(20), ContainsSubstring("warning: hourglass control took 16 % of the largest elastic energy"));
-  CHECK_THAT(summary_with(12), !ContainsSubstring("warning"));
+TEST_CASE("the summary tells the worst that the watch saw and what its looks took") {
+  RunSummary summary;
+  summary.watched = "speed 28 (500)";
+  summary.watch_seconds = 0.5;
+  summary.wall_seconds = 100;
+  CHECK_THAT(show(1, summary).text, ContainsSubstring("\n  watch, worst values (limits): speed 28 (500)\n    its looks took 0.5 s, 0.5 % of the run\n"));
+  summary.watched.clear();
+  CHECK_THAT(show(1, summary).text, !ContainsSubstring("watch"));
 }
 
 TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {

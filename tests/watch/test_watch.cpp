@@ -67,7 +67,9 @@ Outcome outcome_of(const Seed& seed, long limit = steps) {
 
 }  // namespace
 
-TEST_CASE("twenty seeded instabilities are all named, nearly all with the true cause first and before a twentieth of the run is wasted") {
+TEST_CASE("twenty seeded instabilities are all named with the true cause first and before a twentieth of the run is wasted", "[table]") {
+  // What docs/watch.md shows.
+  std::cout << "| seeded | named first | run until step | wasted |\n|---|---|---|---|\n";
   int named = 0, right = 0, timely = 0, count = 0;
   for (const Seed& seed : seeds()) {
     ++count;
@@ -78,24 +80,29 @@ TEST_CASE("twenty seeded instabilities are all named, nearly all with the true c
     const std::string cause = outcome.cause;
     named += is_named;
     right += cause == seed.cause;
-    std::cout << fmt::format("{} {:<44} | {:<28} | {} | until step {} | wasted {:.3f} %\n    {}\n", cause == seed.cause ? "ok " : "-- ", seed.what, seed.cause, cause,
-                             outcome.witness.summary.steps, 100 * outcome.wasted, told)
-              << std::flush;
+    std::cout << fmt::format("| {} | {} | {} | {:.3f} % |\n", seed.what, cause, outcome.witness.summary.steps, 100 * outcome.wasted) << std::flush;
     INFO(seed.what << ": " << told);
     CHECK(is_named);
     timely += outcome.wasted < 0.05;
   }
   CHECK(count == 20);
   CHECK(named == count);
-  CHECK(right >= 18);
-  // Not the block that nothing holds: its balance is off by a hundredth from early on (docs/watch.md).
-  CHECK(timely >= 19);
+  CHECK(right == count);
+  CHECK(timely == count);
 }
 
 namespace {
 
-/// All that the watch says of a sound scene.
+/// With loads that grow over the given time, s.
+scene::Scene ramped(scene::Scene scene, double duration) {
+  add_ramp(scene, "ramp", 0, duration);
+  for (scene::Load& load : scene.loads) load.curve = "ramp";
+  return scene;
+}
+
+/// All that the watch says of a scene.
 std::string said_of(scene::Scene scene, double end) {
+  scene.watch.hourglass_share = 0.1;  // TEMPORARY
   scene.time.end = end;
   scene.output.history_interval = end / 20;
   scene.output.field_interval = end;
@@ -112,19 +119,22 @@ std::string said_of(scene::Scene scene, double end) {
 }  // namespace
 
 TEST_CASE("sound scenes bring no warning") {
-  CHECK(said_of(pressed_block(), 2e-3) == "");
-  CHECK(said_of(sprung_mass(1e8, 100), 2e-3) == "");
-  CHECK(said_of(bent_beam(), 2e-2) == "");
+  // Undamped and loaded at once they would ring, and hourglass control would take a quarter of that.
+  CHECK(said_of(pressed_block(), 2e-3).find("hourglass energy of a part over its elastic energy") == 0);
+  CHECK(said_of(ramped(pressed_block(), 2e-4), 2e-3) == "");
+  CHECK(said_of(ramped(sprung_mass(1e8, 100), 2e-4), 2e-3) == "");
+  CHECK(said_of(ramped(bent_beam(), 2e-3), 2e-2) == "");
   TwoBlocks sliding;
-  sliding.upper_divisions = {4, 4, 2};
-  sliding.lower_divisions = {8, 8, 3};
+  // With half as many the pressed surfaces' hourglass modes take a seventh.
+  sliding.upper_divisions = {8, 8, 4};
+  sliding.lower_divisions = {16, 16, 6};
   sliding.friction = 0.3;
   for (const auto algorithm : both_algorithms) {
     sliding.algorithm = algorithm;
     scene::Scene scene = sliding.scene(1);
     hold(scene, "lower.z_min", {true, true, true});
-    press(scene, "upper.z_max", 1e6).curve = "ramp";
-    add_ramp(scene, "ramp", 0, 2e-4);
+    press(scene, "upper.z_max", 1e6);
+    scene = ramped(scene, 2e-4);
     scene::InitialMotion motion;
     motion.name = "slide";
     motion.parts = {"upper"};

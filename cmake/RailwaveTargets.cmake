@@ -12,9 +12,25 @@ endif()
 if(RAILWAVE_NATIVE)
   target_compile_options(railwave_options INTERFACE -march=native)
 endif()
-if(RAILWAVE_SANITIZE)
+if(RAILWAVE_SANITIZE STREQUAL "thread")
+  target_compile_options(railwave_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(railwave_options INTERFACE -fsanitize=thread)
+elseif(RAILWAVE_SANITIZE)
   target_compile_options(railwave_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined
     -fno-omit-frame-pointer)
+  target_link_options(railwave_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(RAILWAVE_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "libFuzzer belongs to clang: configure with -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++.")
+  endif()
+  if(RAILWAVE_FUZZ STREQUAL "coverage")  # what of the code a corpus reaches; slower
+    target_compile_options(railwave_options INTERFACE -fprofile-instr-generate -fcoverage-mapping)
+    target_link_options(railwave_options INTERFACE -fprofile-instr-generate)
+  endif()
+  target_compile_options(railwave_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer -Wno-unknown-warning-option)
   target_link_options(railwave_options INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -57,3 +57,12 @@ build_preset() {
     say "building build/$preset ($target)"
     cmake --build --preset "$preset" -j "$(build_jobs)" --target "$target" >&2 || fail "the build failed"
 }
+
+# run_tests PRESET [arguments of ctest...]: the tests that the preset has built, side by side.
+run_tests() {
+    local preset=$1 jobs=$((($(nproc) + 1) / 2))
+    shift
+    cd "$project_root" || return
+    # Each test takes two threads. Threads that wait awake would keep each other from a busy machine's processors.
+    OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} ctest --preset "$preset" -j "$jobs" "$@"
+}

@@ -1,0 +1,40 @@
+# railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra.
+
+# Header-only libraries: a folder of unpacked packages comes first when the user names one.
+function(railwave_header_library name header hint)
+  if(RAILWAVE_HEADERS)
+    find_path(RAILWAVE_${name}_INCLUDE ${header} PATHS "${RAILWAVE_HEADERS}/usr/include" NO_DEFAULT_PATH)
+  else()
+    find_path(RAILWAVE_${name}_INCLUDE ${header})
+  endif()
+  mark_as_advanced(RAILWAVE_${name}_INCLUDE)
+  if(NOT RAILWAVE_${name}_INCLUDE)
+    message(FATAL_ERROR "${header} was not found. Install ${hint}, or name a folder that has it under "
+      "usr/include with -DRAILWAVE_HEADERS=FOLDER.")
+  endif()
+  add_library(railwave_${name} INTERFACE)
+  target_include_directories(railwave_${name} SYSTEM INTERFACE ${RAILWAVE_${name}_INCLUDE})
+  add_library(railwave::${name} ALIAS railwave_${name})
+endfunction()
+
+railwave_header_library(toml toml++/toml.h libtomlplusplus-dev)
+railwave_header_library(cli CLI/CLI.hpp libcli11-dev)
+railwave_header_library(fmt fmt/format.h libfmt-dev)
+railwave_header_library(spdlog spdlog/spdlog.h libspdlog-dev)
+railwave_header_library(spectra Spectra/SymEigsShiftSolver.h libspectra-dev)
+target_link_libraries(railwave_spdlog INTERFACE railwave_fmt)
+target_compile_definitions(railwave_spdlog INTERFACE SPDLOG_FMT_EXTERNAL)
+
+# Compiled libraries of fmt and spdlog where they are installed, which spares compile time.
+if(NOT RAILWAVE_HEADERS)
+  find_package(fmt CONFIG QUIET)
+  find_package(spdlog CONFIG QUIET)
+endif()
+if(TARGET fmt::fmt)
+  target_link_libraries(railwave_fmt INTERFACE fmt::fmt)
+else()
+  target_compile_definitions(railwave_fmt INTERFACE FMT_HEADER_ONLY)
+endif()
+if(TARGET spdlog::spdlog AND TARGET fmt::fmt)
+  target_link_libraries(railwave_spdlog INTERFACE spdlog::spdlog)
+endif()

@@ -125,14 +125,15 @@ TEST_CASE("sound scenes bring no warning") {
   CHECK(said_of(ramped(sprung_mass(1e8, 100), 2e-4), 2e-3) == "");
   CHECK(said_of(ramped(bent_beam(), 2e-3), 2e-2) == "");
   TwoBlocks sliding;
-  // With half as many the pressed surfaces' hourglass modes take a seventh.
-  sliding.upper_divisions = {8, 8, 4};
-  sliding.lower_divisions = {16, 16, 6};
+  sliding.upper_divisions = {4, 4, 2};
+  sliding.lower_divisions = {8, 8, 3};
   sliding.friction = 0.3;
   for (const auto algorithm : both_algorithms) {
     sliding.algorithm = algorithm;
     scene::Scene scene = sliding.scene(1);
     hold(scene, "lower.z_min", {true, true, true});
+    // Under the upper block's edges viscous control would take a seventh of the elastic energy.
+    for (scene::Part& part : scene.parts) part.take_hourglass(scene::HourglassType::stiffness);
     press(scene, "upper.z_max", 1e6);
     scene = ramped(scene, 2e-4);
     scene::InitialMotion motion;

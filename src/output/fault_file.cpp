@@ -1,7 +1,10 @@
 #include "output/fault_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
 #include "model/fields.hpp"
@@ -42,14 +45,7 @@ std::string write_part(const Model& model, const Fault& fault, const hdf5::Group
   return grid.text();
 }
 
-}  // namespace
-
-std::string fault_path(const std::string& results_path) {
-  return std::filesystem::path(results_path).replace_extension(".fault.h5").string();
-}
-
-bool write_fault_file(const Model& model, const Fault& fault, const std::string& path) {
-  if (fault.element < 0) return false;
+void write_files(const Model& model, const Fault& fault, const std::string& path) {
   const double half_edge = model.scene.watch.box > 0 ? model.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
   check_results_place(path);
   hdf5::File file = hdf5::File::create(path);
@@ -67,7 +63,26 @@ bool write_fault_file(const Model& model, const Fault& fault, const std::string&
   }
   file.close();
   write_grids(xdmf_path(path), grids);
-  return true;
+}
+
+}  // namespace
+
+std::string fault_path(const std::string& results_path) {
+  return std::filesystem::path(results_path).replace_extension(".fault.h5").string();
+}
+
+bool write_fault_file(const Model& model, const Fault& fault, const std::string& path) {
+  const auto remove_files = [&] { for (const std::string& file : {path, xdmf_path(path)}) std::remove(file.c_str()); };
+  remove_files();  // an older run's
+  if (fault.element < 0) return false;
+  try {
+    write_files(model, fault, path);
+    return true;
+  } catch (const std::exception& error) {
+    remove_files();
+    std::fputs(fmt::format("railwave: warning: the surroundings of the fault could not be written: {}\n", error.what()).c_str(), stderr);
+    return false;
+  }
 }
 
 }  // namespace railwave

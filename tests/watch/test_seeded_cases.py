@@ -177,6 +177,20 @@ class SeededCases(unittest.TestCase):
                         self.assertTrue(any(message in str(line) for line in results.attrs["warnings"]))
         self.assertEqual("\n".join(wrong), "")
 
+    def test_no_place_for_the_surroundings_of_a_fault(self):
+        """The run ends as it would, and an older run's files do not stay."""
+        folder, ended, _ = self.run_seed({"pressure = 1e6": "pressure = 1e12"})
+        self.assertEqual(ended, STOPPED)
+        (folder / "results.fault.h5").unlink()
+        (folder / "results.fault.h5").mkdir()
+        (folder / "results.fault.h5" / "in the way").touch()
+        run = subprocess.run([PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+        self.assertEqual(run.returncode, STOPPED)
+        self.assertIn("warning: the surroundings of the fault could not be written: output.file:", run.stderr)
+        self.assertFalse((folder / "results.fault.xdmf").exists())
+        with h5py.File(folder / "results.h5", "r") as results:
+            self.assertIn("likely cause", results.attrs["reason"])
+
     def test_the_sound_case_brings_no_warning(self):
         _, ended, said = self.run_seed({})
         self.assertEqual(ended, 0, said)

@@ -113,9 +113,13 @@ void Watch::look_at_energies(const HistorySample& sample) {
   // What is off but stays so needs no closer look.
   odd_ = error > 0.2 * limit.energy_error && error > 1.1 * error_before_;
   if (regular(sample.step)) error_before_ = error;
+  // What an instability adds is there. An account that is only wrong, as that of hourglass control near the stable step can be, does not end
+  // a run.
+  const double present = energy.kinetic + energy.internal + energy.contact + std::fmax(0.0, energy.connector);
+  const double fatal = present > (1 + limit.fatal_energy_error) * given_ ? limit.fatal_energy_error : std::numeric_limits<double>::infinity();
   // In the first steps under a load little is given.
-  if (sample.step >= steps_when_odd || error > limit.fatal_energy_error)
-    judge(FaultKind::energy, error, {limit.energy_error, limit.fatal_energy_error}, sample, evidence_.last.speed);
+  if (sample.step >= steps_when_odd || error > fatal)
+    judge(FaultKind::energy, error, {limit.energy_error, fatal}, sample, evidence_.last.speed);
   judge(FaultKind::kinetic, beyond, {limit.kinetic_growth}, sample, evidence_.last.speed);
 }
 

@@ -53,11 +53,11 @@ TEST_CASE("a track of sleepers without number is refused before they are laid", 
 }
 
 TEST_CASE("a curve is read from a file of ordinary size only", "[case]") {
-  TemporaryCase file(small_case + "[curves.c]\nfile = \"long.csv\"\n");
+  TemporaryCase file(small_case + "[curves.c]\ntype = \"table\"\nfile = \"long.csv\"\n");
   file.write("long.csv", "0,0\n1,1\n");
   CHECK(mistakes_of(file.path()) == "");
   std::filesystem::resize_file(file.folder() / "long.csv", std::uintmax_t(20) << 30);  // a hole: takes no room
   CHECK_THAT(mistakes_of(file.path()), ContainsSubstring("has 21.5 GB, at most 268 MB are read; give fewer points"));
-  TemporaryCase endless(small_case + "[curves.c]\nfile = \"/dev/zero\"\n");
+  TemporaryCase endless(small_case + "[curves.c]\ntype = \"table\"\nfile = \"/dev/zero\"\n");
   CHECK_THAT(mistakes_of(endless.path()), ContainsSubstring("'/dev/zero' is no regular file"));
 }

@@ -24,7 +24,7 @@ void expect_mesh_room(double elements, double nodes) {
 
 int cell_count(double cells) {
   constexpr double most = 1e6;
-  if (!(cells <= most)) throw MeshTooLarge(fmt::format("makes {:.3g} elements along one line, at most {:.0g} are made; {}", cells, most, mend));
+  if (!(cells <= most)) throw MeshTooLarge(fmt::format("makes more than {:.0f} elements along one line; {}", most, mend));
   return static_cast<int>(cells);
 }
 

@@ -25,13 +25,14 @@ if(RAILWAVE_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     message(FATAL_ERROR "libFuzzer belongs to clang: configure with -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++.")
   endif()
-  if(RAILWAVE_FUZZ STREQUAL "coverage")  # what of the code a corpus reaches; slower
-    target_compile_options(railwave_options INTERFACE -fprofile-instr-generate -fcoverage-mapping)
+  if(RAILWAVE_FUZZ STREQUAL "coverage")  # what of the code a corpus reaches: nothing is searched, nothing checked
+    target_compile_options(railwave_options INTERFACE -fprofile-instr-generate -fcoverage-mapping -Wno-unknown-warning-option)
     target_link_options(railwave_options INTERFACE -fprofile-instr-generate)
+  else()
+    target_compile_options(railwave_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -Wno-unknown-warning-option)
+    target_link_options(railwave_options INTERFACE -fsanitize=address,undefined)
   endif()
-  target_compile_options(railwave_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
-    -fno-sanitize-recover=undefined -fno-omit-frame-pointer -Wno-unknown-warning-option)
-  target_link_options(railwave_options INTERFACE -fsanitize=address,undefined)
 endif()
 
 # Kokkos with our options. Up to 4.7.0 it does not know two calls of CUDA 13, which a header then supplies.

@@ -55,6 +55,7 @@ int run_case(const Arguments& arguments) {
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
+  results.check_room(model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
   check_checkpoint_place(checkpoint.path(), scene.output.file);
   results.keep_checkpoints(checkpoint);
@@ -90,6 +91,7 @@ int check_case(const Arguments& arguments) {
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
+  results.check_room(model);
   describe_run(model, std::cout);
   return done;
 }

@@ -4,9 +4,12 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <string>
+
+#include "case/memory.hpp"
 
 namespace railwave::case_file {
 namespace {
@@ -40,14 +43,28 @@ std::string read_pair(const std::string& line, std::vector<std::array<double, 2>
   return "";
 }
 
+/// Why a file isn't read at all; empty: it is.
+std::string refusal(const std::string& path) {
+  constexpr std::uintmax_t largest = 256u << 20;  // about ten million points
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed)) return "'" + path + "' is no regular file";
+  const auto size = std::filesystem::file_size(path, failed);
+  if (!failed && size > largest)
+    return fmt::format("'{}' has {}, at most {} are read; give fewer points, for instance every tenth", path, bytes_text(static_cast<double>(size)),
+                       bytes_text(static_cast<double>(largest)));
+  return "";
+}
+
 }  // namespace
 
 void read_curves(scene::Scene& scene, Complaints& complaints) {
   for (scene::Curve& curve : scene.curves) {
     if (curve.file.empty()) continue;
     const std::string subject = "[curves." + curve.name + "] file: ";
-    std::ifstream file(curve.file, std::ios::binary);
-    std::string line, mistake = file ? "" : "'" + curve.file + "' cannot be opened; check that you may read it";
+    std::string line, mistake = refusal(curve.file);
+    std::ifstream file;
+    if (mistake.empty()) file.open(curve.file, std::ios::binary);
+    if (mistake.empty() && !file) mistake = "'" + curve.file + "' cannot be opened; check that you may read it";
     for (int number = 1; mistake.empty() && std::getline(file, line); ++number) {
       line = without_blanks(line);
       if (line.empty()) continue;

@@ -51,6 +51,17 @@ void check_sleepers_of(const scene::Track& track, EntryCheck& check) {
         check.complain(places == &track.positions ? "positions" : "other_positions",
                        fmt::format("has {}, must be under the rail, from start = {} to end = {}", x, track.rail.start, track.rail.end));
   constexpr double least_distance = 0.2;
+  // Before they are laid out one by one.
+  if (track.positions.empty() && track.pitch < least_distance) {
+    check.complain("pitch", fmt::format("is {}, must be at least {} m", track.pitch, least_distance));
+    return;
+  }
+  constexpr double most_sleepers = 10000;
+  if (const double count = (track.rail.end - track.rail.start) / track.pitch; track.positions.empty() && count > most_sleepers) {
+    check.complain("pitch", fmt::format("makes {:.3g} sleepers under a rail of {:.3g} m, at most {} are made; make the rail shorter", count,
+                                        track.rail.end - track.rail.start, most_sleepers));
+    return;
+  }
   const auto places = sleeper_places(track);
   for (std::size_t k = 1; k < places.size(); ++k) {
     if (places[k].x - places[k - 1].x >= least_distance) continue;

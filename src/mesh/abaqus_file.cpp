@@ -5,12 +5,15 @@
 
 #include <array>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "case/error.hpp"
 #include "mesh/abaqus_lines.hpp"
 #include "mesh/abaqus_sets.hpp"
 #include "mesh/face_table.hpp"
 #include "mesh/numbered_mesh.hpp"
+#include "mesh/sort_unique.hpp"
 #include "mesh/text_file.hpp"
 
 namespace railwave {
@@ -295,9 +298,12 @@ class AbaqusReader {
     Mesh mesh = numbered_.connect();
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += translation_[i];
-    for (const auto& [node_set, element_set, place] : nodes_of_elements_)
+    std::set<std::pair<std::string, std::string>> done;
+    for (const auto& [node_set, element_set, place] : nodes_of_elements_) {
+      if (!done.insert({node_set, element_set}).second) continue;
       for (int element : element_sets_.positions(element_set, place))
         for (int node : mesh.elements[element]) node_sets_.add_number(node_set, numbered_.node_numbers()[node], place);
+    }
     mesh.node_sets = node_sets_.all();
     mesh.element_sets = element_sets_.all();
     make_surfaces(mesh);
@@ -316,7 +322,11 @@ class AbaqusReader {
     for (const auto& [name, surface] : surfaces_) {
       if (surface.internal) continue;
       auto& faces = mesh.surfaces[name];
-      for (const SurfaceEntry& entry : surface.entries) add_faces(mesh, entry, faces);
+      for (const SurfaceEntry& entry : surface.entries) {
+        add_faces(mesh, entry, faces);
+        // As for sets: the same named again and again takes no more room.
+        if (faces.size() > 12 * mesh.elements.size()) sort_unique(faces);
+      }
     }
   }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "case/error.hpp"
+#include "mesh/sort_unique.hpp"
 #include "mesh/text_file.hpp"
 
 namespace railwave {
@@ -86,7 +87,14 @@ void AbaqusSets::resolve(const std::string& name, Definition& set, int depth) {
                       mesh_.where(entry.place), kind_, for_message(name), kind_, entry.number));
     positions.push_back(*position);
   }
-  for (const Range& range : set.ranges) add_range_positions(name, range, positions);
+  // Many lines that name the same again and again must not take more room than all that there is.
+  const auto merge = [&, all = defined_numbers().size()] {
+    if (positions.size() > 2 * all) sort_unique(positions);
+  };
+  for (const Range& range : set.ranges) {
+    add_range_positions(name, range, positions);
+    merge();
+  }
   for (const Reference& reference : set.sets) {
     const auto entry = sets_.find(reference.name);
     if (entry == sets_.end())
@@ -100,9 +108,9 @@ void AbaqusSets::resolve(const std::string& name, Definition& set, int depth) {
                                    for_message(reference.name)));
     resolve(reference.name, entry->second, depth + 1);
     positions.insert(positions.end(), entry->second.positions->begin(), entry->second.positions->end());
+    merge();
   }
-  std::sort(positions.begin(), positions.end());
-  positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+  sort_unique(positions);
   set.positions = std::move(positions);
   set.being_resolved = false;
 }

@@ -2,11 +2,14 @@
 
 #include <stdexcept>
 
+#include "case/error.hpp"
 #include "mesh/box.hpp"
 #include "mesh/crowned_block.hpp"
 #include "mesh/cylinder.hpp"
 #include "mesh/fishplate.hpp"
+#include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_file.hpp"
+#include "mesh/mesh_room.hpp"
 #include "mesh/rail.hpp"
 #include "mesh/rail_pad.hpp"
 #include "mesh/roller.hpp"
@@ -15,7 +18,9 @@
 
 namespace railwave {
 
-Mesh build_mesh(const scene::MeshSource& source) {
+namespace {
+
+Mesh made(const scene::MeshSource& source) {
   switch (source.type) {
     case scene::MeshType::box:
       return box_mesh(source);
@@ -39,6 +44,16 @@ Mesh build_mesh(const scene::MeshSource& source) {
       return wheelset_mesh(source);
   }
   throw std::logic_error("unknown mesh type");
+}
+
+}  // namespace
+
+Mesh build_mesh(const scene::MeshSource& source) {
+  try {
+    return made(source);
+  } catch (const MeshTooLarge& problem) {
+    throw InputError(place_of(source) + problem.what());
+  }
 }
 
 }  // namespace railwave

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mesh_room.hpp"
 #include "mesh/round_core.hpp"
 
 namespace railwave {
@@ -77,6 +78,8 @@ std::vector<double> heights(const scene::CylinderMesh& c) {
 
 Mesh cylinder_mesh(const scene::MeshSource& source) {
   check(source);
+  const double core = source.cylinder.core_divisions, rings = source.cylinder.ring_divisions, layers_wanted = source.cylinder.length_divisions;
+  expect_mesh_room((core + 4 * rings) * core * layers_wanted, ((core + 1) * (core + 1) + 4 * core * rings) * (layers_wanted + 1));
   const Disc section = disc(source.cylinder);
   const auto z = heights(source.cylinder);
   const int nodes = static_cast<int>(section.nodes.size()), cells = static_cast<int>(section.cells.size());

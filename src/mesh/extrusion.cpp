@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "mesh/mesh_room.hpp"
+
 namespace railwave {
 
 namespace {
@@ -12,6 +14,8 @@ class Extruder {
  public:
   Extruder(const SectionMesh& section, const Stations& stations, const Placement& place, bool turned)
       : section_(section), stations_(stations), place_(place), turned_(turned) {
+    const double nodes = static_cast<double>(section.nodes.size()) * static_cast<double>(stations.position.size());
+    expect_mesh_room(element_count(), nodes);
     node_at_.assign(section.nodes.size() * stations.position.size(), -1);
   }
 
@@ -27,6 +31,14 @@ class Extruder {
   }
 
  private:
+  /// At most: in templates of transitions are up to four elements.
+  double element_count() const {
+    double count = 0;
+    for (const SectionQuad& quad : section_.quads)
+      count += static_cast<double>(quad.transition ? 4 * stations_.levels[quad.level + 1].size() : stations_.levels[quad.level].size());
+    return count;
+  }
+
   /// The cells of a level as pairs of stations.
   std::vector<std::pair<int, int>> cells(int level) const {
     const auto& kept = stations_.levels[level];

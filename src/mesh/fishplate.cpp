@@ -10,6 +10,7 @@
 #include "case/error.hpp"
 #include "mesh/extrusion.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mesh_room.hpp"
 #include "mesh/rail.hpp"
 
 namespace railwave {
@@ -156,7 +157,7 @@ Stations plate_stations(const std::vector<double>& ends, double size, std::vecto
   station_of_end = {0};
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const double length = ends[i] - ends[i - 1];
-    const int cells = std::max(1, static_cast<int>(std::ceil(length / size - 1e-6)));
+    const int cells = std::max(1, cell_count(std::ceil(length / size - 1e-6)));
     for (int k = 1; k < cells; ++k) stations.position.push_back(ends[i - 1] + length * k / cells);
     stations.position.push_back(ends[i]);
     station_of_end.push_back(static_cast<int>(stations.position.size()) - 1);

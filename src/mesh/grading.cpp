@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/mesh_room.hpp"
+
 namespace railwave {
 
 namespace {
@@ -22,8 +24,10 @@ double sum(const std::vector<double>& values, std::size_t begin, std::size_t end
 
 std::vector<double> graded_cells(double length, double first, double growth, double largest, int multiple) {
   if (length < 1e-3 * first) return {};
+  const double limit = std::max(first, largest);
+  double size = std::min(first * growth, limit), reached = size;
   int cells = 1;
-  while (graded_length(cells, first, growth, largest) < length * (1 - 1e-9)) ++cells;
+  for (; reached < length * (1 - 1e-9); reached += size = std::min(size * growth, limit)) cells = cell_count(cells + 1.0);
   const int rounded = (cells + multiple - 1) / multiple * multiple;
   if (rounded * first <= length) cells = rounded;
   if (cells * first >= length) return std::vector<double>(cells, length / cells);
@@ -33,7 +37,7 @@ std::vector<double> graded_cells(double length, double first, double growth, dou
     (graded_length(cells, first, middle, largest) < length ? low : high) = middle;
   }
   std::vector<double> sizes;
-  double size = first;
+  size = first;
   for (int i = 0; i < cells; ++i) sizes.push_back(size = std::min(size * high, std::max(first, largest)));
   const double scale = length / sum(sizes, 0, sizes.size());
   for (double& value : sizes) value *= scale;
@@ -86,11 +90,11 @@ struct ZoneCells {
 ZoneCells zone_cells(const StationPlan& plan) {
   const double size = plan.zone_size, slack = 1e-6;
   if (plan.zone_start <= 0 && plan.zone_end >= 0) {
-    const int before = static_cast<int>(std::ceil(-plan.zone_start / size - slack));
-    const int after = static_cast<int>(std::ceil(plan.zone_end / size - slack));
+    const int before = cell_count(std::ceil(-plan.zone_start / size - slack));
+    const int after = cell_count(std::ceil(plan.zone_end / size - slack));
     return {-before * size, before + after, before};
   }
-  const int cells = static_cast<int>(std::ceil((plan.zone_end - plan.zone_start) / size - slack));
+  const int cells = cell_count(std::ceil((plan.zone_end - plan.zone_start) / size - slack));
   return {plan.zone_start, std::max(1, cells), std::max(1, cells) / 2};
 }
 
@@ -177,7 +181,7 @@ Stations periodic_stations(const StationPlan& plan, double period) {
   double rest = period - zone.cells * plan.zone_size;
   SideCells before, after;
   if (rest < 6 * plan.zone_size) {  // the whole circle is zone, in whole groups of two levels
-    zone.cells = static_cast<int>(std::ceil(period / plan.zone_size / 9 - 1e-6)) * 9;
+    zone.cells = cell_count(std::ceil(period / plan.zone_size / 9 - 1e-6)) * 9;
     fitted.zone_size = period / zone.cells;
     zone.first = 0;
     zone.origin = 0;

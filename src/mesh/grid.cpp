@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/grading.hpp"
+#include "mesh/mesh_room.hpp"
 
 namespace railwave {
 namespace {
@@ -20,6 +21,7 @@ Mesh grid_mesh(const Grid& grid, const GridPlacement& place) {
   const auto number = [&](int i, int j, int k) { return (k * (n[1] + 1) + j) * nodes_along + i % nodes_along; };
   const auto has_sides = [&](int axis) { return axis > 0 || !grid.closed; };
 
+  expect_mesh_room(double(n[0]) * n[1] * n[2], double(nodes_along) * (n[1] + 1.0) * (n[2] + 1.0));
   Mesh mesh;
   mesh.nodes.reserve(std::size_t(nodes_along) * (n[1] + 1) * (n[2] + 1));
   for (int k = 0; k <= n[2]; ++k)
@@ -56,12 +58,12 @@ std::vector<double> nodes_of(const GradedLine& line) {
   double first = std::max(line.zone_start, line.start), last = std::min(line.zone_end, line.end), size = line.size;
   if (first - line.start < 0.5 * size) first = line.start;
   if (line.end - last < 0.5 * size) last = line.end;
-  int cells = std::max(1, static_cast<int>(std::ceil((last - first) / size - 1e-6)));
+  int cells = std::max(1, cell_count(std::ceil((last - first) / size - 1e-6)));
   if (first == line.start && last == line.end) size = (last - first) / cells;
   else if (last == line.end) first = last - cells * size;
   if (first < line.start || first + cells * size > line.end - 1e-9 * size) {  // the zone fills the line
     first = line.start;
-    cells = std::max(1, static_cast<int>(std::lround((line.end - first) / size)));
+    cells = std::max(1, cell_count(std::round((line.end - first) / size)));
     size = (line.end - first) / cells;
   }
   last = first + cells * size;

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "case/error.hpp"
 #include "mesh/face_table.hpp"
+#include "mesh/sort_unique.hpp"
 
 namespace railwave {
 namespace {
@@ -46,19 +46,6 @@ void drop_empty(std::map<std::string, Set>& sets, const char* kind, std::vector<
       ++set;
     }
   }
-}
-
-void sort_unique(std::vector<int>& numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
-void sort_unique(std::vector<Face>& faces) {
-  std::sort(faces.begin(), faces.end(),
-            [](const Face& a, const Face& b) { return std::tie(a.element, a.side) < std::tie(b.element, b.side); });
-  faces.erase(std::unique(faces.begin(), faces.end(),
-                          [](const Face& a, const Face& b) { return a.element == b.element && a.side == b.side; }),
-              faces.end());
 }
 
 void add_implied_node_sets(Mesh& mesh) {

@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mesh_room.hpp"
 #include "mesh/rail.hpp"
 
 namespace railwave {
@@ -45,7 +46,7 @@ std::vector<double> parted(const std::vector<double>& lines, double size) {
   std::vector<double> all{lines.front()};
   for (std::size_t i = 1; i < lines.size(); ++i) {
     const double length = lines[i] - lines[i - 1];
-    const int cells = std::max(1, static_cast<int>(std::ceil(length / size - 1e-6)));
+    const int cells = std::max(1, cell_count(std::ceil(length / size - 1e-6)));
     for (int k = 1; k < cells; ++k) all.push_back(lines[i - 1] + length * k / cells);
     all.push_back(lines[i]);
   }

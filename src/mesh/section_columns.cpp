@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "mesh/grading.hpp"
+#include "mesh/mesh_room.hpp"
 
 namespace railwave {
 
-int zone_columns(double width, double size) { return 3 * std::max(1, static_cast<int>(std::ceil(width / size / 3 - 1e-6))); }
+int zone_columns(double width, double size) { return 3 * std::max(1, cell_count(std::ceil(width / size / 3 - 1e-6))); }
 
 SurfaceColumns surface_columns(double begin, double first, double last, double end, int zone, double size, double growth,
                                double largest, int multiple) {

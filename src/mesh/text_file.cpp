@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "case/error.hpp"
+#include "case/memory.hpp"
 
 namespace railwave {
 
@@ -25,6 +26,10 @@ std::string read_whole_file(const std::string& path) {
   if (!file) throw InputError(fmt::format("{}: can't be opened: {}", path, std::strerror(errno)));
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw InputError(fmt::format("{}: can't be read: {}", path, error.message()));
+  // What is made of each byte while the mesh is put together takes several more.
+  constexpr double bytes_of_byte = 6;
+  expect_memory(bytes_of_byte * static_cast<double>(size), fmt::format("{}: has {}; reading it needs", path, bytes_text(static_cast<double>(size))),
+                "see whether this is the file you mean, or split or coarsen it");
   std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   // A file that another program is shortening meanwhile gives fewer bytes than it promised.

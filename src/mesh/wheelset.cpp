@@ -8,6 +8,7 @@
 
 #include "case/error.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/mesh_room.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/ring_disc.hpp"
@@ -48,7 +49,7 @@ struct Layer {
 /// A section beside the hub: bore -1.
 void add_stretch(std::vector<Layer>& layers, const Layer& to, double largest) {
   const Layer from = layers.back();
-  const int cells = std::max(1, static_cast<int>(std::ceil((to.y - from.y) / largest - 1e-9)));
+  const int cells = std::max(1, cell_count(std::ceil((to.y - from.y) / largest - 1e-9)));
   for (int i = 1; i < cells; ++i) {
     const double share = static_cast<double>(i) / cells;
     layers.push_back({from.y + share * (to.y - from.y), from.radius + share * (to.radius - from.radius)});

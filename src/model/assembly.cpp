@@ -200,6 +200,11 @@ Assembly assemble(const scene::Scene& scene) {
     if (part.mirror) mirror(mesh);
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += part.position[i];
+    const std::size_t nodes = assembly.nodes.size() + mesh.nodes.size();
+    if (nodes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+      throw InputError(fmt::format("{}:{}: [parts.{}] is the part with which the scene has {} nodes, more than {} can be numbered; "
+                                   "make the elements larger",
+                                   scene.path, part.line, part.name, nodes, std::numeric_limits<int>::max()));
     Assembly::PartRange range;
     range.name = part.name;
     range.first_node = static_cast<int>(assembly.nodes.size());

@@ -7,6 +7,7 @@
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
+#include "model/model_room.hpp"
 #include "model/non_reflecting.hpp"
 
 namespace railwave {
@@ -26,6 +27,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   refuse_unknown_methods(scene);
   model.scene = scene;
   model.assembly = assembly;
+  expect_model_room(model.assembly);
   check_elements(model);
   model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   build_elements(model);

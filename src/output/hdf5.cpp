@@ -14,6 +14,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "case/memory.hpp"
+
 namespace railwave::hdf5 {
 namespace {
 
@@ -116,7 +118,10 @@ void Dataset::append(const T* rows, hsize_t count) {
 
 template <class T>
 std::vector<T> Dataset::read() const {
-  std::vector<T> values(count_of(shape()));
+  const hsize_t count = count_of(shape());
+  // A damaged file may claim anything.
+  expect_memory(static_cast<double>(count) * sizeof(T), name_ + ": has " + std::to_string(count) + " values, which need", "see whether the file is whole");
+  std::vector<T> values(count);
   if (values.empty()) return values;
   check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
   return values;

@@ -8,6 +8,7 @@
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "output/fault_file.hpp"
+#include "output/results_size.hpp"
 #include "solve/beams.hpp"
 
 namespace railwave {
@@ -100,6 +101,10 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
   check_results_place(path_);
+}
+
+void ResultsFile::check_room(const Model& model) const {
+  check_results_room(results_size(description_, model), model.scene, free_bytes_at(path_));
 }
 
 void ResultsFile::begin(const Model& model) {

@@ -16,6 +16,9 @@ class ResultsFile : public RunObserver, public Checkpoints {
   /// file can be made: to be made before the run's long preparations.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
+  /// Throws InputError when what the run will write can't fit onto the disk.
+  void check_room(const Model& model) const;
+
   /// Before the run begins: where its states are kept. When the run is complete they are taken away.
   void keep_checkpoints(CheckpointFile file);
 

@@ -113,7 +113,7 @@ void feed_tables(std::string_view bytes) {
   static const std::string user = folder().write("table.toml",
                                                  "[materials.m]\nyoungs_modulus = 1\npoissons_ratio = 0\ndensity = 1\n[meshes.m]\n"
                                                  "type = \"box\"\n[parts.m]\nmesh = \"m\"\nmaterial = \"m\"\n[time]\nend = 1\n"
-                                                 "[curves.c]\nfile = \"table.csv\"\n");
+                                                 "[curves.c]\ntype = \"table\"\nfile = \"table.csv\"\n");
   try {
     read_case(user);
   } catch (const InputError&) {

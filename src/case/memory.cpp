@@ -1,0 +1,73 @@
+#include "case/memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include <sys/resource.h>
+
+#include "case/error.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// The number after `name` in a file of names and numbers.
+double entry_of(const char* path, const std::string& name) {
+  std::ifstream file(path);
+  for (std::string word; file >> word;) {
+    double value = 0;
+    if (word == name && file >> value) return value;
+  }
+  return unknown;
+}
+
+/// The one number in a file; infinity for "max" or where there is no such file.
+double number_in(const char* path) {
+  std::ifstream file(path);
+  double value = 0;
+  return file >> value ? value : unknown;
+}
+
+double left_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unknown;
+  const double kilobytes = entry_of("/proc/self/status", "VmSize:");
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - (kilobytes == unknown ? 0 : 1024 * kilobytes));
+}
+
+double left_of_container() {
+  const double limit = number_in("/sys/fs/cgroup/memory.max"), taken = number_in("/sys/fs/cgroup/memory.current");
+  if (limit == unknown || taken == unknown) return unknown;
+  // Copies of files on disk count as taken, but are given up when memory is asked for.
+  const double copies = entry_of("/sys/fs/cgroup/memory.stat", "inactive_file");
+  return std::max(0.0, limit - taken + (copies == unknown ? 0 : copies));
+}
+
+}  // namespace
+
+double available_memory() {
+  return std::min({1024 * entry_of("/proc/meminfo", "MemAvailable:"), left_of_address_space(), left_of_container()});
+}
+
+std::string bytes_text(double bytes) {
+  const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
+  std::size_t unit = 0;
+  for (; bytes >= 999.5 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+void expect_memory(double bytes, const std::string& what, const std::string& mend, double available) {
+  if (bytes <= available) return;
+  throw InputError(fmt::format("{} about {} of memory, but this machine has {} left; {}", what, bytes_text(bytes), bytes_text(available), mend));
+}
+
+void expect_memory(double bytes, const std::string& what, const std::string& mend) {
+  constexpr double always_there = 64e6;  // spares small wishes a look at the system's files
+  if (bytes > always_there) expect_memory(bytes, what, mend, available_memory());
+}
+
+}  // namespace railwave

@@ -1,0 +1,83 @@
+#include "output/results_size.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+
+#include "case/error.hpp"
+#include "case/memory.hpp"
+#include "model/model.hpp"
+#include "output/energy_terms.hpp"
+
+namespace railwave {
+namespace {
+
+/// Values of each node of a contact surface at each output, see contact_section.cpp.
+constexpr double values_of_contact_node = 23;
+
+double values_of_entry(const std::string& field) { return field == "stress" ? 6 : field == "plastic_strain" ? 1 : 3; }
+
+double values_of_output(const RunDescription& description, const Assembly& assembly) {
+  double values = 0;
+  for (const OutputSet& set : description.sets) {
+    if (set.is_beam()) values += 6.0 * static_cast<double>(set.elements.size());
+    for (const std::string& field : description.fields) {
+      const bool of_element = field == "stress" || field == "plastic_strain";
+      if (of_element && set.is_beam()) continue;
+      values += values_of_entry(field) * static_cast<double>(of_element ? set.elements.size() : set.nodes.size());
+    }
+  }
+  for (const ContactNames& contact : description.contacts)
+    for (const std::string& surface : {contact.slave, contact.master})
+      if (const auto found = assembly.surfaces.find(surface); found != assembly.surfaces.end())
+        values += values_of_contact_node * static_cast<double>(found->second.size());  // about a node a facet
+  return values;
+}
+
+double values_of_sample(const RunDescription& description) {
+  double values = 2 + static_cast<double>(std::size(energy_terms)) + 11.0 * static_cast<double>(description.contacts.size()) +
+                  9.0 * static_cast<double>(description.history_sets.size()) + 3.0 * static_cast<double>(description.loads.size());
+  for (const auto& beam : description.beams) values += 6.0 * beam.second;
+  return values;
+}
+
+/// Outputs of a run: never more than its steps.
+double times_of(double interval, double end, double steps) { return 2 + (interval > 0 ? std::min(end / interval, steps) : steps); }
+
+}  // namespace
+
+ResultsSize results_size(const RunDescription& description, const Model& model) {
+  const scene::Output& output = model.scene.output;
+  const auto steps = static_cast<double>(model.step_count);
+  const double end = model.scene.time.end;
+  ResultsSize size;
+  size.field_outputs = output.field_interval > 0 ? times_of(output.field_interval, end, steps) : 2;
+  size.samples = times_of(output.history_interval, end, steps);
+  size.field_bytes = 8 * size.field_outputs * values_of_output(description, model.assembly);
+  size.history_bytes = 8 * size.samples * values_of_sample(description);
+  return size;
+}
+
+void check_results_room(const ResultsSize& size, const scene::Scene& scene, double available) {
+  // Stresses of a body that swings all through keep about two thirds, of one that mostly rests nearly nothing.
+  constexpr double least_share = 0.02;
+  if (size.history_bytes + least_share * size.field_bytes <= available) return;
+  const bool fields = least_share * size.field_bytes > size.history_bytes;
+  throw InputError(fmt::format(
+      "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, or name a file on a larger disk", scene.path,
+      fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples, fields ? "outputs of fields" : "samples of histories",
+      fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples),
+      bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available),
+      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets"));
+}
+
+double free_bytes_at(const std::string& path) {
+  std::error_code failed;
+  const auto space = std::filesystem::space(std::filesystem::absolute(path).parent_path(), failed);
+  return failed ? std::numeric_limits<double>::infinity() : static_cast<double>(space.available);
+}
+
+}  // namespace railwave

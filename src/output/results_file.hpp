@@ -9,15 +9,16 @@
 namespace railwave {
 
 /// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop waits
-/// for the device's copies only. What the disk refuses it throws at the loop's next output, at the latest at the end.
+/// for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call throws it.
 class ResultsFile : public RunObserver, public Checkpoints {
  public:
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
   /// file can be made: to be made before the run's long preparations.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
-  /// Before the run begins: where its states are kept. When the run is complete they are taken away.
-  void keep_checkpoints(CheckpointFile file);
+  /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at its end is to
+  /// stay.
+  void keep_checkpoints(CheckpointFile file, bool also_at_end = false);
 
   /// Before the run begins: it goes on from a state that find_restart() found, and so does the file.
   void go_on_from(const RunState& state) { so_far_ = {state.history_rows, state.field_outputs}; }
@@ -30,7 +31,10 @@ class ResultsFile : public RunObserver, public Checkpoints {
   std::string trouble() override;
 
  private:
+  template <class Do>
+  void writing(const Do& one);
   std::optional<CheckpointFile> checkpoint_;
+  bool keeps_end_ = false;
   std::optional<ResultsSoFar> so_far_;
   std::string path_;
   RunDescription description_;

@@ -19,13 +19,13 @@ std::atomic<std::size_t> refused{0};
 
 // The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-void* operator new(std::size_t size) {
+[[gnu::noinline]] void* operator new(std::size_t size) {
   if (void* const place = std::malloc(size ? size : 1)) return place;
   refused = size;
   throw std::bad_alloc();
 }
-void operator delete(void* place) noexcept { std::free(place); }
-void operator delete(void* place, std::size_t) noexcept { std::free(place); }
+[[gnu::noinline]] void operator delete(void* place) noexcept { std::free(place); }
+[[gnu::noinline]] void operator delete(void* place, std::size_t) noexcept { std::free(place); }
 #endif
 
 namespace railwave {

@@ -36,8 +36,9 @@ void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {
   const auto kept = std::make_shared<const RunState>(std::move(state));
   thread_.add(
       [this, kept, file] {
+        writer_.bring_to_disk();
         try {
-          writer_.checkpoint(*kept, file);
+          file.write(*kept, writer_.run());
         } catch (const std::exception& error) {
           const bool first = trouble_.empty();
           trouble_ = std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();

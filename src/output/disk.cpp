@@ -75,7 +75,9 @@ std::string mend() {
 
 void bring_to_disk(const std::string& path) {
   Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.get() < 0 || fsync(file.get()) != 0) throw std::runtime_error("writing " + path + ": " + reason());
+  if (file.get() >= 0 && fsync(file.get()) == 0) return;
+  const std::string why = reason(), what_to_do = mend();
+  throw std::runtime_error("writing " + path + ": " + why + (what_to_do.empty() ? "" : "; ") + what_to_do);
 }
 
 }  // namespace railwave::disk

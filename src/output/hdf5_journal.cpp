@@ -65,11 +65,37 @@ bool lay(int file, const std::vector<char>& pieces) {
   return each_piece(pieces, [&](const Piece& piece, const char* bytes) { return disk::write_at(file, bytes, piece.size, static_cast<off_t>(piece.place)); });
 }
 
+/// In which order pieces go to their places, for other programs that read a file as a kill left it amid that: first what tells the file's
+/// length, then the indices of arrays from their roots to their leaves, then the rest, with the arrays' extents. Who sees an extent thus
+/// finds what it counts.
+int rank(const Piece& piece, const char* bytes) {
+  constexpr int level_of_node = 5;
+  if (piece.place == 0) return 0;
+  const bool node = piece.size > level_of_node && std::memcmp(bytes, "TREE", 4) == 0;
+  return node ? 1 + 255 - static_cast<unsigned char>(bytes[level_of_node]) : 257;
+}
+
+std::vector<char> in_order(const std::vector<char>& pieces) {
+  struct Ranked {
+    int rank;
+    Piece piece;
+    const char* bytes;
+  };
+  std::vector<Ranked> list;
+  each_piece(pieces, [&](const Piece& piece, const char* bytes) { return list.push_back({rank(piece, bytes), piece, bytes}), true; });
+  std::stable_sort(list.begin(), list.end(), [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
+  std::vector<char> ordered;
+  ordered.reserve(pieces.size());
+  for (const Ranked& one : list) add_piece(ordered, one.piece, one.bytes);
+  return ordered;
+}
+
 struct JournalledFile {
   H5FD_t base;  // first: HDF5 knows only this
   int descriptor;
   std::string path;
-  bool writes, failed;
+  bool writes;
+  int failed;                  ///< errno of the first call that the system refused; 0: none
   haddr_t end;                 ///< of what HDF5 has given out
   haddr_t flushed_end;         ///< that of the last flush: nothing that lies beyond is pointed to
   std::vector<char> waiting;   ///< pieces of structure
@@ -85,11 +111,11 @@ herr_t complain(const JournalledFile& file, const char* doing) {
   return -1;
 }
 
-/// Once the system has refused something the file is left as it was flushed last; HDF5, which knows no way back, is told that all goes
-/// well from there on, so that it closes in peace. Who asked for the first thing refused was told.
+/// Once the system has refused something the file is left as it was flushed last. HDF5, which knows no way back, is told that all goes
+/// well when it writes more and when it closes, so that it closes in peace; every later flush fails as the first did.
 herr_t give_up(JournalledFile& file, const char* doing) {
+  file.failed = errno;
   const herr_t result = complain(file, doing);
-  file.failed = true;
   file.waiting.clear();
   return result;
 }
@@ -106,6 +132,7 @@ herr_t flush(JournalledFile& file) {
   const off_t length = disk::length_of(file.descriptor);
   if (!beyond || length < 0) return give_up(file, "writing");
   if (!in_place.empty()) {
+    in_place = in_order(in_place);
     Footer footer;
     std::memcpy(footer.mark, mark, sizeof mark);
     footer.size = in_place.size();
@@ -223,7 +250,12 @@ herr_t write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t place, size_t size, c
   return 0;
 }
 
-herr_t flush_file(H5FD_t* file, hid_t, hbool_t) { return flush(own(file)); }
+herr_t flush_file(H5FD_t* base, hid_t, hbool_t closing) {
+  JournalledFile& file = own(base);
+  if (!file.failed || closing) return flush(file);
+  errno = file.failed;
+  return complain(file, "writing");
+}
 
 hid_t driver() {
   static const hid_t registered = [] {

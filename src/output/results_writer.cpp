@@ -192,10 +192,9 @@ void ResultsWriter::flush(std::optional<double> time) {
   last_flush_ = std::chrono::steady_clock::now();
 }
 
-void ResultsWriter::checkpoint(const RunState& state, const CheckpointFile& file) {
+void ResultsWriter::bring_to_disk() {
   flush();
   disk::bring_to_disk(path_);
-  file.write(state, run_);
 }
 
 void ResultsWriter::end(const RunSummary& summary) {

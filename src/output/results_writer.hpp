@@ -65,8 +65,9 @@ class ResultsWriter {
   void fields(const FieldSource& source, double time, long step);
   void end(const RunSummary& summary);
 
-  /// Brings all results so far to the disk, then the state.
-  void checkpoint(const RunState& state, const CheckpointFile& file);
+  /// Brings all results so far to the disk. A checkpoint that counts them comes after that.
+  void bring_to_disk();
+  const std::string& run() const { return run_; }
 
   /// Never changes, so any thread may read it.
   const RunDescription& description() const { return description_; }

@@ -11,6 +11,7 @@
 #include "check.hpp"
 #include "hammer_options.hpp"
 #include "modes/modes_command.hpp"
+#include "out_of_memory.hpp"
 #include "output/model_file.hpp"
 #include "output/progress.hpp"
 #include "output/restart.hpp"
@@ -37,7 +38,7 @@ struct Arguments {
   ModesRequest modes;
   std::string mesh_file = "mesh.h5";
   bool markdown = false, schema = false;
-  bool restart = false;
+  bool restart = false, keep_state = false;
   double wall_time = 0;  ///< s; 0: no limit
 };
 
@@ -58,18 +59,16 @@ int run_case(const Arguments& arguments) {
   results.check_room(model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
   check_checkpoint_place(checkpoint.path(), scene.output.file);
-  results.keep_checkpoints(checkpoint);
+  results.keep_checkpoints(checkpoint, arguments.keep_state);
   RunKeeping keeping;
   keeping.checkpoints = &results;
+  keeping.at_end = arguments.keep_state;
   keeping.interval = scene.checkpoint.interval;
   Restart restart;
   if (arguments.restart) {
-    restart = find_restart(scene.output.file, checkpoint);
+    restart = find_restart(scene.output.file, checkpoint, scene.time.end);
     for (const std::string& remark : restart.remarks) std::cout << "restart: " << remark << '\n';
-    if (restart.complete) {
-      checkpoint.remove();
-      return done;
-    }
+    if (restart.complete) return done;
     results.go_on_from(*restart.state);
     keeping.from = &*restart.state;
   }
@@ -160,6 +159,7 @@ int dispatch(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "run a case and write its results");
   add_case(run_command);
   run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
+  run_command->add_flag("--keep-state", arguments.keep_state, "keep the checkpoint at the run's end: --restart with a later time.end goes on from it");
   run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4")
       ->check(CLI::PositiveNumber);
   run_command->callback([&] { code = run_case(arguments); });
@@ -209,7 +209,7 @@ int main(int argc, char** argv) {
     std::cerr << "railwave: " << error.what() << '\n';
     return railwave::wrong_input;
   } catch (const std::exception& error) {
-    std::cerr << "railwave: " << error.what() << '\n';
+    std::cerr << "railwave: " << (railwave::is_out_of_memory(error) ? railwave::out_of_memory(error) : error.what()) << '\n';
     return railwave::failed;
   }
 }

@@ -1,27 +1,26 @@
 #include "output/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <memory>
 #include <stdexcept>
+
+#include "output/disk.hpp"
 
 namespace railwave {
 
 void write_whole_file(const std::string& path, const std::string& text) {
   const std::string beside = path + ".new." + std::to_string(getpid());
   const auto fail = [&](const char* what) {
-    const std::string reason = std::strerror(errno);
-    std::remove(beside.c_str());
-    throw std::runtime_error(std::string(what) + " " + path + ": " + reason);
+    const std::string reason = disk::reason(), mend = disk::mend();
+    unlink(beside.c_str());
+    throw std::runtime_error(std::string(what) + " " + path + ": " + reason + (mend.empty() ? "" : "; ") + mend);
   };
-  std::FILE* file = std::fopen(beside.c_str(), "wb");
-  if (!file) fail("cannot make");
-  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
-  if (std::fclose(file) != 0 || !written) fail("cannot write");
-  if (std::rename(beside.c_str(), path.c_str()) != 0) fail("cannot write");
+  disk::Descriptor file(open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+  if (file.get() < 0) fail("cannot make");
+  if (!disk::write_at(file.get(), text.data(), text.size(), 0) || !file.close()) fail("cannot write");
+  if (rename(beside.c_str(), path.c_str()) != 0) fail("cannot write");
 }
 
 }  // namespace railwave

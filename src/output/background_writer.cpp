@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "output/tell.hpp"
+
 namespace railwave {
 namespace {
 
@@ -11,8 +13,9 @@ constexpr std::size_t size_of_history = 1, size_of_fields = 4096, room = 3 * siz
 
 }  // namespace
 
-BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far)
-    : writer_(std::move(path), std::move(description), so_far), thread_(room) {
+BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far,
+                                   std::function<void()> on_failure)
+    : writer_(std::move(path), std::move(description), so_far), thread_(room, std::move(on_failure)) {
   thread_.add(hdf5::be_quiet);
 }
 
@@ -33,10 +36,13 @@ void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {
   const auto kept = std::make_shared<const RunState>(std::move(state));
   thread_.add(
       [this, kept, file] {
+        writer_.bring_to_disk();
         try {
-          writer_.checkpoint(*kept, file);
+          file.write(*kept, writer_.run());
         } catch (const std::exception& error) {
+          const bool first = trouble_.empty();
           trouble_ = std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();
+          if (first) tell_at_once(trouble_);
         }
       },
       size_of_fields);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -18,14 +19,15 @@ namespace railwave {
 class BackgroundWriter {
  public:
   /// Throws at once what the ResultsWriter's constructor throws.
-  BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
+  /// @param on_failure called by the thread as soon as the disk refuses results
+  BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {}, std::function<void()> on_failure = {});
 
   void history(const HistorySample& sample);
 
   /// Fetches from `source` before it returns.
   void fields(const FieldSource& source, double time, long step);
 
-  /// Writes the state after what was given before. What goes wrong with it stops nothing: see checkpoint_trouble().
+  /// Writes the state after what was given before. What goes wrong with it stops nothing; it is told at once, and see checkpoint_trouble().
   void checkpoint(RunState state, const CheckpointFile& file);
 
   /// Waits for all that was given; what went wrong with checkpoints, empty: nothing.

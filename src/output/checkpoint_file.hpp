@@ -38,8 +38,8 @@ class CheckpointFile {
   std::string path_, key_;
 };
 
-/// Hash of everything that a run's course and its results depend on: the case but for its title and what is told on the way, the
-/// mesh in the solver's order, the program's version.
+/// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and what is told on
+/// the way, the mesh in the solver's order, the program's version.
 std::string checkpoint_key(const Model& model, const std::string& program_version);
 
 /// Throws InputError unless a checkpoint can be made there: no such folder, not writable, or the results' own place.

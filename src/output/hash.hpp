@@ -39,6 +39,7 @@ class Hash {
     add(from + count / 8 * 8, count % 8);
   }
 
+  std::uint64_t value() const { return value_; }
   std::string text() const { return fmt::format("{:016x}", value_); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <hdf5.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +27,7 @@ class Handle {
   ~Handle() { close(); }
   hid_t get() const { return id_; }
   void close() noexcept;
+  hid_t release() { return std::exchange(id_, -1); }  ///< the caller closes it
 
  private:
   hid_t id_ = -1;
@@ -114,30 +116,43 @@ class File {
  public:
   File() = default;
 
-  /// Makes a new file, replacing an existing one. Between two calls of flush() only array data reach the disk, never
-  /// half of the file's structure, so what was flushed stays readable when the program is killed.
+  /// Makes a new file, called PATH.new until it gets its name: nobody ever sees half of it, and a PATH that is there stays until then.
+  /// What has not got its name goes with this object. Every flush() happens or does not, also when the program is killed amid it or the
+  /// disk is full (see hdf5_journal.hpp).
   static File create(const std::string& path);
-  static File open(const std::string& path);  ///< for reading
 
-  /// For adding to what is there, as if it had just been made: groups and datasets that exist are taken. A file that a killed
-  /// program left open is mended first: its length is made to agree with what it says of it.
+  /// For reading. A flush that a killed program began is finished first.
+  static File open(const std::string& path);
+
+  /// For adding to what is there, as if it had just been made: groups and datasets that exist are taken. Flushes are as after create().
   static File extend(const std::string& path);
+
+  File(File&& other) noexcept;
+  File& operator=(File&& other) noexcept;
+  ~File();
 
   bool is_open() const { return id_.get() >= 0; }
   Group root() const;
   void flush() const;
 
-  /// Writes everything and closes; throws if that fails, unlike the destructor.
-  void close();
+  /// Gives it its name while it goes on being written.
+  void take_name();
+
+  /// @return what was done where somebody has moved or removed the file (see hdf5::keep_name); empty: nothing
+  std::string keep_name() const;
+
+  /// Writes everything, closes, and gives a file that has it not its name when all is on the disk; throws if that fails, unlike the
+  /// destructor.
+  void close(const std::function<void()>& before_naming = {});
 
  private:
-  File(Handle id, std::string path, bool extends = false) : id_(std::move(id)), path_(std::move(path)), extends_(extends) {}
+  enum class Name { own, unfinished };
+  File(Handle id, std::string path) : id_(std::move(id)), path_(std::move(path)) {}
+  void abandon() noexcept;
   Handle id_;
   std::string path_;
+  Name name_ = Name::own;
   bool extends_ = false;
 };
-
-/// Has the disk hold what was written of a file, or of a folder's list of names; throws if it refuses.
-void bring_to_disk(const std::string& path);
 
 }  // namespace railwave::hdf5

@@ -100,7 +100,7 @@ void HistorySection::add(const HistorySample& sample) {
   }
 }
 
-void HistorySection::write_values() {
+void HistorySection::write() {
   const hsize_t rows = waiting();
   for (auto& energy : energies_) energy.write(rows);
   for (auto& contact : contacts_) {
@@ -121,8 +121,7 @@ void HistorySection::write_values() {
   }
   for (auto& load : loads_) load.value.write(rows);
   steps_.write(rows);
+  times_.write(rows);
 }
-
-void HistorySection::write_times() { times_.write(waiting()); }
 
 }  // namespace railwave

@@ -18,7 +18,7 @@ struct LoadNames {
 };
 
 /// Group /history of a results file: energies, contact forces, mean motions, loads and section forces of beams against time. Samples are kept in memory
-/// until they are written. Their times are written by themselves, last: see ResultsWriter::flush().
+/// until they are written.
 class HistorySection {
  public:
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
@@ -29,8 +29,7 @@ class HistorySection {
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
-  void write_values();
-  void write_times();
+  void write();
 
  private:
   template <class T>

@@ -12,7 +12,7 @@ namespace {
 
 struct ResultsThere {
   std::string run, key;
-  bool completed = false;
+  double completed_until = -1;  ///< s, the end of a complete run
 };
 
 ResultsThere look_into(const std::string& path) {
@@ -20,10 +20,11 @@ ResultsThere look_into(const std::string& path) {
   if (!std::filesystem::exists(path, ignored))
     throw InputError(fmt::format("--restart: there are no results {} to add to; run the case without --restart", path));
   try {
-    const hdf5::File file = hdf5::File::extend(path);  // mends what a kill left
+    const hdf5::File file = hdf5::File::open(path);
     const hdf5::Group root = file.root();
     if (!root.has_attribute("run")) throw std::runtime_error("no run of this version of the program wrote it");
-    return {root.text_attribute("run"), root.text_attribute("key"), root.has_attribute("completed") && root.number_attribute("completed") != 0};
+    const bool completed = root.has_attribute("completed") && root.number_attribute("completed") != 0;
+    return {root.text_attribute("run"), root.text_attribute("key"), completed ? root.number_attribute("end_time") : -1};
   } catch (const std::runtime_error& error) {
     throw InputError(fmt::format("--restart: the results {} cannot be added to: {}; run the case without --restart, which replaces them", path, error.what()));
   }
@@ -31,14 +32,14 @@ ResultsThere look_into(const std::string& path) {
 
 }  // namespace
 
-Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint) {
+Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end) {
   Restart restart;
   const ResultsThere there = look_into(results_path);
   if (there.key != checkpoint.key())
     throw InputError(fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another version of the "
                                  "program; run the case without --restart, which replaces them, or as it was",
                                  results_path));
-  if (there.completed) {
+  if (there.completed_until >= end) {
     restart.complete = true;
     restart.remarks.push_back(fmt::format("nothing to do: {} holds the whole run", results_path));
     return restart;
@@ -48,6 +49,9 @@ Restart find_restart(const std::string& results_path, const CheckpointFile& chec
   if (!found.state) {
     std::string why = fmt::format("--restart: there is no checkpoint {} of this run", checkpoint.path());
     for (const std::string& trouble : found.troubles) why += "; " + trouble;
+    if (there.completed_until > 0)
+      throw InputError(fmt::format("{}; the results hold all of it to t = {:.6g} s, and it can go on to {:.6g} s only if it was run with --keep-state", why,
+                                   there.completed_until, end));
     throw InputError(why + "; run the case without --restart");
   }
   restart.remarks.push_back(fmt::format("goes on from {}: step {}, t = {:.6g} s", found.file, found.state->step, found.state->time));

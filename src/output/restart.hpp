@@ -16,7 +16,8 @@ struct Restart {
 };
 
 /// The newest good checkpoint that belongs to a results file. Throws InputError, saying what to do, where there is none, and
-/// where the results are missing, unreadable or another run's.
-Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint);
+/// where the results are missing, unreadable, being written by another run, or another run's.
+/// @param end of the run, s; results of a complete run are gone on with where that is later than theirs
+Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end);
 
 }  // namespace railwave

@@ -1,15 +1,20 @@
 #include "output/results_file.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "output/fault_file.hpp"
 #include "output/results_size.hpp"
 #include "solve/beams.hpp"
+#include "solve/time_loop.hpp"
 
 namespace railwave {
 namespace {
@@ -110,34 +115,53 @@ void ResultsFile::check_room(const Model& model) const {
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
   for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
-  writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_);
+  writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop);
 }
 
-void ResultsFile::history(const Model&, const HistorySample& sample) { writer_->history(sample); }
+template <class Do>
+void ResultsFile::writing(const Do& one) {
+  try {
+    one();
+  } catch (const std::exception& error) {
+    std::error_code ignored;
+    const bool can_go_on = checkpoint_ && std::filesystem::exists(checkpoint_->path(), ignored);
+    throw std::runtime_error(fmt::format("{}; the results {} hold what was written before{}", error.what(), path_,
+                                         can_go_on ? ", and --restart goes on from the last checkpoint" : ""));
+  }
+}
+
+void ResultsFile::history(const Model&, const HistorySample& sample) {
+  writing([&] { writer_->history(sample); });
+}
 
 void ResultsFile::fields(const Model& model, const HistorySample& sample) {
-  writer_->fields(ModelFields(model), sample.time, sample.step);
+  writing([&] { writer_->fields(ModelFields(model), sample.time, sample.step); });
 }
 
 void ResultsFile::end(const Model& model, const RunSummary& summary) {
-  writer_->end(summary);
+  writing([&] { writer_->end(summary); });
   writer_.reset();
-  if (checkpoint_ && summary.completed) checkpoint_->remove();
+  if (checkpoint_ && summary.completed && !keeps_end_) checkpoint_->remove();
   // Only now does nobody else touch HDF5.
   const std::string beside = fault_path(path_);
   if (summary.fault) write_fault_file(model, *summary.fault, beside);
   else for (const std::string& old : {beside, xdmf_path(beside)}) std::remove(old.c_str());
 }
 
-void ResultsFile::keep_checkpoints(CheckpointFile file) {
+void ResultsFile::keep_checkpoints(CheckpointFile file, bool also_at_end) {
+  keeps_end_ = also_at_end;
   description_.key = file.key();
   checkpoint_ = std::move(file);
 }
 
 void ResultsFile::keep(RunState state) {
-  if (checkpoint_) writer_->checkpoint(std::move(state), *checkpoint_);
+  if (checkpoint_) writing([&] { writer_->checkpoint(std::move(state), *checkpoint_); });
 }
 
-std::string ResultsFile::trouble() { return writer_->checkpoint_trouble(); }
+std::string ResultsFile::trouble() {
+  std::string trouble;
+  writing([&] { trouble = writer_->checkpoint_trouble(); });
+  return trouble;
+}
 
 }  // namespace railwave

@@ -9,7 +9,7 @@
 namespace railwave {
 
 /// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop waits
-/// for the device's copies only. What the disk refuses it throws at the loop's next output, at the latest at the end.
+/// for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call throws it.
 class ResultsFile : public RunObserver, public Checkpoints {
  public:
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
@@ -19,8 +19,9 @@ class ResultsFile : public RunObserver, public Checkpoints {
   /// Throws InputError when what the run will write can't fit onto the disk.
   void check_room(const Model& model) const;
 
-  /// Before the run begins: where its states are kept. When the run is complete they are taken away.
-  void keep_checkpoints(CheckpointFile file);
+  /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at its end is to
+  /// stay.
+  void keep_checkpoints(CheckpointFile file, bool also_at_end = false);
 
   /// Before the run begins: it goes on from a state that find_restart() found, and so does the file.
   void go_on_from(const RunState& state) { so_far_ = {state.history_rows, state.field_outputs}; }
@@ -33,7 +34,10 @@ class ResultsFile : public RunObserver, public Checkpoints {
   std::string trouble() override;
 
  private:
+  template <class Do>
+  void writing(const Do& one);
   std::optional<CheckpointFile> checkpoint_;
+  bool keeps_end_ = false;
   std::optional<ResultsSoFar> so_far_;
   std::string path_;
   RunDescription description_;

@@ -16,6 +16,8 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "output/disk.hpp"
+#include "output/tell.hpp"
 
 namespace railwave {
 namespace {
@@ -89,10 +91,11 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
   root.create_group("fields");
   if (any_beam(description_.sets)) root.create_group("beams");
   root.create_group("contact");
+  if (so_far) file_.flush();  // what was cut off is cut off before its places are taken
 }
 
 void ResultsWriter::create_file() {
-  file_ = hdf5::File::create(path_ + ".new");
+  file_ = hdf5::File::create(path_);
   const hdf5::Group root = file_.root();
   root.set_attribute("format", "Railwave results");
   root.set_attribute("format_version", 1L);
@@ -124,12 +127,9 @@ void ResultsWriter::extend_file(const ResultsSoFar& so_far) {
   leave("history", so_far.history_rows);
   for (const char* name : {"fields", "beams", "contact"}) leave(name, so_far.field_outputs);
   outputs_ = static_cast<std::size_t>(so_far.field_outputs);
-  holds_data_ = in_place_ = true;
+  in_place_ = true;
+  root.set_attribute("end_time", description_.end_time);
   root.set_attribute("restarts", root.has_attribute("restarts") ? static_cast<long>(root.number_attribute("restarts")) + 1 : 1L);
-}
-
-ResultsWriter::~ResultsWriter() {
-  if (!holds_data_) std::remove((path_ + ".new").c_str());
 }
 
 void ResultsWriter::history(const HistorySample& sample) {
@@ -168,33 +168,33 @@ void ResultsWriter::fields(const FieldSource& source, double time, long step) {
   for (FieldSection& section : field_sections_) section.add_values(source, step);
   for (ContactSection& section : contact_sections_) section.add_values(source, step);
   flush(time);
+  if (!xdmf_.is_there()) {
+    xdmf_.begin_anew();
+    tell_earlier_times();
+  }
   if (!description_.sets.empty() || !contact_sides_.empty()) xdmf_.add(time, outputs_, description_.sets, contact_sides_);
   ++outputs_;
 }
 
 void ResultsWriter::flush(std::optional<double> time) {
-  holds_data_ = true;
-  history_->write_values();
-  file_.flush();
-  history_->write_times();
+  if (const std::string done = file_.keep_name(); !done.empty()) tell_at_once(done);
+  history_->write();
   if (time) {
     for (FieldSection& section : field_sections_) section.add_time(*time);
     for (ContactSection& section : contact_sections_) section.add_time(*time);
   }
   file_.flush();
   if (!in_place_) {
-    if (std::rename((path_ + ".new").c_str(), path_.c_str()) != 0)
-      throw std::runtime_error("cannot give the results file its name " + path_ + ": " + std::strerror(errno) + "; the results are in " + path_ + ".new");
-    std::remove(xdmf_path(path_).c_str());  // an older run's, which would name arrays that are no longer there
+    file_.take_name();
+    unlink(xdmf_path(path_).c_str());  // an older run's, which would name arrays that are no longer there
     in_place_ = true;
   }
   last_flush_ = std::chrono::steady_clock::now();
 }
 
-void ResultsWriter::checkpoint(const RunState& state, const CheckpointFile& file) {
+void ResultsWriter::bring_to_disk() {
   flush();
-  hdf5::bring_to_disk(path_);
-  file.write(state, run_);
+  disk::bring_to_disk(path_);
 }
 
 void ResultsWriter::end(const RunSummary& summary) {
@@ -213,6 +213,7 @@ void ResultsWriter::end(const RunSummary& summary) {
   field_sections_.clear();
   contact_sections_.clear();
   file_.close();
+  disk::bring_to_disk(path_);  // before the checkpoints go
 }
 
 }  // namespace railwave

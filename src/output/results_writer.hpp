@@ -49,8 +49,9 @@ struct ResultsSoFar {
 /// no model.
 ///
 /// Nothing computed gets lost: the file is made as PATH.new and takes the place of an older PATH only when the run has
-/// brought its first data; it is flushed after each output of fields and every few seconds, so a killed run leaves a
-/// readable file. Throws std::runtime_error when the disk refuses.
+/// brought its first data; it is flushed after each output of fields and every few seconds, each time wholly or not at all, so a
+/// killed run leaves a readable file. Where somebody removes or moves it meanwhile it gets its name again. Throws
+/// std::runtime_error when the disk refuses; what was flushed before is there then.
 class ResultsWriter {
  public:
   /// Throws InputError where check_results_place() does.
@@ -59,14 +60,14 @@ class ResultsWriter {
   ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
-  ~ResultsWriter();  ///< removes PATH.new if it never held any data
 
   void history(const HistorySample& sample);
   void fields(const FieldSource& source, double time, long step);
   void end(const RunSummary& summary);
 
-  /// Brings all results so far to the disk, then the state.
-  void checkpoint(const RunState& state, const CheckpointFile& file);
+  /// Brings all results so far to the disk. A checkpoint that counts them comes after that.
+  void bring_to_disk();
+  const std::string& run() const { return run_; }
 
   /// Never changes, so any thread may read it.
   const RunDescription& description() const { return description_; }
@@ -78,7 +79,7 @@ class ResultsWriter {
   void tell_earlier_times();
 
   /// Writes the waiting history and brings everything to the disk. `time` is that of the fields added since the last
-  /// flush, if any. Times go last, by a flush of their own: a killed run may leave half an entry, but then not its time.
+  /// flush, if any. A kill leaves all of it or nothing.
   void flush(std::optional<double> time = {});
 
   std::string path_;
@@ -92,7 +93,6 @@ class ResultsWriter {
   std::size_t outputs_ = 0;
   bool has_sections_ = false;
   std::string run_;        ///< a name of this run's own
-  bool holds_data_ = false;
   bool in_place_ = false;  ///< whether the file has taken its own name
   std::chrono::steady_clock::time_point last_flush_;
 };

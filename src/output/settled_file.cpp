@@ -1,15 +1,14 @@
 #include "output/settled_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
 #include "kernels/patches.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5.hpp"
+#include "output/seal.hpp"
 
 namespace railwave {
 namespace {
@@ -38,19 +37,10 @@ void each_array(State& state, const Visit& visit) {
   visit("end_support", state.end_support);
 }
 
-std::string checksum(const StaticState& state) {
-  Hash hash;
-  hash.add(fmt::format("{} {:.17g} {} {}", state.settled ? 1 : 0, state.unbalance, state.steps, state.iterations));
-  each_array(state, [&](const std::string& name, const auto& values) {
-    hash.add(name);
-    hash.add(values);
-  });
-  return hash.text();
-}
-
 constexpr const char* format_name = "Railwave settled state 1";
 
 StaticState read_state(const std::string& path, const std::string& key) {
+  check_seal(path);
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
   if (root.text_attribute("format") != format_name || root.text_attribute("key") != key)
@@ -68,7 +58,6 @@ StaticState read_state(const std::string& path, const std::string& key) {
   each_array(state, [&](const std::string& name, auto& values) {
     if (root.has(name)) values = root.dataset(name).template read<typename std::decay_t<decltype(values)>::value_type>();
   });
-  if (checksum(state) != root.text_attribute("checksum")) throw std::runtime_error("its checksum is not that of what it holds");
   return state;
 }
 
@@ -87,8 +76,7 @@ void write_state(const std::string& path, const std::string& key, const std::str
   each_array(state, [&](const std::string& name, const auto& values) {
     if (!values.empty()) root.write(name, values, {values.size()});
   });
-  root.set_attribute("checksum", checksum(state));
-  file.close();
+  file.close([&] { seal(path + ".new"); });
 }
 
 }  // namespace
@@ -127,14 +115,12 @@ SettledStates::Found SettledFiles::find(const Model& model) {
 
 std::string SettledFiles::keep(const Model& model, const StaticState& state) {
   if (!model.scene.settle.cache || model.scene.static_text.empty()) return {};
-  const std::string name = path(model), beside = fmt::format("{}.new.{}", name, getpid());
+  const std::string name = path(model);
   try {
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);
-    write_state(beside, key(model), version_, state);
-    std::filesystem::rename(beside, name);
+    write_state(name, key(model), version_, state);
   } catch (const std::exception& error) {
-    std::remove(beside.c_str());
     return error.what();
   }
   return {};

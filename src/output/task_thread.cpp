@@ -4,7 +4,7 @@
 
 namespace railwave {
 
-TaskThread::TaskThread(std::size_t room) : room_(room), thread_([this] { work(); }) {}
+TaskThread::TaskThread(std::size_t room, std::function<void()> on_failure) : room_(room), on_failure_(std::move(on_failure)), thread_([this] { work(); }) {}
 
 TaskThread::~TaskThread() {
   {
@@ -50,6 +50,7 @@ void TaskThread::work() {
     } catch (...) {
       failure = std::current_exception();
     }
+    if (failure && on_failure_) on_failure_();
     next.task = nullptr;  // what it holds goes before its room is free, and outside the lock
     lock.lock();
     taken_ -= next.size;

@@ -17,7 +17,8 @@ namespace railwave {
 /// Its members are called by one thread only.
 class TaskThread {
  public:
-  explicit TaskThread(std::size_t room);
+  /// @param on_failure called once, by this thread, when a task throws
+  explicit TaskThread(std::size_t room, std::function<void()> on_failure = {});
   TaskThread(const TaskThread&) = delete;
   TaskThread& operator=(const TaskThread&) = delete;
   ~TaskThread();  ///< does what waits, then ends the thread; what a task throws here is lost
@@ -37,6 +38,7 @@ class TaskThread {
   void throw_if_failed() const;
 
   const std::size_t room_;
+  const std::function<void()> on_failure_;
   std::mutex mutex_;  ///< guards what follows
   std::condition_variable added_, done_;
   std::deque<Waiting> waiting_;

@@ -1,13 +1,14 @@
 #include "output/xdmf.hpp"
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "output/atomic_file.hpp"
+#include "output/disk.hpp"
 
 namespace railwave {
 namespace {
@@ -121,6 +122,8 @@ void add_side(TimeText& text, const XdmfContactSide& side) {
 XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields)
     : path_(std::move(path)), results_file_name_(std::move(results_file_name)), fields_(std::move(fields)) {}
 
+bool XdmfFile::is_there() const { return end_of_times_ == 0 || access(path_.c_str(), F_OK) == 0; }
+
 void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides) {
   TimeText text(results_file_name_, time, index);
   for (const OutputSet& set : sets)
@@ -134,12 +137,15 @@ void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>&
     end_of_times_ = static_cast<long>(header.size() + grids.size());
     return;
   }
-  const auto fail = [&] { throw std::runtime_error("cannot extend " + path_ + ": " + std::strerror(errno)); };
   const std::string tail = grids + footer;
-  std::FILE* file = std::fopen(path_.c_str(), "r+b");
-  if (!file) fail();
-  const bool written = std::fseek(file, end_of_times_, SEEK_SET) == 0 && std::fwrite(tail.data(), 1, tail.size(), file) == tail.size();
-  if (std::fclose(file) != 0 || !written) fail();
+  disk::Descriptor file(open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.get() < 0 || !disk::write_at(file.get(), tail.data(), tail.size(), end_of_times_)) {
+    const std::string reason = disk::reason(), mend = disk::mend();
+    // As it was: the file has held these bytes before.
+    if (file.get() >= 0 && disk::write_at(file.get(), footer.data(), footer.size(), end_of_times_))
+      static_cast<void>(!ftruncate(file.get(), end_of_times_ + static_cast<off_t>(footer.size())));
+    throw std::runtime_error("cannot extend " + path_ + ": " + reason + (mend.empty() ? "" : "; ") + mend);
+  }
   end_of_times_ += static_cast<long>(grids.size());
 }
 

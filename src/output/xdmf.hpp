@@ -27,6 +27,12 @@ class XdmfFile {
   /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place.
   void add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides);
 
+  /// Whether nobody has removed it.
+  bool is_there() const;
+
+  /// The next add() makes the file.
+  void begin_anew() { end_of_times_ = 0; }
+
  private:
   std::string path_;
   std::string results_file_name_;

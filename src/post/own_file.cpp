@@ -34,9 +34,8 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
   if (fs::exists(path) && !is_of(format, path))
     throw InputError(fmt::format("{} is there already and is no file that '{}' wrote: name another, or remove it", path,
                                  format.command));
-  const std::string beside = path + ".new";
   try {
-    hdf5::File file = hdf5::File::create(beside);
+    hdf5::File file = hdf5::File::create(path);
     const hdf5::Group root = file.root();
     root.set_attribute("format", format.name);
     root.set_attribute("format_version", format.version);
@@ -44,10 +43,7 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
     root.set_attribute("title", results.title());
     fill(root);
     file.close();
-    fs::rename(beside, path);
   } catch (const std::exception& error) {
-    std::error_code none;
-    fs::remove(beside, none);
     throw InputError(fmt::format("{} was not written: {}", path, error.what()));
   }
 }

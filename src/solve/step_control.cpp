@@ -1,8 +1,11 @@
 #include "solve/step_control.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "case/error.hpp"
 #include "model/carriers.hpp"
 #include "model/host_copy.hpp"
 #include "model/stable_step.hpp"
@@ -63,6 +66,14 @@ bool StepControl::plan() {
   model_.step_size = left / static_cast<double>(steps);
   model_.step_count = model_.step + steps;
   return true;
+}
+
+void StepControl::move_end() {
+  const double end = model_.scene.time.end, now = time(), step = model_.step_size;
+  if (now > end + 1e-6 * step)
+    throw InputError(fmt::format("time.end: the checkpoint's t = {:.6g} s lies beyond {:.6g} s; name a later end, or run the case without --restart", now, end));
+  const auto round = static_cast<double>(model_.subcycling.round());
+  model_.step_count = model_.step + static_cast<long>(round * std::ceil((end - now) / (round * step) - 1e-6));
 }
 
 bool StepControl::renew() {

@@ -21,6 +21,10 @@ class StepControl {
   /// the step from this instant to the next is another one than the last.
   bool renew();
 
+  /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as they are and go on
+  /// to the first whole round at that end or after it. Throws InputError where the state lies beyond the end.
+  void move_end();
+
   int renewals() const { return renewals_; }
   double smallest() const { return smallest_; }
   double largest() const { return largest_; }

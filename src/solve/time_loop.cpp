@@ -70,6 +70,11 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
   return in_equilibrium;
 }
 
+std::string while_settling(const Model& model) {
+  const bool kept = model.scene.settle.cache && !model.scene.static_text.empty();
+  return std::string("interrupted while the scene settled") + (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
+}
+
 /// What the loop itself remembers from one step to the next.
 struct LoopMemory {
   StepControl control;
@@ -167,6 +172,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     lay_model_state(model, *keeping.from);
     StateLayer layer(*keeping.from);
     memory.archive(layer);
+    control.move_end();
   }
   RunSummary summary;
   summary.left_out = model.left_out;
@@ -182,8 +188,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
       summary.out_of_time = keeper.out_of_time();
       stopping = summary.out_of_time || stop_requested != 0;
       // A scene that was stopped while it settled has nothing to go on from.
-      const bool worth_it = prepared && model.step > summary.first_step && !due.last();
-      if (worth_it && (stopping || keeper.due())) keeper.keep(model, memory, summary);
+      const bool worth_it = prepared && model.step > summary.first_step;
+      if (worth_it && (due.last() ? keeping.at_end : stopping || keeper.due())) keeper.keep(model, memory, summary);
     }
     instant.time = model.time = control.time();
     const double step_before = model.step_size;
@@ -221,7 +227,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     }
     if (due.last()) break;
     if (stopping) {
-      summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s", summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
+      if (!prepared) summary.reason = while_settling(model);
+      else summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s", summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
                                    model.step_count, model.time);
       break;
     }

@@ -13,6 +13,7 @@ namespace railwave {
 struct RunKeeping {
   Checkpoints* checkpoints = nullptr;  ///< where states are kept; null: nowhere
   double interval = 0;                 ///< wall seconds between two; 0: only where the run is stopped from outside
+  bool at_end = false;                 ///< also at the end, from which a run with a later end can go on
   double time_left = 0;                ///< wall seconds after which it stops; 0: no such budget
   const RunState* from = nullptr;      ///< a state of this very run to go on from; null: from the start
 };

@@ -254,6 +254,67 @@ for name_, options_ in KINDS.items():
     add_kind(name_, options_)
 
 
+class EndsThatMove(Folder):
+    """A run may go on to a later end: what was computed stays as it is, and the steps stay as they were."""
+
+    def stays(self, before):
+        """Whether the results begin with all that was computed before, bit for bit; but for the output at the end, which is off the intervals."""
+        now = arrays(self.results)
+        self.assertEqual(sorted(before), sorted(now))
+        for name, value in before.items():
+            if now[name].shape != value.shape:
+                self.assertGreater(len(now[name]), len(value) - 1, name)
+                value = value[:-1]
+            self.assertEqual(now[name][:len(value)].tobytes(), value.tobytes(), name)
+        return now
+
+    def test_complete_run_that_kept_its_state(self):
+        for options in ({}, KINDS["subcycling"], KINDS["global_step"]):
+            with self.subTest(options=options):
+                self.write(case(**dict(options, end=4e-4)))
+                self.run_to_end("--keep-state")
+                self.assertTrue(self.checkpoint.exists())
+                before = arrays(self.results)
+                self.assertIn("nothing to do", self.run_to_end("--restart"))
+                self.write(case(**dict(options, end=6e-4)))
+                said = self.run_to_end("--restart")
+                after = self.stays(before)
+                times = after["history/time"]
+                self.assertGreater(len(times), len(before["history/time"]))
+                self.assertTrue(6e-4 - 1e-9 <= times[-1] < 6e-4 + 2e-6, times[-1])
+                with h5py.File(self.results, "r") as file:
+                    self.assertEqual((file.attrs["completed"], file.attrs["end_time"]), (1, 6e-4))
+                self.assertIn("completed\n", said)
+                self.assertFalse(self.checkpoint.exists())
+
+    def test_interrupted_run_with_another_end(self):
+        """The same whether it is told before or after another interruption."""
+        self.write(case())
+        self.stop()
+        kept = {path: path.read_bytes() for path in self.folder.iterdir()}
+        later = ("--set", "time.end=1.5e-3", "--set", "watch.active=false", "--set", "output.progress_interval=9", "--set", "title=longer")
+        self.run_to_end("--restart", *later)
+        at_once = arrays(self.results)
+        for path, content in kept.items():
+            path.write_bytes(content)
+        self.run_to_end("--restart", "--keep-state")
+        self.run_to_end("--restart", *later)
+        again = arrays(self.results)
+        self.assertEqual(at_once["history/time"].tobytes(), again["history/time"].tobytes())
+        self.assertEqual([name for name in at_once if at_once[name].tobytes() != again[name].tobytes()], [])
+
+    def test_ends_that_cannot_be(self):
+        self.write(case())
+        self.stop()
+        before = self.results.read_bytes()
+        said = self.run_to_end("--restart", "--set", "time.end=1e-6", code=2)
+        self.assertIn("time.end: the checkpoint's t = ", said)
+        self.assertIn("name a later end", said)
+        self.run_to_end("--restart")
+        said = self.run_to_end("--restart", "--set", "time.end=2e-3", code=2)
+        self.assertIn("--keep-state", said)
+
+
 class WhatCannotBeTakenUp(Folder):
     def setUp(self):
         super().setUp()
@@ -270,7 +331,7 @@ class WhatCannotBeTakenUp(Folder):
     def test_another_case(self):
         self.stop()
         before = self.results.read_bytes()
-        self.write(case(end=1.3e-3))
+        self.write(case(of_contact="damping = 0.1"))
         self.assertIn("of this case before it was changed", self.run_to_end("--restart", code=2))
         self.assertEqual(before, self.results.read_bytes())
 

@@ -1,0 +1,76 @@
+#include "out_of_memory.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <regex>
+
+namespace {
+
+/// What the latest refused `new` wanted; written where nothing can be allocated any more.
+std::atomic<std::size_t> refused{0};
+
+}  // namespace
+
+// The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  if (void* const place = std::malloc(size ? size : 1)) return place;
+  refused = size;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* place) noexcept { std::free(place); }
+[[gnu::noinline]] void operator delete(void* place, std::size_t) noexcept { std::free(place); }
+#endif
+
+namespace railwave {
+namespace {
+
+constexpr const char* of_kokkos = "Kokkos failed to allocate memory";
+
+std::string amount(double bytes) {
+  const char* units[] = {"bytes", "kB", "MB", "GB", "TB"};
+  int unit = 0;
+  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+/// Kokkos says it as "... for label "NAME". ... Allocation of size 3.725 G failed ...".
+std::string wanted_of_kokkos(const std::string& said) {
+  std::smatch label, size, space;
+  std::string text;
+  if (std::regex_search(said, size, std::regex("size ([0-9.]+ ?[KMGT]?i?B?)"))) text = size[1].str() + (size[1].str().find('B') == std::string::npos ? "iB" : "");
+  if (std::regex_search(said, label, std::regex("label \"([^\"]*)\""))) text += fmt::format("{}for the array {}", text.empty() ? "memory " : " ", label[1].str());
+  if (std::regex_search(said, space, std::regex("MemorySpace named \"([^\"]*)\""))) text += fmt::format(", in memory of {}", space[1].str());
+  return text.empty() ? "memory" : text;
+}
+
+std::string there_is() {
+  rlimit limit{};
+  const double all = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  std::string text = fmt::format("this machine has {}", amount(all));
+  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+    text += fmt::format(", this process may take {} (ulimit -v)", amount(static_cast<double>(limit.rlim_cur)));
+  return text;
+}
+
+}  // namespace
+
+bool is_out_of_memory(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) || std::strncmp(error.what(), of_kokkos, std::strlen(of_kokkos)) == 0;
+}
+
+std::string out_of_memory(const std::exception& error) {
+  const std::string said = error.what();
+  const std::string wanted = said.rfind(of_kokkos, 0) == 0 ? wanted_of_kokkos(said) : refused > 0 ? amount(static_cast<double>(refused)) + " more" : "more memory";
+  return fmt::format("out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or \"float\", or a machine with "
+                     "more; railwave check on a coarser mesh tells the bytes an element",
+                     wanted, there_is());
+}
+
+}  // namespace railwave

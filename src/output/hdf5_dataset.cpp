@@ -1,0 +1,67 @@
+#include <stdexcept>
+
+#include "case/memory.hpp"
+#include "output/hdf5_parts.hpp"
+
+namespace railwave::hdf5 {
+
+Shape Dataset::shape() const {
+  const Handle space = file_space(id_.get(), name_);
+  Shape result(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_));
+  if (!result.empty()) check(H5Sget_simple_extent_dims(space.get(), result.data(), nullptr), "asking for the shape of " + name_);
+  return result;
+}
+
+template <class T>
+void Dataset::append(const T* rows, hsize_t count) {
+  if (count == 0) return;
+  Shape extent = shape(), start(extent.size(), 0), block = extent;
+  start[0] = extent[0];
+  block[0] = count;
+  extent[0] += count;
+  check(H5Dset_extent(id_.get(), extent.data()), "extending " + name_);
+  if (count_of(block) == 0) return;  // a set without entries still counts its times
+  const Handle space = file_space(id_.get(), name_);
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), "extending " + name_);
+  const Handle memory = space_of(block);
+  check(H5Dwrite(id_.get(), native_type<T>(), memory.get(), space.get(), H5P_DEFAULT, rows), "writing " + name_);
+}
+
+template <class T>
+std::vector<T> Dataset::read() const {
+  const hsize_t count = count_of(shape());
+  // A damaged file may claim anything.
+  expect_memory(static_cast<double>(count) * sizeof(T), name_ + ": has " + std::to_string(count) + " values, which need", "see whether the file is whole");
+  std::vector<T> values(count);
+  if (values.empty()) return values;
+  check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
+  return values;
+}
+
+template <class T>
+std::vector<T> Dataset::read_row(hsize_t row) const {
+  Shape block = shape();
+  if (block.empty() || row >= block[0]) throw std::runtime_error("reading " + name_ + ": it has no entry " + std::to_string(row));
+  Shape start(block.size(), 0);
+  start[0] = row;
+  block[0] = 1;
+  std::vector<T> values(count_of(block));
+  if (values.empty()) return values;
+  const Handle space = file_space(id_.get(), name_);
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), "reading " + name_);
+  const Handle memory = space_of(block);
+  check(H5Dread(id_.get(), native_type<T>(), memory.get(), space.get(), H5P_DEFAULT, values.data()), "reading " + name_);
+  return values;
+}
+
+#define RAILWAVE_FOR_TYPE(T)                                      \
+  template void Dataset::append<T>(const T*, hsize_t);            \
+  template std::vector<T> Dataset::read<T>() const;               \
+  template std::vector<T> Dataset::read_row<T>(hsize_t) const;
+
+RAILWAVE_FOR_TYPE(double)
+RAILWAVE_FOR_TYPE(int)
+RAILWAVE_FOR_TYPE(long)
+RAILWAVE_FOR_TYPE(signed char)
+
+}  // namespace railwave::hdf5

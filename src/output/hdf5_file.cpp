@@ -1,0 +1,145 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+#include <utility>
+
+#include "output/disk.hpp"
+#include "output/hdf5_journal.hpp"
+#include "output/hdf5_parts.hpp"
+
+namespace railwave::hdf5 {
+namespace {
+
+herr_t keep_first_description(unsigned, const H5E_error2_t* entry, void* text) {
+  auto& reason = *static_cast<std::string*>(text);
+  if (reason.empty() && entry->desc) reason = entry->desc;
+  return 0;
+}
+
+/// At the program's exit HDF5 would try once more to write what a full disk has refused, and crash. It heeds this only before
+/// anything else; all that we open we close.
+void stay_out_of_exit() {
+  static const herr_t said = H5dont_atexit();
+  static_cast<void>(said);
+}
+
+/// What a file is called behind its name until it is whole.
+constexpr const char* unfinished = ".new";
+
+/// Between two flushes only array data reach the disk; the structure that HDF5 would write to make room would have to be held back.
+Handle access_by_journal(const std::string& what) {
+  Handle access(check(H5Pcreate(H5P_FILE_ACCESS), what), H5Pclose);
+  H5AC_cache_config_t cache;
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  check(H5Pget_mdc_config(access.get(), &cache), what);
+  cache.evictions_enabled = false;  // and then HDF5 wants no automatic resizing either
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  check(H5Pset_mdc_config(access.get(), &cache), what);
+  use_journal(access.get());
+  return access;
+}
+
+}  // namespace
+
+std::string reason() {
+  std::string text;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first_description, &text);
+  H5Eclear2(H5E_DEFAULT);
+  return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    close();
+    id_ = std::exchange(other.id_, -1);
+    closer_ = other.closer_;
+  }
+  return *this;
+}
+
+void Handle::close() noexcept {
+  if (id_ >= 0) closer_(id_);
+  id_ = -1;
+}
+
+File File::create(const std::string& path) {
+  stay_out_of_exit();
+  be_quiet();
+  const std::string what = "making " + path, beside = path + unfinished;
+  const Handle access = access_by_journal(what);
+  File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, path);
+  file.name_ = Name::unfinished;
+  return file;
+}
+
+File File::open(const std::string& path) {
+  stay_out_of_exit();
+  be_quiet();
+  finish_journal(path);
+  return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening " + path), H5Fclose), path};
+}
+
+File File::extend(const std::string& path) {
+  stay_out_of_exit();
+  be_quiet();
+  finish_journal(path);
+  const std::string what = "opening " + path;
+  const Handle access = access_by_journal(what);
+  File file({check(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), what), H5Fclose}, path);
+  file.extends_ = true;
+  return file;
+}
+
+File::File(File&& other) noexcept
+    : id_(std::move(other.id_)), path_(std::move(other.path_)), name_(std::exchange(other.name_, Name::own)), extends_(other.extends_) {}
+
+File& File::operator=(File&& other) noexcept {
+  if (this == &other) return *this;
+  abandon();
+  id_ = std::move(other.id_);
+  path_ = std::move(other.path_);
+  name_ = std::exchange(other.name_, Name::own);
+  extends_ = other.extends_;
+  return *this;
+}
+
+File::~File() { abandon(); }
+
+void File::abandon() noexcept {
+  id_.close();
+  if (name_ == Name::unfinished) unlink((path_ + unfinished).c_str());
+  name_ = Name::own;
+}
+
+Group File::root() const { return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_}; }
+
+void File::flush() const { check(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL), "writing " + path_); }
+
+void File::take_name() {
+  if (name_ == Name::own) return;
+  name_ = Name::own;  // what is there stays, whatever comes
+  if (rename((path_ + unfinished).c_str(), path_.c_str()) != 0)
+    throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " + path_ + unfinished);
+}
+
+std::string File::keep_name() const { return name_ == Name::own ? hdf5::keep_name(id_.get(), path_) : std::string(); }
+
+void File::close(const std::function<void()>& before_naming) {
+  if (!is_open()) return;
+  flush();
+  const herr_t closed = H5Fclose(id_.release());
+  check(closed, "writing " + path_);
+  if (name_ == Name::own) return;
+  disk::bring_to_disk(path_ + unfinished);
+  if (before_naming) before_naming();
+  take_name();
+  disk::bring_to_disk(std::filesystem::absolute(path_).parent_path().string());
+}
+
+}  // namespace railwave::hdf5

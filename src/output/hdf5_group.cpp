@@ -1,0 +1,126 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "output/hdf5_parts.hpp"
+
+namespace railwave::hdf5 {
+
+Group Group::create_group(const std::string& name) const {
+  if (extends_ && has(name)) return group(name);
+  const hid_t id = H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
+}
+
+Group Group::group(const std::string& name) const {
+  return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
+}
+
+Dataset Group::dataset(const std::string& name) const {
+  return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose), name_ + name};
+}
+
+bool Group::has(const std::string& name) const { return check(H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT), "looking for " + name_ + name) > 0; }
+
+std::vector<std::string> Group::names() const {
+  std::vector<std::string> result;
+  const H5L_iterate_t visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->push_back(name);
+    return 0;
+  };
+  check(H5Literate(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &result), "listing " + name_);
+  return result;
+}
+
+template <class T>
+Dataset Group::create_growing(const std::string& name, const Shape& row, const Storage& storage) const {
+  constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
+  const std::string what = "making " + name_ + name;
+  if (extends_ && has(name)) {
+    Dataset there = dataset(name);
+    Shape found = there.shape();
+    if (found.empty() || !std::equal(found.begin() + 1, found.end(), row.begin(), row.end()))
+      throw std::runtime_error("extending " + name_ + name + ": it is there with another shape");
+    return there;
+  }
+  Shape extent{0}, limit{H5S_UNLIMITED}, chunk{storage.rows_in_chunk};
+  for (const hsize_t length : row) {
+    extent.push_back(length);
+    limit.push_back(length);
+    chunk.push_back(std::max<hsize_t>(length, 1));
+  }
+  if (chunk.size() > 1) {
+    const hsize_t values_of_one_entry = std::max<hsize_t>(count_of(chunk) / chunk[1], 1);
+    chunk[1] = std::max<hsize_t>(1, std::min(chunk[1], largest_chunk / values_of_one_entry));
+    if (row[0] == 0) limit[1] = 1;  // HDF5 wants room for a chunk
+  }
+  const Handle space(check(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), what), H5Sclose);
+  const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
+  check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
+  if constexpr (std::is_same_v<T, double>) {
+    // What a kill in the middle of a flush may have left out then reads as not-a-number, not as zero.
+    const double nothing = std::nan("");
+    check(H5Pset_fill_value(properties.get(), H5T_NATIVE_DOUBLE, &nothing), what);
+  }
+  if (storage.compressed && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    check(H5Pset_shuffle(properties.get()), what);
+    check(H5Pset_deflate(properties.get(), 1), what);
+  }
+  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
+  return {Handle(check(id, what), H5Dclose), name_ + name};
+}
+
+template <class T>
+void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape) const {
+  const std::string what = "writing " + name_ + name;
+  if (values.size() != count_of(shape)) throw std::logic_error(what + ": the number of values is not that of the shape");
+  if (extends_ && has(name)) {
+    if (dataset(name).shape() != shape) throw std::runtime_error(what + ": it is there with another shape");
+    return;
+  }
+  const Handle space = space_of(shape);
+  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const Handle dataset(check(id, what), H5Dclose);
+  if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+}
+
+template <class Do>
+void Group::each_growing(const Do& one) const {
+  for (const std::string& name : names()) {
+    const Handle id(check(H5Oopen(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Oclose);
+    const H5I_type_t type = H5Iget_type(id.get());
+    if (type == H5I_GROUP) group(name).each_growing(one);
+    if (type != H5I_DATASET) continue;
+    const Handle space = file_space(id.get(), name_ + name);
+    Shape extent(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_ + name)), most = extent;
+    if (extent.empty()) continue;
+    check(H5Sget_simple_extent_dims(space.get(), extent.data(), most.data()), "asking for the shape of " + name_ + name);
+    if (most[0] == H5S_UNLIMITED) one(id.get(), extent, name_ + name);
+  }
+}
+
+std::optional<hsize_t> Group::least_entries() const {
+  std::optional<hsize_t> least;
+  each_growing([&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); });
+  return least;
+}
+
+void Group::cut(hsize_t entries) const {
+  each_growing([&](hid_t id, Shape extent, const std::string& name) {
+    if (extent[0] == entries) return;
+    if (extent[0] < entries) throw std::runtime_error("cutting " + name + ": it has fewer entries");
+    extent[0] = entries;
+    check(H5Dset_extent(id, extent.data()), "cutting " + name);
+  });
+}
+
+#define RAILWAVE_FOR_TYPE(T)                                                                          \
+  template Dataset Group::create_growing<T>(const std::string&, const Shape&, const Storage&) const;  \
+  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&) const;
+
+RAILWAVE_FOR_TYPE(double)
+RAILWAVE_FOR_TYPE(int)
+RAILWAVE_FOR_TYPE(long)
+RAILWAVE_FOR_TYPE(signed char)
+
+}  // namespace railwave::hdf5

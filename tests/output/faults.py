@@ -1,0 +1,142 @@
+"""What the tests of faults share: a folder with a case, runs of the program under a failing disk, without rights or memory, and the table
+of what was told, which docs/faults.md holds."""
+
+import json
+import os
+import pathlib
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import h5py
+except ImportError:
+    sys.exit(77)
+
+SOURCE = pathlib.Path(os.environ.get("RAILWAVE_SOURCE_DIR", pathlib.Path(__file__).resolve().parent.parent.parent))
+PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+CASE = """
+[materials.steel]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+[meshes.lower]
+type = "box"
+size = [0.03, 0.03, 0.02]
+divisions = [3, 3, 2]
+[meshes.upper]
+type = "box"
+size = [0.02, 0.02, 0.02]
+divisions = [2, 2, 2]
+[parts.lower]
+mesh = "lower"
+material = "steel"
+[parts.upper]
+mesh = "upper"
+material = "steel"
+position = [0.005, 0.005, 0.02001]
+[constraints.floor]
+target = "lower.z_min"
+fixed = ["x", "y", "z"]
+[contacts.between]
+slave = "upper.z_min"
+master = "lower.z_max"
+friction = 0.3
+[initial_motion.fall]
+parts = ["upper"]
+velocity = [2, 1, -12]
+[time]
+end = {end}
+[output]
+history_interval = 1e-6
+field_interval = 4e-6
+field_sets = ["upper", "lower"]
+fields = ["displacement", "velocity", "stress"]
+"""
+LONG = 1e3  # s: never comes to its end
+
+
+def faulty_disk():
+    """The library that makes the disk fail at a chosen call (tests/output/faulty_disk.c); without a C compiler these tests are skipped."""
+    compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
+    if not compiler:
+        raise unittest.SkipTest("no C compiler")
+    library = pathlib.Path(tempfile.gettempdir()) / f"railwave-faulty-disk-{os.getpid()}.so"
+    if not library.exists():
+        subprocess.run([*compiler.split(), "-O1", "-shared", "-fPIC", "-o", library, SOURCE / "tests" / "output" / "faulty_disk.c", "-ldl"], check=True)
+    return library
+
+
+def limited(kind, value):
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(kind, (value, value))
+    return limit
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name).resolve()
+        self.results, self.checkpoint = self.folder / "results.h5", self.folder / "results.checkpoint.h5"
+        self.case()
+
+    def case(self, end=6e-5, more=""):
+        (self.folder / "case.toml").write_text(CASE.format(end=end) + more)
+
+    def start(self, *arguments, before=(), faults=None, **options):
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_PROC_BIND="false", OMP_WAIT_POLICY="passive")
+        if faults:
+            environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(faulty_disk()))
+            environment.setdefault("FAULTY_FOLDER", str(self.folder))
+        return subprocess.Popen([*before, PROGRAM, *arguments], cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                text=True, **options)
+
+    def ends(self, run, code):
+        """What it said on stderr, and on stdout."""
+        try:
+            said, complaint = run.communicate(timeout=120)
+        except subprocess.TimeoutExpired:
+            run.kill()
+            self.fail("the program hangs")
+        self.assertEqual(run.returncode, code, said + complaint)
+        self.assertNotIn("HDF5-DIAG", complaint)
+        return complaint, said
+
+    def run_case(self, *options, code=0, **how):
+        return self.ends(self.start("run", "case.toml", *options, **how), code)
+
+    def everything(self):
+        return {path.name: path.read_bytes() for path in self.folder.iterdir() if path.is_file()}
+
+    def nothing_half_written(self):
+        self.assertEqual([path.name for path in self.folder.iterdir() if ".new" in path.name], [])
+
+    def arrays(self):
+        found = {}
+        with h5py.File(self.results, "r") as file:
+            file.visititems(lambda name, item: found.update({name: item[()].tobytes()}) if isinstance(item, h5py.Dataset) else None)
+        return found
+
+    def whole_run(self):
+        """The arrays of the run that nothing disturbs; leaves no files."""
+        self.run_case()
+        wanted = self.arrays()
+        for path in self.folder.glob("results*"):
+            path.unlink()
+        return wanted
+
+    def told(self, what, code, text):
+        """A row of the table: with RAILWAVE_FAULTS=FILE it is added there; see docs/faults.md."""
+        text = next(line for line in text.splitlines() if line.strip())
+        text = text.replace(str(self.folder) + "/", "").replace(str(self.folder), "FOLDER").replace("railwave: ", "", 1)
+        text = re.sub(r"\b\d+\.\d+e-\d+ s|\b[0-9]+\.[0-9]+(?= [kMG]B)", lambda found: "..." + found.group()[-2:] if found.group().endswith(" s") else "...", text)
+        if os.environ.get("RAILWAVE_FAULTS"):
+            with open(os.environ["RAILWAVE_FAULTS"], "a") as file:
+                file.write(json.dumps([what, code, text]) + "\n")

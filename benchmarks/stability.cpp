@@ -149,7 +149,8 @@ Known known_pressed(const Pressing& pressing, const Control& control, double sca
   const Setup setup = pressed(pressing, control, scale, pressure, "double");
   Model model;
   build_model(with_global_estimate(setup.scene), setup.assembly, model);
-  calm(model, 0.5 * std::fmin(model.stable_step.by_eigenvalues, model.stable_step.global), slow, 20000);
+  const double left = calm(model, 0.5 * std::fmin(model.stable_step.by_eigenvalues, model.stable_step.global), slow, 20000);
+  if (!(left < 5 * slow)) fmt::print("{}: the blocks do not come to rest, {:.3g} m/s after {} steps\n", pressing.name, left, model.step);
   renew_global_step(model);
   Known known{predicted_of(model), 0, {}};
   known.positions = node_field(model, NodeField::position, [&] {

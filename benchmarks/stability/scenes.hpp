@@ -45,19 +45,19 @@ struct Pressing {
 inline std::vector<Pressing> pressings() {
   const double h = millimetre;
   return {
-      {"matched", {4, 4, 3}, {4, 4, 3}},
-      {"finer slave", {8, 8, 3}, {4, 4, 3}, h / 2, h, h},
-      {"coarser slave", {4, 4, 3}, {8, 8, 3}, h, h / 2, h},
+      {"matched", {4, 4, 3}, {6, 6, 3}},
+      {"finer slave", {8, 8, 3}, {6, 6, 3}, h / 2, h, h},
+      {"coarser slave", {3, 3, 3}, {8, 8, 3}, h, h / 2, h},
       {"nodes between nodes", {3, 3, 3}, {5, 5, 3}, 0.9 * h, h},
-      {"flat elements", {4, 4, 3}, {4, 4, 3}, h, h, h / 4},
-      {"tall elements", {4, 4, 3}, {4, 4, 3}, h, h, 3 * h},
-      {"plate on plate", {5, 5, 1}, {5, 5, 1}},
-      {"with friction", {4, 4, 3}, {4, 4, 3}, h, h, h, 0.4},
-      {"symmetric", {4, 4, 3}, {4, 4, 3}, h, h, h, 0, true},
+      {"flat elements", {4, 4, 3}, {6, 6, 3}, h, h, h / 4},
+      {"tall elements", {4, 4, 3}, {6, 6, 3}, h, h, 3 * h},
+      {"plate on plate", {5, 5, 1}, {7, 7, 1}},
+      {"with friction", {4, 4, 3}, {6, 6, 3}, h, h, h, 0.4},
+      {"symmetric", {4, 4, 3}, {6, 6, 3}, h, h, h, 0, true},
   };
 }
 
-/// @param pressure Pa, on the upper block's far side; the lower one's is held
+/// @param pressure Pa, on the upper block's far side; the lower one's is held; the upper one reaches nowhere beyond the lower
 inline Setup pressed(const Pressing& pressing, const Control& control, double penalty_scale, double pressure,
                      const std::string& precision) {
   const auto size = [&](double edge, const std::array<int, 3>& n) { return Vec3{n[0] * edge, n[1] * edge, n[2] * pressing.height}; };
@@ -84,11 +84,14 @@ inline Setup pressed(const Pressing& pressing, const Control& control, double pe
   contact.symmetric = pressing.symmetric;
   contact.penalty_scale = penalty_scale;
   scene.contacts.push_back(contact);
-  scene::Constraint held;
-  held.name = "foot";
-  held.target = "lower.z_min";
-  held.fixed = {true, true, true};
-  scene.constraints.push_back(held);
+  const auto hold = [&](const std::string& target, const std::array<bool, 3>& fixed) {
+    scene::Constraint held;
+    held.name = held.target = target;
+    held.fixed = fixed;
+    scene.constraints.push_back(held);
+  };
+  hold("lower.z_min", {true, true, true});
+  hold("upper.z_max", {true, true, false});  // nothing else keeps it from sliding off
   scene::Load load;
   load.name = "press";
   load.type = scene::LoadType::pressure;

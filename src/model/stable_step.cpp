@@ -19,7 +19,7 @@ namespace railwave {
 namespace {
 
 /// Share of the stable step that is never passed: right on it the highest mode grows, if slowly, and estimates round.
-constexpr double below_the_limit = 0.998;
+constexpr double below_the_limit = 0.995;
 
 /// Stable step of an element of the undamped stable step dt_0 whose part is damped. With velocities half a step behind,
 /// dt^2/4 K + dt/2 C <= M; C = beta K + alpha M makes of it dt^2 + 2 b dt <= dt_0^2, b = beta + alpha dt_0^2 / 4. Bulk

@@ -17,6 +17,8 @@ namespace {
 
 /// Iterations between looks at the Ritz value.
 constexpr int iterations_between_looks = 10;
+/// Iterations before which a low Ritz value is not believed.
+constexpr int least_iterations = 30;
 
 /// Between -1 and 1, without order in the numbers: the start has a part in every mode, wherever that is.
 KOKKOS_INLINE_FUNCTION double scattered(std::uint64_t number) {
@@ -116,7 +118,7 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
                        ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});
 }
 
-double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, GlobalStep& result) {
+double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough, GlobalStep& result) {
   const int nodes = static_cast<int>(model.assembly.nodes.size());
   Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
@@ -139,7 +141,8 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
     if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {
       ritz = largest_ritz_value(diagonal, beside);
-      if (exhausted || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;
+      const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= enough;
+      if (exhausted || low_enough || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;
     }
     Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, 1 / beside.back()});
     const NodeVector spent = before_;
@@ -152,8 +155,21 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
 
 GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double guess) {
   GlobalStep result;
-  result.step = guess;
   set_springs(model, horizon, result);
+  return solve(model, guess, false, std::move(result));
+}
+
+GlobalStep GlobalEstimate::of_elements(const Model& model, double longest) {
+  SpringCollector collector(model);
+  const ContactOnNodes contact = contact_on_nodes(model);
+  for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
+    if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
+  tangent_.set_springs(collector.on_device());
+  return solve(model, longest, true, {});
+}
+
+GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_guess, GlobalStep result) {
+  result.step = guess;
   bool damped = false;
   double mass_rate = 0;  // counted as if all nodes had the largest
   for (const scene::Part& part : model.scene.parts) {
@@ -162,23 +178,26 @@ GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double
   }
   for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
   for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
+  const double enough = at_most_guess ? 4 / (guess * guess) : 0;
   if (!damped) {
-    const double eigenvalue = largest_eigenvalue(model, 0, tolerance, result);
-    if (eigenvalue > 0) result.step = 2 / std::sqrt(eigenvalue);
-  } else {
-    // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the answer
-    // and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the short side.
-    constexpr int most_passes = 8;
-    double step = guess;
-    for (int k = 0; k < most_passes; ++k) {
-      const double eigenvalue =
-          largest_eigenvalue(model, 2 / step, k == 0 ? 4 * tolerance : tolerance, result) + mass_rate * 2 / step;
-      if (!(eigenvalue > 0)) break;
-      result.step = 2 / std::sqrt(eigenvalue);
-      if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;
-      step = result.step >= step ? result.step : result.step - 0.6 * (step - result.step);
-    }
+    const double eigenvalue = largest_eigenvalue(model, 0, tolerance, enough, result);
+    if (eigenvalue > enough) result.step = 2 / std::sqrt(eigenvalue);
+    return result;
   }
+  // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the answer
+  // and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the short side.
+  constexpr int most_passes = 8;
+  double step = guess;
+  for (int k = 0; k < most_passes; ++k) {
+    const bool first = k == 0;
+    const double eigenvalue = mass_rate * 2 / step + largest_eigenvalue(model, 2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
+                                                                        first ? enough - mass_rate * 2 / step : 0, result);
+    if (!(eigenvalue > 0) || (first && eigenvalue <= enough)) break;
+    result.step = 2 / std::sqrt(eigenvalue);
+    if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;
+    step = result.step >= step ? result.step : result.step - 0.6 * (step - result.step);
+  }
+  if (at_most_guess) result.step = std::fmin(result.step, guess);
   return result;
 }
 

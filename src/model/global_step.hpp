@@ -29,12 +29,19 @@ class GlobalEstimate {
   /// @param guess s: near the answer, if anything on the short side; the answer where everything is held
   GlobalStep operator()(const Model& model, double horizon, double guess);
 
+  /// The longest step up to `longest` that is stable for the elements with everything that contact may put on them, wherever
+  /// the bodies touch; without connectors and beams. A spring k between two nodes is at most 2 k from each to the ground:
+  /// (u - w)^2 <= 2 u^2 + 2 w^2, with equality where the two move against each other.
+  GlobalStep of_elements(const Model& model, double longest);
+
   std::size_t bytes() const;
 
  private:
   void set_springs(const Model& model, double horizon, GlobalStep& result);
+  GlobalStep solve(const Model& model, double guess, bool at_most_guess, GlobalStep result);
   void apply(const Model& model, double inverse_time);
-  double largest_eigenvalue(const Model& model, double inverse_time, double accuracy, GlobalStep& result);
+  /// @param enough a Ritz value with three times its residual below this will do; 0: none
+  double largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough, GlobalStep& result);
 
   TangentOperator tangent_;
   NodeVector now_, before_, image_, displacement_;

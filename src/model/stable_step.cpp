@@ -18,6 +18,9 @@
 namespace railwave {
 namespace {
 
+/// Share of the stable step that is never passed: right on it the highest mode grows, if slowly, and estimates round.
+constexpr double below_the_limit = 0.995;
+
 /// Stable step of an element of the undamped stable step dt_0 whose part is damped. With velocities half a step behind,
 /// dt^2/4 K + dt/2 C <= M; C = beta K + alpha M makes of it dt^2 + 2 b dt <= dt_0^2, b = beta + alpha dt_0^2 / 4. Bulk
 /// viscosity acts on changes of volume alone, which have at least the bulk modulus k: it counts as beta =
@@ -150,6 +153,14 @@ std::pair<int, double> least_of(const std::vector<double>& steps) {
 /// Step of two systems together: the square of the sum's highest frequency is at most the sum of the squares.
 double together(double step, double frequency) { return 2 / std::sqrt(4 / (step * step) + frequency * frequency); }
 
+/// What heights promise is the limit of waves inside a body: free surfaces, edges and corners, bodies few elements thick, and
+/// contact on top of that go below it. Where the eigenvalues do not vouch for a step, the scene's own highest frequency is asked.
+/// A model without nodes (of which levels are told) can't be.
+double stable_together(const Model& model, double by_elements, double by_eigenvalues) {
+  if (by_eigenvalues >= by_elements || model.nodes.count == 0) return by_elements;
+  return std::fmax(by_eigenvalues, GlobalEstimate(model).of_elements(model, by_elements).step);
+}
+
 void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
   const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
@@ -169,6 +180,7 @@ void estimate_by_elements(Model& model) {
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
+  stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues);
   // Beams' elements have masses of their own like those of solids, so that the highest frequency of any is an upper bound.
   if (model.beams) {
     stable.beam = model.beams->step;
@@ -200,7 +212,8 @@ double largest_initial_speed(const scene::Scene& scene) {
 
 double largest_step(const Model& model) {
   const scene::Time& time = model.scene.time;
-  return time.step > 0 ? std::fmin(time.step, model.stable_step.limit) : time.step_scale * model.stable_step.limit;
+  const double largest = below_the_limit * model.stable_step.limit;
+  return std::fmin(largest, time.step > 0 ? time.step : time.step_scale * model.stable_step.limit);
 }
 
 void renew_global_step(Model& model) {

@@ -7,7 +7,8 @@
 
 namespace railwave {
 
-/// The longest step that the case allows now, s: `time.step`, else `time.step_scale` of the stable step.
+/// The longest step that the case allows now, s: `time.step`, else `time.step_scale` of the stable step; never quite that step
+/// itself.
 double largest_step(const Model& model);
 
 /// Each element's own stable step by the estimate that the case chose, s; not for the global one.

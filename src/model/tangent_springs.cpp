@@ -76,6 +76,15 @@ void SpringCollector::add_contact(const std::vector<ContactSpring>& springs, boo
     }
 }
 
+void SpringCollector::add_ground(int node, double stiffness, double damping) {
+  for (int i = 0; i < 3; ++i) {
+    Vec3 direction{};
+    direction[i] = 1;
+    add(node, 1, direction);
+    close(stiffness, damping);
+  }
+}
+
 void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction,
                                  double stiffness) {
   for (std::size_t k = 0; k < nodes.size(); ++k) add(nodes[k], weights[k], direction);

@@ -20,6 +20,9 @@ class SpringCollector {
   /// @param held as they settle, when bolts keep their pretension whatever their stretch
   void add_beams(bool held = true);
 
+  /// Springs and dashpots along all axes from a node to the ground.
+  void add_ground(int node, double stiffness, double damping);
+
   /// One spring between nodes: stretch = sum of weight times displacement along the direction.
   void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction, double stiffness);
 

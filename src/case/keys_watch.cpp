@@ -15,7 +15,7 @@ Section watch_section() {
       key("energy_error", &Watch::energy_error, "error of the energy balance, over the energy that the run was given").within(above(0)),
       key("fatal_energy_error", &Watch::fatal_energy_error, "the same, at which the run stops").within(above(0)),
       key("kinetic_growth", &Watch::kinetic_growth, "kinetic energy beyond what the run was given, over that").within(above(0)),
-      key("hourglass_share", &Watch::hourglass_share, "hourglass energy of a part over its energy of deformation, each the largest so far").within(above(0)),
+      key("hourglass_share", &Watch::hourglass_share, "hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation").within(above(0)),
       key("hourglass_distortion", &Watch::hourglass_distortion, "how far an hourglass mode moves an element's corners, over its size")
           .within(above(0)),
       key("penetration", &Watch::penetration, "of a contact node, over the size of the face under it").within(above(0)),

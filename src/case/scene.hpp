@@ -290,7 +290,7 @@ struct Watch {
   double energy_error = 0.05;        ///< of the balance, over the energy that the run was given
   double fatal_energy_error = 0.5;   ///< the same; the run stops
   double kinetic_growth = 0.1;       ///< kinetic energy beyond what the run was given, over that
-  double hourglass_share = 0.1;      ///< hourglass energy of a part over its energy of deformation, each the largest so far
+  double hourglass_share = 0.1;      ///< hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation
   double hourglass_distortion = 0.3; ///< hourglass displacement of an element over its size
   double penetration = 0.1;          ///< of a contact node over the size of the face under it
   double volume_ratio = 0.3;         ///< smallest Jacobian of an element over its undeformed one; the run stops at 0

@@ -11,7 +11,7 @@ const char* name_of(FaultKind kind) {
     case FaultKind::energy: return "energy balance: its error over the energy that the run was given";
     case FaultKind::speed: return "speed of a node, m/s";
     case FaultKind::kinetic: return "kinetic energy without work: what is beyond the energy that the run was given, over that";
-    case FaultKind::hourglass_share: return "hourglass energy of a part over its energy of deformation";
+    case FaultKind::hourglass_share: return "hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation";
     case FaultKind::hourglass_distortion: return "hourglass mode of an element over its size";
     case FaultKind::penetration: return "contact penetration over the size of the face under it";
     case FaultKind::chatter: return "contact chatter: times that a node was seen to open and to close";

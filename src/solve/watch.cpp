@@ -20,6 +20,8 @@ static_assert(fewest_between_looks % (1L << (most_levels - 1)) == 0);
 constexpr double flattest_corner = 0.03;
 /// Of the whole model's deformation: parts that have less are measured by that.
 constexpr double least_share = 0.1;
+/// In which a contact patch is passed, or a high mode fades, s.
+constexpr double short_while = 1e-3;
 
 double magnitude(const EnergyAccount& energy) {
   return std::fabs(energy.kinetic) + std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.connector) +
@@ -32,7 +34,7 @@ Watch::Watch(const Model& model) : model_(model) {
   if (!model.scene.watch.active) return;
   arrays_ = std::make_unique<WatchArrays>(model);
   evidence_.worst_shape = arrays_->worst_shape();
-  most_of_part_.resize(model.assembly.parts.size());
+  parts_.resize(model.assembly.parts.size());
 }
 
 bool Watch::due(long step) const {
@@ -78,7 +80,7 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   }
   if (whole) look_at_model(sample);
   look_at_energies(sample);
-  if (whole && by_part_.size() == most_of_part_.size()) look_at_parts(sample);
+  if (whole && by_part_.size() == parts_.size()) look_at_parts(sample);
   return new_;
 }
 
@@ -126,21 +128,29 @@ void Watch::look_at_energies(const HistorySample& sample) {
 void Watch::look_at_parts(const HistorySample& sample) {
   double all = 0;
   for (std::size_t p = 0; p < by_part_.size(); ++p) {
-    most_of_part_[p].internal = std::max(most_of_part_[p].internal, by_part_[p].internal);
-    most_of_part_[p].hourglass = std::max(most_of_part_[p].hourglass, by_part_[p].hourglass);
-    all += most_of_part_[p].internal;
+    WatchedPart& part = parts_[p];
+    part.deformation = std::max(part.deformation, by_part_[p].internal);
+    // What viscous control dissipates adds up in any run: what tells is how fast.
+    const double gain = std::max(0.0, by_part_[p].hourglass - part.hourglass_before);
+    part.dissipated_lately = part.dissipated_lately * std::exp((part.time_before - sample.time) / short_while) + gain;
+    part.stored = std::max(part.stored, by_part_[p].hourglass);
+    part.hourglass_before = by_part_[p].hourglass;
+    part.time_before = sample.time;
+    all += part.deformation;
   }
   // The first waves under a load are no picture of the run.
   if (sample.step == 0 || !regular(sample.step)) return;
   for (std::size_t p = 0; p < by_part_.size(); ++p) {
     // Parts that hardly deform have little to be spoilt.
-    const double elastic = std::max(most_of_part_[p].internal, least_share * all), hourglass = most_of_part_[p].hourglass;
-    if (!(elastic > 0)) continue;
+    const double deformation = std::max(parts_[p].deformation, least_share * all);
+    if (!(deformation > 0)) continue;
+    const bool viscous = model_.scene.parts[p].hourglass == scene::HourglassType::viscous;
     Extreme where;
     const auto& range = model_.assembly.parts[p];
     const int seen = evidence_.last.distortion.place;
     where.place = seen >= range.first_element && seen < range.first_element + range.element_count ? seen : range.first_element;
-    judge(FaultKind::hourglass_share, hourglass / elastic, {model_.scene.watch.hourglass_share}, sample, where, true);
+    judge(FaultKind::hourglass_share, (viscous ? parts_[p].dissipated_lately : parts_[p].stored) / deformation, {model_.scene.watch.hourglass_share}, sample,
+          where, true);
   }
 }
 

@@ -48,6 +48,13 @@ class Watch {
     double value = 0, limit = 0, time = 0;  ///< s
     bool seen = false;
   };
+  /// Energies of a part, J.
+  struct WatchedPart {
+    double deformation = 0;        ///< elastic and plastic, the most so far
+    double stored = 0;             ///< by hourglass control, the most so far
+    double dissipated_lately = 0;  ///< by it, within about a millisecond
+    double hourglass_before = 0, time_before = 0;  ///< at the last look; s
+  };
   struct Limits {
     double warning, fatal = std::numeric_limits<double>::infinity();
   };
@@ -73,7 +80,8 @@ class Watch {
   double given_at_start_ = 0, given_ = 0;  ///< J
   double error_before_ = 0;                ///< of the balance, at the last of the regular looks
   std::array<Worst, fault_kinds> worst_;   ///< by kind
-  std::vector<PartEnergy> by_part_, most_of_part_;
+  std::vector<PartEnergy> by_part_;
+  std::vector<WatchedPart> parts_;
   std::vector<Fault> found_;
   std::vector<Fault> new_;  ///< of the present look
 };

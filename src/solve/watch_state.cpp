@@ -65,7 +65,7 @@ void Watch::archive_all(Archive& archive) {
   archive.value("watch_given", given_);
   archive.value("watch_error_before", error_before_);
   archive.value("watch_worst", worst_);
-  archive.values("watch_most_of_part", most_of_part_);
+  archive.values("watch_parts", parts_);
   archive_measures(archive, "watch_first_", evidence_.first);
   archive_measures(archive, "watch_last_", evidence_.last);
   archive.values("watch_deepest", evidence_.deepest);

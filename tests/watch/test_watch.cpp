@@ -118,8 +118,6 @@ std::string said_of(scene::Scene scene, double end) {
 }  // namespace
 
 TEST_CASE("sound scenes bring no warning") {
-  // Undamped and loaded at once they would ring, and hourglass control would take a quarter of that.
-  CHECK(said_of(pressed_block(), 2e-3).find("hourglass energy of a part over its energy of deformation") == 0);
   CHECK(said_of(ramped(pressed_block(), 2e-4), 2e-3) == "");
   CHECK(said_of(ramped(sprung_mass(1e8, 100), 2e-4), 2e-3) == "");
   CHECK(said_of(ramped(bent_beam(), 2e-3), 2e-2) == "");

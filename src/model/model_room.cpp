@@ -7,28 +7,32 @@
 #include "case/error.hpp"
 #include "case/memory.hpp"
 
-#ifdef KOKKOS_ENABLE_CUDA
-#include <cuda_runtime.h>
-#endif
-
 namespace railwave {
 namespace {
 
+using Space = Kokkos::DefaultExecutionSpace::memory_space;
+constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, Space>::accessible;
 constexpr const char* mend = "make the elements larger, or the bodies smaller";
+
+/// A device does not tell Kokkos how much it has left, but gives what it has at once, and refuses the rest.
+bool device_gives(double bytes) {
+  try {
+    Kokkos::kokkos_free<Space>(Kokkos::kokkos_malloc<Space>("room for a model", static_cast<std::size_t>(bytes)));
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 }  // namespace
 
 void expect_model_room(const Assembly& assembly) {
   const double elements = static_cast<double>(assembly.elements.size());
   const double need = bytes_of_model_element * elements;
-#ifdef KOKKOS_ENABLE_CUDA
-  std::size_t left = 0, all = 0;
-  if (cudaMemGetInfo(&left, &all) == cudaSuccess && need > static_cast<double>(left))
-    throw InputError(fmt::format("the model's {} elements need about {} of the GPU's memory, which has {} of its {} left; {}, or see what else runs there", elements,
-                                 bytes_text(need), bytes_text(static_cast<double>(left)), bytes_text(static_cast<double>(all)), mend));
-#else
-  expect_memory(need, fmt::format("the model's {} elements need", elements), mend);
-#endif
+  if (on_host) expect_memory(need, fmt::format("the model's {} elements need", elements), mend);
+  else if (!device_gives(need))
+    throw InputError(fmt::format("the model's {} elements need about {} of the GPU's memory, which it has not left; {}, or see what else runs there", elements,
+                                 bytes_text(need), mend));
 }
 
 }  // namespace railwave

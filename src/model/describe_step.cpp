@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "model/beams.hpp"
 #include "model/stable_step.hpp"
 
@@ -21,6 +23,15 @@ std::string line(const char* by, double all, double elements, const std::string&
   return text;
 }
 
+/// Whether the estimate by heights is below what its parts allow: the assembled scene was asked.
+bool shortened(const StableStep& stable) {
+  double parts = stable.elements;
+  for (double part : {stable.contact, stable.beam})
+    if (part > 0) parts = std::fmin(parts, part);
+  if (stable.connector > 0) parts = 2 / std::sqrt(4 / (parts * parts) + 4 / (stable.connector * stable.connector));
+  return stable.by_elements < 0.9999 * parts;
+}
+
 }  // namespace
 
 std::vector<std::string> describe_stable_step(const Model& model) {
@@ -31,6 +42,7 @@ std::vector<std::string> describe_stable_step(const Model& model) {
            stable.contact),
       line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue, near(model, stable.eigenvalue_element),
            stable, stable.eigenvalue_contact)};
+  if (shortened(stable)) lines[0] += "; shortened to what they allow together at free surfaces and in contact";
   if (choice == scene::StepEstimate::global)
     lines.push_back(fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
                                 stable.global,

@@ -49,7 +49,10 @@ def groups(scenes):
 
 
 def picture(scenes, path):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(15, 7), gridspec_kw={"width_ratios": [1.5, 1, 1]})
+    pressed = any(scene.kind == "contact" for scene in scenes)
+    panels = 3 if pressed else 2
+    figure, axes = plt.subplots(1, panels, figsize=(5 * panels, 7), gridspec_kw={"width_ratios": [1.5, 1, 1][:panels]})
+    left, middle = axes[:2]
     named = groups(scenes)
     for place, ((kind, mesh), members) in enumerate(named.items()):
         for offset, (estimate, colour) in zip((-0.22, 0, 0.22), ESTIMATES.items()):
@@ -69,8 +72,7 @@ def picture(scenes, path):
             if not chosen:
                 continue
             x = [getattr(s, across) for s in chosen]
-            line, = axis.plot(x, [s.calm / s.element for s in chosen], style, markersize=4, label=label)
-            axis.plot(x, [DEFAULT_SCALE] * len(x), color="0.5", linewidth=0.5)
+            axis.plot(x, [s.calm / s.element for s in chosen], style, markersize=4, label=label)
         axis.axhline(DEFAULT_SCALE, color="0.3", linewidth=1, linestyle="--")
         axis.text(0.98, DEFAULT_SCALE, "default step_scale", transform=axis.get_yaxis_transform(), ha="right", va="top", fontsize=8)
         axis.set(xscale="log", ylabel="observed critical step over the element estimate")
@@ -79,13 +81,14 @@ def picture(scenes, path):
 
     double = [s for s in scenes if s.precision == "double"]
     bodies = {f"{mesh}, {kind}": [s for s in double if s.kind == "body" and s.mesh == mesh and s.hourglass == kind]
-              for mesh in ("cubes", "warped", "near-degenerate", "plate", "skewed to 20 degrees") for kind in ("viscous", "stiffness")}
+              for mesh in ("cubes", "warped", "warped plate", "plate", "skewed to 20 degrees") for kind in ("viscous", "stiffness")}
     curves(middle, bodies, "coefficient", [f"{c}{l}" for c in ("C0o", "C1o", "C2o", "C3o", "C4o") for l in ("-", "--")])
     middle.set(xlabel="hourglass coefficient", title="hourglass control")
-    contacts = {f"{mesh}, {kind}": [s for s in double if s.kind == "contact" and s.mesh == mesh and s.hourglass == kind]
-                for mesh in ("matched", "flat elements", "nodes between nodes", "plate on plate") for kind in ("viscous", "stiffness")}
-    curves(right, contacts, "penalty_scale", [f"{c}{l}" for c in ("C0o", "C1o", "C2o", "C3o") for l in ("-", "--")])
-    right.set(xlabel="penalty scale", title="contact springs")
+    if pressed:
+        contacts = {f"{mesh}, {kind}": [s for s in double if s.kind == "contact" and s.mesh == mesh and s.hourglass == kind]
+                    for mesh in ("matched", "flat elements", "nodes between nodes", "plate on plate") for kind in ("viscous", "stiffness")}
+        curves(axes[2], contacts, "penalty_scale", [f"{c}{l}" for c in ("C0o", "C1o", "C2o", "C3o") for l in ("-", "--")])
+        axes[2].set(xlabel="penalty scale", title="contact springs")
     figure.tight_layout()
     figure.savefig(path, dpi=110)
     plt.close(figure)

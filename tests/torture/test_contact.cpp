@@ -40,7 +40,7 @@ Assembly place(const Torment& torment, scene::Scene& scene) {
   Assembly assembly = assemble(scene);
   std::vector<Face> skin;
   for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
-    for (const Face& face : assembly.surfaces.at(std::string("upper.") + side)) skin.push_back(face);
+    for (const Face& facet : assembly.surfaces.at(std::string("upper.") + side)) skin.push_back(facet);
   assembly.surfaces["upper.z_min"] = skin;
   const Assembly::PartRange& upper = assembly.parts[0];
   double lowest = 1e300;

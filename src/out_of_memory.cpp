@@ -65,7 +65,8 @@ std::string there_is() {
 bool is_out_of_memory(const std::exception& error) {
   const auto* refused_by_system = dynamic_cast<const std::system_error*>(&error);  // a thread's stack
   if (refused_by_system && refused_by_system->code() == std::errc::resource_unavailable_try_again) return true;
-  return dynamic_cast<const std::bad_alloc*>(&error) || std::strncmp(error.what(), of_kokkos, std::strlen(of_kokkos)) == 0;
+  return dynamic_cast<const std::bad_alloc*>(&error) || std::strncmp(error.what(), of_kokkos, std::strlen(of_kokkos)) == 0 ||
+         std::strstr(error.what(), "memory allocation failed");  // HDF5
 }
 
 std::string out_of_memory(const std::exception& error) try {

@@ -41,9 +41,9 @@ class Memory(Folder):
     def test_at_any_moment(self):
         """The smallest memory in which the program starts, and more, until the run comes to its end: it never aborts."""
         ended, refused = False, 0
-        for megabytes in list(range(60, 200, 7)) + [400, 800, 1600, 3200]:
+        for megabytes in list(range(34, 80, 3)) + [200, 400, 800, 1600, 3200]:
             run = self.start("run", "case.toml", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
-            said, complaint = run.communicate(timeout=120)
+            said, complaint = run.communicate(timeout=60)
             if run.returncode == 127 or "error while loading shared libraries" in complaint:
                 continue  # the system's loader had too little
             self.assertGreaterEqual(run.returncode, 0, f"{megabytes} MB: {complaint}")

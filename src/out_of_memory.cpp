@@ -9,6 +9,7 @@
 #include <cstring>
 #include <new>
 #include <regex>
+#include <system_error>
 
 namespace {
 
@@ -62,15 +63,20 @@ std::string there_is() {
 }  // namespace
 
 bool is_out_of_memory(const std::exception& error) {
-  return dynamic_cast<const std::bad_alloc*>(&error) || std::strncmp(error.what(), of_kokkos, std::strlen(of_kokkos)) == 0;
+  const auto* refused_by_system = dynamic_cast<const std::system_error*>(&error);  // a thread's stack
+  if (refused_by_system && refused_by_system->code() == std::errc::resource_unavailable_try_again) return true;
+  return dynamic_cast<const std::bad_alloc*>(&error) || std::strncmp(error.what(), of_kokkos, std::strlen(of_kokkos)) == 0 ||
+         std::strstr(error.what(), "memory allocation failed");  // HDF5
 }
 
-std::string out_of_memory(const std::exception& error) {
+std::string out_of_memory(const std::exception& error) try {
   const std::string said = error.what();
   const std::string wanted = said.rfind(of_kokkos, 0) == 0 ? wanted_of_kokkos(said) : refused > 0 ? amount(static_cast<double>(refused)) + " more" : "more memory";
   return fmt::format("out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or \"float\", or a machine with "
                      "more; railwave check on a coarser mesh tells the bytes an element",
                      wanted, there_is());
+} catch (const std::bad_alloc&) {
+  return "out of memory";  // short enough to need none
 }
 
 }  // namespace railwave

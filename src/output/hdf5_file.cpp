@@ -1,6 +1,8 @@
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -12,9 +14,12 @@
 namespace railwave::hdf5 {
 namespace {
 
+using Words = std::array<char, 512>;
+
+/// Throws nothing, though memory may be what is short: HDF5, which calls this, is C, and would keep its lock for ever.
 herr_t keep_first_description(unsigned, const H5E_error2_t* entry, void* text) {
-  auto& reason = *static_cast<std::string*>(text);
-  if (reason.empty() && entry->desc) reason = entry->desc;
+  auto& words = *static_cast<Words*>(text);
+  if (words[0] == 0 && entry->desc) std::strncpy(words.data(), entry->desc, words.size() - 1);
   return 0;
 }
 
@@ -46,10 +51,10 @@ Handle access_by_journal(const std::string& what) {
 }  // namespace
 
 std::string reason() {
-  std::string text;
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first_description, &text);
+  Words words{};
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first_description, &words);
   H5Eclear2(H5E_DEFAULT);
-  return text.empty() ? "HDF5 gives no reason" : text;
+  return words[0] == 0 ? "HDF5 gives no reason" : words.data();
 }
 
 void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }

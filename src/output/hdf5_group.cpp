@@ -25,7 +25,11 @@ bool Group::has(const std::string& name) const { return check(H5Lexists(id_.get(
 std::vector<std::string> Group::names() const {
   std::vector<std::string> result;
   const H5L_iterate_t visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
-    static_cast<std::vector<std::string>*>(list)->push_back(name);
+    try {
+      static_cast<std::vector<std::string>*>(list)->push_back(name);
+    } catch (const std::exception&) {
+      return -1;  // HDF5 is C: nothing may be thrown through it
+    }
     return 0;
   };
   check(H5Literate(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &result), "listing " + name_);

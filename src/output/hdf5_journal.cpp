@@ -105,9 +105,12 @@ JournalledFile& own(H5FD_t* file) { return *reinterpret_cast<JournalledFile*>(fi
 const JournalledFile& own(const H5FD_t* file) { return *reinterpret_cast<const JournalledFile*>(file); }
 
 herr_t complain(const JournalledFile& file, const char* doing) {
-  const std::string reason = disk::reason(), mend = disk::mend();
-  H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_WRITEERROR, "%s %s: %s%s%s", doing, file.path.c_str(), reason.c_str(),
-           mend.empty() ? "" : "; ", mend.c_str());
+  try {
+    const std::string reason = disk::reason(), mend = disk::mend();
+    H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_WRITEERROR, "%s %s: %s%s%s", doing, file.path.c_str(), reason.c_str(),
+             mend.empty() ? "" : "; ", mend.c_str());
+  } catch (const std::exception&) {  // not even memory for the words
+  }
   return -1;
 }
 
@@ -163,7 +166,18 @@ bool locks() {
   return !said || (std::strcmp(said, "FALSE") != 0 && std::strcmp(said, "0") != 0);
 }
 
-H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
+/// HDF5 is C: an exception that went through it would leave its lock taken for ever.
+template <class Do>
+herr_t without_exceptions(JournalledFile& file, const Do& one) {
+  try {
+    return one();
+  } catch (const std::exception&) {
+    errno = ENOMEM;
+    return give_up(file, "writing");
+  }
+}
+
+H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) try {
   int how = (flags & H5F_ACC_RDWR) ? O_RDWR : O_RDONLY;
   if (flags & H5F_ACC_CREAT) how |= O_CREAT;
   if (flags & H5F_ACC_EXCL) how |= O_EXCL;
@@ -190,11 +204,13 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
   file->flushed_end = static_cast<haddr_t>(std::max<off_t>(disk::length_of(file->descriptor), 0));
   guard.release();
   return &file.release()->base;
+} catch (const std::exception&) {
+  return nullptr;
 }
 
 herr_t close_file(H5FD_t* base) {
   const std::unique_ptr<JournalledFile> file(&own(base));
-  const herr_t flushed = flush(*file);
+  const herr_t flushed = without_exceptions(*file, [&] { return flush(*file); });
   // What came after the last flush that went well is pointed to by nothing. A journal that is not yet in place is left.
   if (file->failed) {
     Footer footer{};
@@ -246,13 +262,12 @@ herr_t write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t place, size_t size, c
   JournalledFile& file = own(base);
   if (file.failed) return 0;
   if (type == H5FD_MEM_DRAW) return disk::write_at(file.descriptor, buffer, size, static_cast<off_t>(place)) ? 0 : give_up(file, "writing");
-  add_piece(file.waiting, {place, size}, buffer);
-  return 0;
+  return without_exceptions(file, [&] { return add_piece(file.waiting, {place, size}, buffer), 0; });
 }
 
 herr_t flush_file(H5FD_t* base, hid_t, hbool_t closing) {
   JournalledFile& file = own(base);
-  if (!file.failed || closing) return flush(file);
+  if (!file.failed || closing) return without_exceptions(file, [&] { return flush(file); });
   errno = file.failed;
   return complain(file, "writing");
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 
@@ -122,6 +123,8 @@ template <class Do>
 void ResultsFile::writing(const Do& one) {
   try {
     one();
+  } catch (const std::bad_alloc&) {
+    throw;  // is no fault of the disk's
   } catch (const std::exception& error) {
     std::error_code ignored;
     const bool can_go_on = checkpoint_ && std::filesystem::exists(checkpoint_->path(), ignored);

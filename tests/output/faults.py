@@ -95,8 +95,11 @@ class Folder(unittest.TestCase):
         if faults:
             environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(faulty_disk()))
             environment.setdefault("FAULTY_FOLDER", str(self.folder))
-        return subprocess.Popen([*before, PROGRAM, *arguments], cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                text=True, **options)
+        run = subprocess.Popen([*before, PROGRAM, *arguments], cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, **options)
+        self.addCleanup(run.communicate)
+        self.addCleanup(run.kill)
+        return run
 
     def ends(self, run, code):
         """What it said on stderr, and on stdout."""

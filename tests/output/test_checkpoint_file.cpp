@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "output/checkpoint_file.hpp"
+#include "output/hdf5.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -121,4 +123,42 @@ TEST_CASE("what a kill leaves of the next state harms nothing") {
   CHECK(file.find("run").state->step == 8);
   file.remove();
   CHECK(std::filesystem::is_empty(folder.path));
+}
+
+TEST_CASE("no damage is taken for a state") {
+  const Folder folder;
+  const CheckpointFile file(folder.file(), "key");
+  file.write(state_at(6), "run");
+  std::ifstream in(folder.file(), std::ios::binary);
+  const std::string sound{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  const auto refused = [&](const std::string& bytes) {
+    std::ofstream(folder.file(), std::ios::binary | std::ios::trunc) << bytes;
+    const CheckpointFile::Found found = file.find("run");
+    return !found.state && found.troubles.size() == 1;
+  };
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::string bytes = sound;
+    const std::size_t place = random() % bytes.size();
+    bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
+    INFO("bit at " << place);
+    CHECK(refused(bytes));
+  }
+  std::vector<std::size_t> lengths{0, 1, 7, 8, 23, 24, 25, 96, sound.size() - 1, sound.size() - 8, sound.size() - 24, sound.size() - 25};
+  for (std::size_t length = 2; length < sound.size(); length = length * 3 / 2 + 1) lengths.push_back(length);
+  for (const std::size_t length : lengths) {
+    INFO("cut to " << length);
+    CHECK(refused(sound.substr(0, length)));
+    CHECK(refused(sound.substr(0, length) + std::string(sound.size() - length, '\0')));  // a disk that had no time
+  }
+  CHECK(refused(sound + "x"));
+  CHECK(refused("a text of somebody else's"));
+  {
+    hdf5::File other = hdf5::File::create(folder.file());
+    other.root().set_attribute("title", "another program's");
+    other.close();
+  }
+  CHECK(file.find("run").troubles.size() == 1);
+  CHECK_FALSE(refused(sound));
 }

@@ -142,13 +142,13 @@ directions = ["x"]
 KINDS = {
     "penalty": dict(of_contact="damping = 0.1\nfriction_decay = 0.5\ndynamic_friction = 0.1", of_upper="stiffness_damping = 2e-8\nmass_damping = 20"),
     "multiplier": dict(of_contact='algorithm = "multiplier"'),
-    "much_else": dict(more=BEAMS + ENDS + PUSHED),
+    "much_else": dict(more=BEAMS + ENDS + PUSHED, end=6e-4),
     "symmetric_and_settled": dict(of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'),
     "subcycling": dict(more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS, of_upper="stiffness_damping = 2e-9", end=4e-4,
                        instead={"divisions = [5, 5, 4]": "divisions = [14, 14, 4]", "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
                                 "divisions = [6, 5, 3]": "divisions = [6, 5, 8]", "0.03001]": "0.08001]"}),
-    "mixed": dict(more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8"),
-    "float": dict(more='[solver]\nprecision = "float"\n' + BEAMS, of_upper="linear_bulk_viscosity = 0.1"),
+    "mixed": dict(more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8", end=6e-4),
+    "float": dict(more='[solver]\nprecision = "float"\n' + BEAMS, of_upper="linear_bulk_viscosity = 0.1", end=6e-4),
     "float_multiplier": dict(more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'),
     "watched": dict(more="[watch]\nspeed = 1\npenetration = 1e-4\nchatter = 1\nhourglass_share = 1e-3\nhourglass_distortion = 1e-5\n"
                          "volume_ratio = 0.999\nenergy_error = 1e-4\nkinetic_growth = 1e-6\n"),

@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is told, with the exit code, and nothing that was there is lost."""
+
+import pathlib
+import resource
+import signal
+import sys
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from faults import LONG, Folder, limited  # noqa: E402
+
+
+class Memory(Folder):
+    def test_too_large(self):
+        """Whatever it is that finds no memory: a message, no abort, and older results stay."""
+        self.results.write_bytes(b"older results")
+        before = self.everything()
+        text = (self.folder / "case.toml").read_text()
+        for size in (60, 120, 200):
+            (self.folder / "large.toml").write_text(text.replace("divisions = [3, 3, 2]", f"divisions = [{size}, {size}, {size}]"))
+            for megabytes in (200, 300, 450):
+                with self.subTest(size=size, megabytes=megabytes):
+                    run = self.start("run", "large.toml", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
+                    try:
+                        said, complaint = run.communicate(timeout=60)
+                    except Exception:
+                        run.kill()
+                        raise
+                    if "out of memory" not in complaint:
+                        continue
+                    self.assertEqual(run.returncode, 1, complaint)
+                    self.assertRegex(complaint, r"^railwave: out of memory: \S+ \S+ .*could not be had; this machine has .*, this process may take .*; take a coarser mesh")
+                    self.told("out of memory", 1, complaint)
+                    self.seen = True
+                    (self.folder / "large.toml").unlink(missing_ok=True)
+                    self.assertEqual(self.everything(), before)
+                    return
+        self.fail("memory was never short")
+
+    def test_at_any_moment(self):
+        """The smallest memory in which the program starts, and more, until the run comes to its end: it neither hangs nor aborts. Refused some
+        of its small pieces, the HDF5 of Debian 12 itself may crash (seen at 55 MB in all); that leaves what a kill leaves."""
+        ended, refused = False, 0
+        for megabytes in list(range(34, 80, 3)) + [200, 400, 800, 1600, 3200]:
+            run = self.start("run", "case.toml", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
+            said, complaint = run.communicate(timeout=60)
+            if run.returncode == 127 or "error while loading shared libraries" in complaint:
+                continue  # the system's loader had too little
+            self.assertIn(run.returncode, (0, 1, -signal.SIGSEGV), f"{megabytes} MB: {complaint}")
+            refused += run.returncode == 1
+            if run.returncode == 1:
+                self.assertTrue(complaint.startswith(("railwave: ", "libgomp: ")), complaint)
+            ended = run.returncode == 0
+            if ended:
+                break
+        self.assertTrue(ended)
+
+
+class DamagedCheckpoint(Folder):
+    def test_each_kind(self):
+        """No checkpoint of use: refused, and nothing is touched. test_checkpoint_file.cpp has thousands of damages."""
+        self.run_case("--keep-state")
+        sound = self.checkpoint.read_bytes()
+        middle = len(sound) // 2
+        kinds = {
+            "a flipped bit": (sound[:middle] + bytes([sound[middle] ^ 8]) + sound[middle + 1:], "its checksum is not that of what it holds"),
+            "cut off": (sound[:middle], "it is not whole"),
+            "empty": (b"", "it is not whole"),
+            "zeros": (bytes(len(sound)), "it is not whole"),
+            "another program's file": (b"\x7fELF" + bytes(5000), "it is not whole, or no file of this version"),
+        }
+        for kind, (content, why) in kinds.items():
+            with self.subTest(kind=kind):
+                self.checkpoint.write_bytes(content)
+                before = self.everything()
+                complaint, _ = self.run_case("--restart", "--set", "time.end=1e-4", code=2)
+                self.assertIn(why, complaint)
+                self.assertEqual(self.everything(), before)
+                self.told("checkpoint damaged, no previous one: " + kind, 2, complaint)
+        self.checkpoint.write_bytes(sound)
+        self.run_case("--restart", "--set", "time.end=1e-4")
+
+    def test_results_damaged(self):
+        self.run_case("--keep-state")
+        self.results.write_bytes(self.results.read_bytes()[:1000])
+        before = self.everything()
+        complaint, _ = self.run_case("--restart", "--set", "time.end=1e-4", code=2)
+        self.assertIn("the results results.h5 cannot be added to", complaint)
+        self.assertEqual(self.everything(), before)
+        self.told("results damaged: --restart", 2, complaint)
+
+
+class Clock(Folder):
+    def test_jumps(self):
+        """The clock on the wall jumps a year at every other look: intervals, wall time and results are as without."""
+        wanted = self.whole_run()
+        for jump in (31536000, -31536000):
+            self.run_case("--wall-time", "100", "--set", "checkpoint.interval=50", faults=dict(clock=jump))
+            self.assertEqual(self.arrays(), wanted)
+        self.case(end=LONG)
+        complaint, said = self.run_case("--wall-time", "1", code=4, faults=dict(clock=31536000))
+        self.assertIn("the wall time is spent", said)
+        self.told("clock jumps by a year", 0, "nothing: intervals and wall time are measured by a clock that does not jump")
+
+
+class Kill(Folder):
+    def test_interrupted_while_settling(self):
+        self.case(more='[settle]\nmethod = "relaxation"\ntolerance = 1e-14\nmax_steps = 100000000\n')
+        text = (self.folder / "case.toml").read_text().replace("0.02001]", "0.02]")
+        (self.folder / "case.toml").write_text(text + "[gravity]\nacceleration = [0, 0, -9.81]\n")
+        run = self.start("run", "case.toml")
+        import time
+        time.sleep(3)
+        run.send_signal(signal.SIGTERM)
+        complaint, said = self.ends(run, 130)
+        self.assertIn("interrupted while the scene settled; how far it came is kept", said)
+        self.assertEqual(len(list(self.folder.glob("settled-*.h5"))), 1)
+        self.nothing_half_written()
+        complaint, _ = self.run_case("--restart", code=2)
+        self.assertIn("run the case without --restart", complaint)
+        self.told("--restart of a run that was interrupted while it settled", 2, complaint)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -11,6 +11,8 @@
 #include <regex>
 #include <system_error>
 
+#include "case/memory.hpp"
+
 namespace {
 
 /// What the latest refused `new` wanted; written where nothing can be allocated any more.
@@ -34,13 +36,6 @@ namespace {
 
 constexpr const char* of_kokkos = "Kokkos failed to allocate memory";
 
-std::string amount(double bytes) {
-  const char* units[] = {"bytes", "kB", "MB", "GB", "TB"};
-  int unit = 0;
-  for (; bytes >= 1000 && unit < 4; ++unit) bytes /= 1000;
-  return fmt::format("{:.3g} {}", bytes, units[unit]);
-}
-
 /// Kokkos says it as "... for label "NAME". ... Allocation of size 3.725 G failed ...".
 std::string wanted_of_kokkos(const std::string& said) {
   std::smatch label, size, space;
@@ -54,9 +49,9 @@ std::string wanted_of_kokkos(const std::string& said) {
 std::string there_is() {
   rlimit limit{};
   const double all = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  std::string text = fmt::format("this machine has {}", amount(all));
+  std::string text = fmt::format("this machine has {}", bytes_text(all));
   if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    text += fmt::format(", this process may take {} (ulimit -v)", amount(static_cast<double>(limit.rlim_cur)));
+    text += fmt::format(", this process may take {} (ulimit -v)", bytes_text(static_cast<double>(limit.rlim_cur)));
   return text;
 }
 
@@ -71,7 +66,7 @@ bool is_out_of_memory(const std::exception& error) {
 
 std::string out_of_memory(const std::exception& error) try {
   const std::string said = error.what();
-  const std::string wanted = said.rfind(of_kokkos, 0) == 0 ? wanted_of_kokkos(said) : refused > 0 ? amount(static_cast<double>(refused)) + " more" : "more memory";
+  const std::string wanted = said.rfind(of_kokkos, 0) == 0 ? wanted_of_kokkos(said) : refused > 0 ? bytes_text(static_cast<double>(refused)) + " more" : "more memory";
   return fmt::format("out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or \"float\", or a machine with "
                      "more; railwave check on a coarser mesh tells the bytes an element",
                      wanted, there_is());

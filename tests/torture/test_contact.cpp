@@ -14,7 +14,7 @@ struct Torment {
   double gap = 0;        ///< m, then, between its lowest node and the plane z = 0; negative: pressed in
   double load = 0;       ///< N, along -z, for good
   bool balances = true;  ///< the contact force comes to the load
-  std::string warning;   ///< the cause that the first warning names; empty: none
+  std::string warning{};  ///< the cause that the first warning names; empty: none
 };
 
 constexpr double edge = 0.02, face = 0.005;

@@ -64,11 +64,13 @@ void AbaqusLines::open(const std::string& path, const FilePlace* from) {
   const auto here = from ? where(*from) + " " : std::string();
   std::error_code error;
   const auto real_path = std::filesystem::weakly_canonical(path, error).string();
-  for (const auto& source : sources_)
-    if (source->real_path == real_path)
+  int depth = 0;
+  // By who named whom: a file that includes another in its last line has been read to its end by now.
+  for (int file = from ? from->file : -1; file >= 0; file = opened_[file].from, ++depth)
+    if (opened_[file].real_path == real_path)
       throw InputError(
           fmt::format("{}includes {}, which is being read already; a file can't include itself", here, path));
-  if (sources_.size() > deepest_include)
+  if (depth > deepest_include)
     throw InputError(fmt::format("{}includes {}: more than {} files inside one another; put them into fewer", here,
                                  path, deepest_include));
   if (++includes_ > most_includes)
@@ -80,7 +82,7 @@ void AbaqusLines::open(const std::string& path, const FilePlace* from) {
   } catch (const InputError& problem) {
     throw InputError(here + (from ? "includes " : "") + problem.what());
   }
-  source->real_path = real_path;
+  opened_.push_back({real_path, from ? from->file : -1});
   source->file = static_cast<int>(files_.size());
   if (source->text.compare(0, 3, "\xef\xbb\xbf") == 0) source->offset = 3;  // byte order mark of UTF-8
   files_.push_back(path);

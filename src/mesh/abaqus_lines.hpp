@@ -51,7 +51,6 @@ class AbaqusLines {
  private:
   struct Source {
     std::string text;
-    std::string real_path;  // to notice a file that includes itself
     int file;
     std::size_t offset = 0;
     std::int64_t line = 0;
@@ -64,7 +63,13 @@ class AbaqusLines {
   AbaqusKeyword read_keyword();
   void check_text(std::string_view line) const;
 
+  struct Opened {
+    std::string real_path;  // to notice a file that includes itself
+    int from;               // the file that named it; -1: none
+  };
+
   std::vector<std::string>& files_;
+  std::vector<Opened> opened_;                    // by number, as files_
   std::vector<std::unique_ptr<Source>> sources_;  // the innermost last
   std::string_view current_;
   FilePlace current_place_;

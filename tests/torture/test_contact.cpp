@@ -13,8 +13,7 @@ struct Torment {
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows into which the upper block's axes are turned
   double gap = 0;        ///< m, then, between its lowest node and the plane z = 0; negative: pressed in
   double load = 0;       ///< N, along -z, for good
-  bool balances = true;  ///< the contact force comes to the load
-  std::string warning{};  ///< the cause that the first warning names; empty: none
+  std::string warning{};  ///< the cause that the first warning names, and the fault that may end the run; empty: it runs to its end
 };
 
 constexpr double edge = 0.02, face = 0.005;
@@ -32,6 +31,7 @@ scene::Scene cube_on_plate(scene::ContactAlgorithm algorithm, double friction, s
   scene::Scene scene = blocks.scene(1);
   for (scene::Part& part : scene.parts) part.take_hourglass(hourglass);
   hold(scene, "lower.z_min", {true, true, true});
+  scene.output.history_sets = {"upper"};
   return scene;
 }
 
@@ -84,25 +84,30 @@ void torture(scene::ContactAlgorithm algorithm, scene::HourglassType hourglass, 
   all.push_back({"edge against face, 10 times the load", cube(), on_its_edge(), 0, 5e4});
   all.push_back({"corner against face", cube(), on_its_corner(), 0, 1e3});
   all.push_back({"corner against face, 10 times the load", cube(), on_its_corner(), 0, 1e4});
-  all.push_back({"pressed in by a tenth of a face", cube(), flat, -0.1 * face, 0, false});
-  all.push_back({"pressed in by half a face", cube(), flat, -0.5 * face, 0, false, "initial penetration"});
-  all.push_back({"pressed in by a whole face", cube(), flat, -face, 0, false, "initial penetration"});
+  all.push_back({"pressed in by a tenth of a face", cube(), flat, -0.1 * face, 0});
+  all.push_back({"pressed in by half a face", cube(), flat, -0.5 * face, 0, "initial penetration"});
+  all.push_back({"pressed in by a whole face", cube(), flat, -face, 0, "initial penetration"});
   for (Torment& torment : all) {
     if (torment.load > 0) load_cube(torment.scene, torment.load);
     const Assembly assembly = place(torment, torment.scene);
     Model model;
     build_model(torment.scene, assembly, model);
-    const Ordeal ordeal = endure(model, torment.load > 0 ? 3000 : 1500);
-    const Vec3 force = ordeal.late_force();
-    std::cout << fmt::format("{:38} {:10} {:9} mu {:3.1f}: balance error {:.2e} of the energy given", torment.what, name_of(algorithm),
-                             hourglass == scene::HourglassType::viscous ? "viscous" : "stiffness", friction, ordeal.worst_balance);
-    if (torment.balances) std::cout << fmt::format(", contact force / load {:.4f}", force[2] / torment.load);
-    std::cout << ordeal.said() << std::endl;
+    const Ordeal ordeal = endure(model, torment.load > 0 ? 3000 : 1500, mass_of(model, "upper"));
+    double largest = 0;
+    for (const Vec3& force : ordeal.force) largest = std::max(largest, norm(force));
+    std::cout << fmt::format("{:38} {:10} {:9} mu {:3.1f}: balance error {:.2e} of the energy given, largest contact force {:.3g} N, of which {:.1e} are not in "
+                             "balance",
+                             torment.what, name_of(algorithm), hourglass == scene::HourglassType::viscous ? "viscous" : "stiffness", friction,
+                             ordeal.worst_balance, largest, ordeal.unbalanced() / largest)
+              << ordeal.said() << std::endl;
     INFO(torment.what << ", " << name_of(algorithm) << ", friction " << friction << ordeal.said());
-    CHECK(ordeal.summary.completed);
-    if (torment.balances) CHECK(std::fabs(force[2] / torment.load - 1) < 0.02);
+    // Forces on a node beyond those of any sound contact are cut off (extra_force_sum.hpp): a scene that begins so is stopped.
+    if (torment.warning.empty()) CHECK(ordeal.unbalanced() < 1e-3 * largest);
+    if (torment.warning.empty()) CHECK(ordeal.summary.completed);
     if (torment.warning.empty()) continue;
-    CHECK((!ordeal.warnings.empty() && ordeal.warnings[0].causes.at(0).name == torment.warning));
+    REQUIRE(!ordeal.warnings.empty());
+    CHECK(ordeal.warnings[0].causes.at(0).name == torment.warning);
+    if (ordeal.summary.fault) CHECK(ordeal.summary.fault->causes.at(0).name == torment.warning);
   }
 }
 

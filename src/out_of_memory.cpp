@@ -20,8 +20,8 @@ std::atomic<std::size_t> refused{0};
 
 }  // namespace
 
-// The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs; nvcc takes these for functions of the device.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (void* const place = std::malloc(size ? size : 1)) return place;
   refused = size;

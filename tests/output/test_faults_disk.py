@@ -2,6 +2,7 @@
 """A full disk, missing rights, files that vanish or are open elsewhere: each is told, with the exit code, and nothing that was there is
 lost."""
 
+import contextlib
 import os
 import pathlib
 import shutil
@@ -56,14 +57,27 @@ class FullDisk(Folder):
         self.assertGreater(resumed, 3)
 
     def test_small_disk(self):
-        """A real one, where the system lets us have it."""
+        """A real one, where the system lets us have it: too small from the beginning, and filled by somebody else later."""
         disk = self.folder / "disk"
         disk.mkdir()
-        if shutil.which("mount") is None or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700k", "none", disk], capture_output=True).returncode != 0:
+        if shutil.which("mount") is None or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700m", "none", disk], capture_output=True).returncode != 0:
             self.skipTest("no right to mount a small disk")
         self.addCleanup(subprocess.run, ["umount", disk])
         self.case(end=LONG)
-        complaint, _ = self.run_case("--set", "output.file=disk/results.h5", *SOMETIMES, code=1)
+        results = ("--set", "output.file=disk/results.h5")
+        complaint, _ = self.run_case(*results, "--set", "time.end=1e3", code=2)
+        self.assertRegex(complaint, "histories of .*, but disk/results.h5 has .* free")
+        self.assertEqual(list(disk.iterdir()), [])
+        self.told("disk too small for what the run will write", 2, complaint)
+        run = self.start("run", "case.toml", *results, *SOMETIMES)
+        while not (disk / "results.h5").exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.01)
+        time.sleep(0.2)
+        with contextlib.suppress(OSError), open(disk / "filler", "wb", buffering=0) as filler:
+            while True:
+                filler.write(bytes(1 << 20))
+        complaint, _ = self.ends(run, 1)
         self.assertIn("No space left on device", complaint)
         self.assertEqual([path.name for path in disk.iterdir() if ".new" in path.name], [])
         with h5py.File(disk / "results.h5", "r") as file:
@@ -289,6 +303,7 @@ class OpenElsewhere(Folder):
         self.case(end=LONG)
         run = self.start("run", "case.toml")
         while not self.results.exists():
+            self.assertIsNone(run.poll())
             time.sleep(0.01)
         script = "import h5py, sys; f = h5py.File('results.h5', 'r'); t = f['history/time'][()]; assert len(t) >= 1 and t[0] == 0"
         for _ in range(20):  # who looks just while the file grows finds it too short, and looks again

@@ -226,14 +226,19 @@ TEST_CASE("files that cannot be used") {
   std::ofstream(folder / "empty.h5").flush();
   CHECK_THAT(complaint_of(folder / "empty.h5"), ContainsSubstring("no HDF5 file"));
 
-  hdf5::File::create(folder / "other.h5").root().set_attribute("format", "something else");
+  {
+    hdf5::File other = hdf5::File::create(folder / "other.h5");
+    other.root().set_attribute("format", "something else");
+    other.close();
+  }
   CHECK_THAT(complaint_of(folder / "other.h5"), ContainsSubstring("no results file of Railwave"));
 
   {
-    const hdf5::File newer = hdf5::File::create(folder / "newer.h5");
+    hdf5::File newer = hdf5::File::create(folder / "newer.h5");
     newer.root().set_attribute("format", "Railwave results");
     newer.root().set_attribute("format_version", 99L);
     newer.root().set_attribute("program", "railwave 77");
+    newer.close();
   }
   CHECK_THAT(complaint_of(folder / "newer.h5"), ContainsSubstring("written by a newer program (railwave 77)"));
 

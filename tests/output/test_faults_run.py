@@ -39,15 +39,14 @@ class Memory(Folder):
         self.fail("memory was never short")
 
     def test_at_any_moment(self):
-        """The smallest memory in which the program starts, and more, until the run comes to its end: it neither hangs nor aborts. Refused some
-        of its small pieces, the HDF5 of Debian 12 itself may crash (seen at 55 MB in all); that leaves what a kill leaves."""
+        """The smallest memory in which the program starts, and more, until the run comes to its end: it neither hangs nor aborts nor crashes."""
         ended, refused = False, 0
         for megabytes in list(range(34, 80, 3)) + [200, 400, 800, 1600, 3200]:
             run = self.start("run", "case.toml", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
             said, complaint = run.communicate(timeout=60)
             if run.returncode == 127 or "error while loading shared libraries" in complaint:
                 continue  # the system's loader had too little
-            self.assertIn(run.returncode, (0, 1, -signal.SIGSEGV), f"{megabytes} MB: {complaint}")
+            self.assertIn(run.returncode, (0, 1), f"{megabytes} MB: {complaint}")
             refused += run.returncode == 1
             if run.returncode == 1:
                 self.assertTrue(complaint.startswith(("railwave: ", "libgomp: ")), complaint)

@@ -1,9 +1,6 @@
 #include "tests/fuzz/readers.hpp"
 
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 #include "case/error.hpp"
@@ -11,42 +8,20 @@
 #include "mesh/abaqus_file.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/height_map.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace railwave::fuzz {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A folder of this process's own, with files that what is read may name: half of a case is in what it refers to.
-class Folder {
- public:
+/// With files that what is read may name: half of a case is in what it refers to.
+struct Folder : TemporaryFolder {
   Folder() {
-    std::string pattern = (fs::temp_directory_path() / "railwave-fuzz-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder can be made");
-    path_ = pattern;
     write("mesh.inp",
           "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
           "*ELEMENT, TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n");
     write("nodes.inp", "1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n");
     write("curve.csv", "time,force\n0,0\n1e-3,2\n");
   }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string write(const char* name, std::string_view bytes) const {
-    const std::string path = path_ + "/" + name;
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) throw std::runtime_error("can't write " + path);
-    return path;
-  }
-
- private:
-  std::string path_;
 };
 
 const Folder& folder() {

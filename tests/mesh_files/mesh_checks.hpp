@@ -1,48 +1,18 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 
 #include "mesh/mesh.hpp"
 #include "source_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 // What the tests of mesh files share: a folder of their own, and measures of a mesh that don't use the reader's code.
 namespace railwave {
 
 inline const std::string test_data = source_folder + "/tests/mesh_files/data/";
-
-/// A new folder, deleted with all its files at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    auto pattern = (std::filesystem::temp_directory_path() / "railwave-mesh-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder can be made");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& content) const {
-    const auto file_path = path_ + "/" + name;
-    std::filesystem::create_directories(std::filesystem::path(file_path).parent_path());
-    std::ofstream file(file_path, std::ios::binary);
-    file << content;
-    if (!file.flush()) throw std::runtime_error("can't write " + file_path);
-    return file_path;
-  }
-
- private:
-  std::string path_;
-};
 
 inline std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

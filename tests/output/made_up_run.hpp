@@ -1,14 +1,12 @@
 #pragma once
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "output/results_writer.hpp"
 #include "tests/post/hertz_contact.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace railwave::made_up {
 
@@ -141,22 +139,6 @@ inline RunSummary summary() {
   return result;
 }
 
-/// Folder of its own in the temporary folder, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "railwave-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
+using railwave::TemporaryFolder;
 
 }  // namespace railwave::made_up

@@ -66,24 +66,4 @@ struct LeftLargest {
   }
 };
 
-/// The largest of each quantity over all items and the item that has it: the same on any number of threads.
-template <class Term>
-Largest<Term::values> block_largest(const Term& term, int count) {
-  using Found = Largest<Term::values>;
-  Found largest;
-  largest.clear();
-  if (count == 0) return largest;
-  const int blocks = (count + sum_block - 1) / sum_block, groups = (blocks + sum_block - 1) / sum_block;
-  const auto work = unset_array<Found*>("block largest", static_cast<std::size_t>(blocks) + groups);
-  Kokkos::parallel_for("block_largest", Range(0, blocks), BlockLargest<Term>{term, count, blocks, work.data()});
-  Kokkos::parallel_for("left_largest", Range(0, groups),
-                       LeftLargest<Term::values>{work.data(), blocks, groups, work.data() + blocks});
-  const auto found = Kokkos::subview(work, Kokkos::make_pair(static_cast<std::size_t>(blocks), static_cast<std::size_t>(blocks + groups)));
-  const auto host = Kokkos::create_mirror_view(found);
-  Kokkos::deep_copy(host, found);
-  for (int g = 0; g < groups; ++g)
-    for (int k = 0; k < Term::values; ++k) largest.add(k, host(g).value[k], host(g).place[k]);
-  return largest;
-}
-
 }  // namespace railwave

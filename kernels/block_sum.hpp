@@ -4,12 +4,14 @@
 
 namespace railwave {
 
-/// Items of a block.
+/// Items of a block: a GPU needs many blocks to be busy.
+inline constexpr int items_of_block = on_device ? 8 : 32;
+/// Blocks that are taken together.
 inline constexpr int sum_block = 32;
+static_assert(on_device || items_of_block == sum_block);
 
-/// Sums `term(i)` (several values an item) in blocks of fixed size, the blocks' sums in blocks again, and the few that are
-/// left on the host, so the result is bitwise the same on any number of threads. `Term` has `static constexpr int values`
-/// and `void operator()(int, double*) const`, which adds an item's values.
+/// Sums `term(i)` (several values an item) over each block. `Term` has `static constexpr int values` and
+/// `void operator()(int, double*) const`, which adds an item's values.
 template <class Term>
 struct BlockSum {
   Term term;
@@ -29,6 +31,13 @@ struct BlockSum {
   }
 };
 
+/// An array's own values.
+struct ArraySum {
+  static constexpr int values = 1;
+  Array<const double*> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double* sum) const { sum[0] += of(i); }
+};
+
 /// Sums that blocks have left.
 template <int Values>
 struct LeftSum {
@@ -38,33 +47,5 @@ struct LeftSum {
     for (int k = 0; k < Values; ++k) sum[k] += left[i * Values + k];
   }
 };
-
-/// Numbers that a sum of `count` items needs as space.
-inline std::size_t block_sum_space(std::size_t count, int values) {
-  const std::size_t blocks = (count + sum_block - 1) / sum_block;
-  return (blocks + (blocks + sum_block - 1) / sum_block) * values;
-}
-
-/// @param result Term::values numbers
-/// @param space where to work, if it is large enough; allocated anew otherwise
-template <class Term>
-void block_sum(const Term& term, int count, double* result, const Array<double*>& space = {}) {
-  constexpr int values = Term::values;
-  for (int k = 0; k < values; ++k) result[k] = 0;
-  if (count == 0) return;
-  const std::size_t needed = block_sum_space(count, values);
-  const auto work = space.extent(0) >= needed ? space : unset_array<double*>("block sums", needed);
-  const int blocks = (count + sum_block - 1) / sum_block, groups = (blocks + sum_block - 1) / sum_block;
-  double* const second = work.data() + static_cast<std::size_t>(blocks) * values;
-  Kokkos::parallel_for("block_sum", Range(0, blocks), BlockSum<Term>{term, count, blocks, work.data()});
-  Kokkos::parallel_for("left_sum", Range(0, groups),
-                       BlockSum<LeftSum<values>>{LeftSum<values>{work.data()}, blocks, groups, second});
-  const auto sums = Kokkos::subview(work, Kokkos::make_pair(static_cast<std::size_t>(blocks) * values,
-                                                            static_cast<std::size_t>(blocks + groups) * values));
-  const auto host = Kokkos::create_mirror_view(sums);
-  Kokkos::deep_copy(host, sums);
-  for (int g = 0; g < groups; ++g)
-    for (int k = 0; k < values; ++k) result[k] += host(g * values + k);
-}
 
 }  // namespace railwave

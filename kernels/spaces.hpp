@@ -19,6 +19,17 @@ using MemorySpace = ExecutionSpace::memory_space;
 template <class T>
 using Array = Kokkos::View<T, MemorySpace>;
 
+/// Host memory that a GPU copies to by itself, without a detour.
+#ifdef KOKKOS_ENABLE_CUDA
+using PinnedSpace = Kokkos::SharedHostPinnedSpace;
+#else
+using PinnedSpace = Kokkos::HostSpace;
+#endif
+
+/// A host array of a device array's layout.
+template <class T>
+using PinnedArray = Kokkos::View<T, typename Array<T>::array_layout, PinnedSpace>;
+
 /// In a policy: the functor goes to a GPU as a kernel argument. A large one Kokkos would else copy to constant memory, and
 /// each launch would wait for the copy before.
 using AsArgument = Kokkos::Experimental::WorkItemProperty::HintLightWeight_t;

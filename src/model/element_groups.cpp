@@ -333,6 +333,8 @@ void build_elements(Model& model) {
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& elements = model.elements[g];
     elements.patches = arrays_of(lists[g], single);
+    elements.patch_energy = unset_array<double* [2]>("patch energy", elements.patches.count);
+    elements.patch_energy_fetched = PinnedArray<double* [2]>("patch energy fetched", elements.patches.count);
     std::vector<ElasticConstants> constants;
     for (const scene::Material* material : materials[g]) constants.push_back(elastic_constants(*material));
     elements.constants = to_device("elastic constants", constants);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "kernels/block_sum.hpp"
+#include "kernels/reductions.hpp"
 #include "kernels/tie.hpp"
 #include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
@@ -54,9 +54,9 @@ struct Scale {
   }
 };
 
-double inner(const NodeVector& a, const NodeVector& b) {
+double inner(const Model& model, const NodeVector& a, const NodeVector& b) {
   double sum = 0;
-  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum);
+  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, *model.reduction_space);
   return sum;
 }
 
@@ -123,7 +123,7 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
   Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{now_, model.nodes.mass, model.nodes.constraint, model.constraints});
-  const double size = std::sqrt(inner(now_, now_));
+  const double size = std::sqrt(inner(model, now_, now_));
   if (!(size > 0)) return 0;  // everything is held
   Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
   Kokkos::deep_copy(before_, 0.0);
@@ -133,10 +133,10 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
   while (true) {
     apply(model, inverse_time);
     ++result.applications;
-    diagonal.push_back(inner(now_, image_));
+    diagonal.push_back(inner(model, now_, image_));
     Kokkos::parallel_for("tangent_recur", Range(0, nodes),
                          Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
-    beside.push_back(std::sqrt(inner(image_, image_)));
+    beside.push_back(std::sqrt(inner(model, image_, image_)));
     const int iterations = static_cast<int>(diagonal.size());
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
     if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {

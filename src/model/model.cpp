@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/block_sum.hpp"
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
@@ -11,15 +10,6 @@
 #include "model/non_reflecting.hpp"
 
 namespace railwave {
-
-namespace {
-
-/// Numbers for the account's largest sum: at most a dozen values of each node or contribution.
-std::size_t account_space(const Model& model) {
-  return block_sum_space(std::max(model.nodes.count, model.extra.contribution_count), 12);
-}
-
-}  // namespace
 
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
@@ -39,7 +29,6 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_prescribed_motions(model);
   build_node_arrays(model);
   build_carried_nodes(model);
-  model.sum_space = unset_array<double*>("space of sums", account_space(model));
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   build_stable_step(model);
@@ -119,13 +108,13 @@ std::size_t device_bytes(const Model& model) {
   std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
                             model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, model.subcycling.paces.level,
                             x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
-                            x.contribution_node, x.work, model.sum_space, model.sets.first, model.sets.nodes, model.sets.weight,
+                            x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums) +
-                      beam_bytes(model);
+                      beam_bytes(model) + model.reduction_space->bytes();
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
-                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.constants,
+                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.patch_energy, group.constants,
                    group.plastic.constants, group.plastic.history, group.plastic.volume, group.plastic.isotropic_share,
                    group.plastic.back_stress, group.damping.constants, group.damping.node_mass, group.damping.energy,
                    group.carried.local, group.carried.arm);

@@ -14,6 +14,7 @@
 #include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
 #include "kernels/non_reflecting.hpp"
+#include "kernels/reduction_space.hpp"
 #include "kernels/set_loads.hpp"
 #include "kernels/tie.hpp"
 #include "model/assembly.hpp"
@@ -77,6 +78,8 @@ struct ElementGroup {
   int first_partial = 0;               ///< row of the first patch's first node in the partial forces
   std::vector<int> first_element;      ///< of each patch, in the assembly's numbering
   std::vector<int> element_count;      ///< of each patch
+  Array<double* [2]> patch_energy;     ///< J, elastic and hourglass, of each patch: where the account works
+  PinnedArray<double* [2]> patch_energy_fetched;
 
   /// Rows of the partial forces up to the group's last.
   int rows_end() const { return (damping.active() ? damping.first_partial : first_partial) + patches.count * patches.node_stride; }
@@ -205,7 +208,7 @@ struct Model {
   ExtraForces extra;
   NodeSets sets;
   std::vector<int> first_of_set;       ///< host copy of sets.first
-  Array<double*> sum_space;            ///< where the account's sums are made
+  std::shared_ptr<ReductionSpace> reduction_space = std::make_shared<ReductionSpace>();  ///< of the account, the watch, the static start
   std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/block_sum.hpp"
+#include "kernels/reductions.hpp"
 #include "kernels/watch_terms.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
@@ -155,19 +155,18 @@ struct MeanMotionSum {
   }
 };
 
-struct Work {
-  static constexpr int values = 1;
-  Array<const double*> work;
-  KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const { sum[0] += work(c); }
+/// Stored in connectors' springs, and dissipated in their dashpots.
+struct ConnectorEnergy {
+  static constexpr int values = 2;
+  Array<const double* [2]> energy;
+  KOKKOS_INLINE_FUNCTION void operator()(int c, double* sum) const {
+    for (int k = 0; k < values; ++k) sum[k] += energy(c, k);
+  }
 };
 
-/// Shares a group's energies out among its parts: a patch lies in one.
-template <class S>
-void share_out(const Model& model, const ElementGroup& group, const Array<double* [2]>& patch_energy, std::vector<PartEnergy>& by_part) {
-  Kokkos::parallel_for("add_dissipated", Range(0, group.patches.count), AddDissipated{patch_energy, group.patches.hourglass_energy, power_sums});
-  if (group.plastic.active())
-    Kokkos::parallel_for("add_plastic", Range(0, group.patches.count), AddPlastic<S>{{group.patches, group.plastic}, patch_energy});
-  const auto energy = to_host(patch_energy);
+/// Shares a group's energies, fetched, out among its parts: a patch lies in one.
+void share_out(const Model& model, const ElementGroup& group, std::vector<PartEnergy>& by_part) {
+  const auto& energy = group.patch_energy_fetched;
   const auto& parts = model.assembly.parts;
   std::size_t p = 0;
   for (int patch = 0; patch < group.patches.count; ++patch) {
@@ -183,71 +182,92 @@ void share_out(const Model& model, const ElementGroup& group, const Array<double
 }
 
 template <class S, class Hourglass>
-void element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, std::vector<PartEnergy>* by_part) {
-  const auto patch_energy = unset_array<double* [2]>("patch energy", group.patches.count);
+void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part, Reductions& sums) {
+  const int count = group.patches.count;
   with_material(group, [&](const auto& material) {
     using State = PatchState<S, std::decay_t<decltype(material)>, Hourglass>;
-    launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, patch_energy});
+    launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, group.patch_energy});
   });
-  double sum[2];
-  block_sum(PatchEnergy{patch_energy, group.patches.hourglass_energy}, group.patches.count, sum, model.sum_space);
-  energy.internal += sum[0];
-  energy.hourglass += sum[1];
-  if (by_part != nullptr) share_out<S>(model, group, patch_energy, *by_part);
-  if (group.damping.active()) {
-    block_sum(Work{group.damping.energy}, group.patches.count, sum, model.sum_space);
-    energy.damping += sum[0];
+  sums.sum(PatchEnergy{group.patch_energy, group.patches.hourglass_energy}, count, [&energy](const double* sum) {
+    energy.internal += sum[0];
+    energy.hourglass += sum[1];
+  });
+  if (by_part) {
+    Kokkos::parallel_for("add_dissipated", Range(0, count), AddDissipated{group.patch_energy, group.patches.hourglass_energy, power_sums});
+    if (group.plastic.active())
+      Kokkos::parallel_for("add_plastic", Range(0, count), AddPlastic<S>{{group.patches, group.plastic}, group.patch_energy});
+    Kokkos::deep_copy(ExecutionSpace(), group.patch_energy_fetched, group.patch_energy);
   }
-  if (!group.plastic.active()) return;
-  block_sum(PlasticEnergy<S>{group.patches, group.plastic}, group.patches.count * patch_size, sum);
-  energy.plastic += sum[0];
+  if (group.damping.active())
+    sums.sum(ArraySum{group.damping.energy}, count, [&energy](const double* sum) { energy.damping += *sum; });
+  if (group.plastic.active())
+    sums.sum(PlasticEnergy<S>{group.patches, group.plastic}, count * patch_size, [&energy](const double* sum) { energy.plastic += *sum; });
 }
 
 template <class S>
-void element_energies(const Model& model, EnergyAccount& energy, std::vector<PartEnergy>* by_part) {
-  if (by_part != nullptr) by_part->assign(model.assembly.parts.size(), {});
+void queue_element_energies(const Model& model, EnergyAccount& energy, bool by_part, Reductions& sums) {
   for (const ElementGroup& group : model.elements) {
-    if (group.hourglass == scene::HourglassType::viscous) element_energy<S, ViscousHourglass>(model, group, energy, by_part);
-    else element_energy<S, StiffnessHourglass>(model, group, energy, by_part);
+    if (group.hourglass == scene::HourglassType::viscous) queue_element_energy<S, ViscousHourglass>(model, group, energy, by_part, sums);
+    else queue_element_energy<S, StiffnessHourglass>(model, group, energy, by_part, sums);
   }
+}
+
+void queue_contact_energies(const Model& model, EnergyAccount& energy, Reductions& sums) {
+  for (const ContactPair& pair : model.contacts) {
+    const int count = pair.arrays.slave_count;
+    const auto add = [&energy](const double* sum) {
+      energy.contact += sum[0];
+      energy.friction += sum[1];
+    };
+    if (pair.has_springs()) {
+      sums.sum(ContactEnergy{pair.arrays, pair.law}, count, [&energy, add](const double* sum) {
+        add(sum);
+        energy.damping += sum[2];
+      });
+    } else {
+      sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count, add);
+    }
+  }
+}
+
+/// Everything that account_energies() gives, into `energy`, when the sums are fetched. Parts get theirs by share_out().
+void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, Reductions& sums) {
+  const auto external = [&energy](const double* sum) { energy.external_work += *sum; };
+  sums.sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, [&energy](const double* sum) {
+    energy.kinetic += sum[0];
+    energy.external_work += sum[1];
+  });
+  with_element_precision(model.scene, [&](auto number) { queue_element_energies<decltype(number)>(model, energy, by_part, sums); });
+  queue_contact_energies(model, energy, sums);
+  if (!model.loads.empty()) sums.sum(ArraySum{model.extra.work}, model.extra.contribution_count, external);
+  for (const PrescribedSet& set : model.prescribed)
+    sums.sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), external);
+  if (model.ends.arrays.count > 0)
+    sums.sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count, [&energy](const double* sum) {
+      energy.damping += sum[0];
+      energy.external_work += sum[1];
+    });
+  if (model.beams) queue_beam_energies(model, step, energy, sums);
+  if (model.connectors.arrays.count > 0)
+    sums.sum(ConnectorEnergy{model.connectors.arrays.energy}, model.connectors.arrays.count, [&energy](const double* sum) {
+      energy.connector += sum[0];
+      energy.damping += sum[1];
+    });
+}
+
+/// A part's share of the groups' energies, when the sums have been fetched.
+void share_out_all(const Model& model, std::vector<PartEnergy>& by_part) {
+  by_part.assign(model.assembly.parts.size(), {});
+  for (const ElementGroup& group : model.elements) share_out(model, group, by_part);
 }
 
 }  // namespace
 
-EnergyAccount account_energies(const Model& model, double step, std::vector<PartEnergy>* by_part) {
+EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
-  double sum[3];
-  block_sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, sum, model.sum_space);
-  energy.kinetic = sum[0];
-  energy.external_work = sum[1];
-  with_element_precision(model.scene, [&](auto number) { element_energies<decltype(number)>(model, energy, by_part); });
-  for (const ContactPair& pair : model.contacts) {
-    sum[2] = 0;
-    if (pair.has_springs()) block_sum(ContactEnergy{pair.arrays, pair.law}, pair.arrays.slave_count, sum, model.sum_space);
-    else block_sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, pair.arrays.slave_count, sum, model.sum_space);
-    energy.contact += sum[0];
-    energy.friction += sum[1];
-    energy.damping += sum[2];
-  }
-  if (!model.loads.empty()) {
-    block_sum(Work{model.extra.work}, model.extra.contribution_count, sum, model.sum_space);
-    energy.external_work += sum[0];
-  }
-  for (const PrescribedSet& set : model.prescribed) {
-    block_sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), sum, model.sum_space);
-    energy.external_work += sum[0];
-  }
-  if (model.ends.arrays.count > 0) {
-    block_sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count, sum, model.sum_space);
-    energy.damping += sum[0];
-    energy.external_work += sum[1];
-  }
-  if (model.beams) add_beam_energies(model, step, energy);
-  const auto connectors = to_host(model.connectors.arrays.energy);
-  for (int c = 0; c < model.connectors.arrays.count; ++c) {
-    energy.connector += connectors(c, 0);
-    energy.damping += connectors(c, 1);
-  }
+  Reductions sums(*model.reduction_space);
+  queue_energies(model, step, energy, false, sums);
+  sums.fetch();
   return energy;
 }
 
@@ -264,42 +284,49 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
-ContactTotals pair_totals(const Model& model, const ContactPair& pair) {
-  double slave[11], master[3];
-  block_sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, slave, model.sum_space);
-  block_sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, master,
-            model.sum_space);
-  ContactTotals totals;
-  for (int i = 0; i < 3; ++i) {
-    totals.normal_force[i] = slave[i];
-    totals.tangential_force[i] = slave[3 + i];
-    totals.master_force[i] = pair.own_master ? master[i] : slave[6 + i];
-  }
-  totals.nodes_in_contact = static_cast<int>(slave[9]);
-  totals.nodes_slipping = static_cast<int>(slave[10]);
-  return totals;
+void queue_pair_totals(const Model& model, const ContactPair& pair, ContactTotals& totals, Reductions& sums) {
+  sums.sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, [&totals](const double* sum) {
+    for (int i = 0; i < 3; ++i) {
+      totals.normal_force[i] = sum[i];
+      totals.tangential_force[i] = sum[3 + i];
+      totals.master_force[i] = sum[6 + i];
+    }
+    totals.nodes_in_contact = static_cast<int>(sum[9]);
+    totals.nodes_slipping = static_cast<int>(sum[10]);
+  });
+  if (!pair.own_master) return;
+  sums.sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, [&totals](const double* sum) {
+    for (int i = 0; i < 3; ++i) totals.master_force[i] = sum[i];
+  });
 }
 
-}  // namespace
-
-ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
-  ContactTotals totals = pair_totals(model, pair);
-  if (pair.partner < 0) return totals;
-  // The other half of a symmetric contact has the surfaces exchanged.
-  const ContactTotals other = pair_totals(model, model.contacts[pair.partner]);
+/// The other half of a symmetric contact has the surfaces exchanged.
+void add_other_half(ContactTotals& totals, const ContactTotals& other) {
   for (int i = 0; i < 3; ++i) {
     const double slave = totals.normal_force[i] + totals.tangential_force[i];
     totals.normal_force[i] -= other.normal_force[i];
     totals.tangential_force[i] -= other.tangential_force[i];
     totals.master_force[i] += slave - (totals.normal_force[i] + totals.tangential_force[i]);
   }
+}
+
+}  // namespace
+
+ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
+  ContactTotals totals, other;
+  Reductions sums(*model.reduction_space);
+  queue_pair_totals(model, pair, totals, sums);
+  if (pair.partner >= 0) queue_pair_totals(model, model.contacts[pair.partner], other, sums);
+  sums.fetch();
+  if (pair.partner >= 0) add_other_half(totals, other);
   return totals;
 }
 
 namespace {
 
 /// On the host, for tied nodes move as their masters do.
-MeanMotion mean_motion_with_ties(const Model& model, int begin, int end) {
+MeanMotion mean_motion_with_ties(const Model& model, int set) {
+  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
   const auto all = to_host(model.sets.nodes);
   const auto weight = to_host(model.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
@@ -313,33 +340,53 @@ MeanMotion mean_motion_with_ties(const Model& model, int begin, int end) {
   return mean;
 }
 
-}  // namespace
-
-MeanMotion mean_motion(const Model& model, int set) {
+void queue_mean_motion(const Model& model, int set, MeanMotion& mean, Reductions& sums) {
   const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
-  if (model.ties.arrays.active()) return mean_motion_with_ties(model, begin, end);
-  double sum[9];
-  block_sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin, sum,
-            model.sum_space);
-  MeanMotion mean;
-  for (int i = 0; i < 3; ++i) {
-    mean.displacement[i] = sum[i];
-    mean.velocity[i] = sum[3 + i];
-    mean.acceleration[i] = sum[6 + i];
-  }
-  return mean;
+  sums.sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin, [&mean](const double* sum) {
+    for (int i = 0; i < 3; ++i) {
+      mean.displacement[i] = sum[i];
+      mean.velocity[i] = sum[3 + i];
+      mean.acceleration[i] = sum[6 + i];
+    }
+  });
 }
 
-HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
+}  // namespace
+
+HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>* by_part) {
   HistorySample sample;
   sample.time = model.time;
   sample.step = model.step;
-  sample.energy = account_energies(model, step, by_part);
-  for (const ContactPair& pair : model.contacts)
-    if (!pair.reversed) sample.contacts.push_back(contact_totals(model, pair));
-  for (int set : model.history_sets) sample.sets.push_back(mean_motion(model, set));
+  std::vector<ContactTotals> pairs(model.contacts.size());
+  Reductions sums(*model.reduction_space);
+  queue_energies(model, step, sample.energy, by_part != nullptr, sums);
+  for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
+  sums.fetch();
+  if (by_part != nullptr) share_out_all(model, *by_part);
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const ContactPair& pair = model.contacts[c];
+    if (pair.partner >= 0) add_other_half(pairs[c], pairs[pair.partner]);
+    if (!pair.reversed) sample.contacts.push_back(pairs[c]);
+  }
+  return sample;
+}
+
+void add_what_histories_tell(const Model& model, HistorySample& sample) {
+  const bool tied = model.ties.arrays.active();
+  sample.sets.resize(model.history_sets.size());
+  Reductions sums(*model.reduction_space);
+  for (std::size_t s = 0; s < sample.sets.size(); ++s) {
+    if (tied) sample.sets[s] = mean_motion_with_ties(model, model.history_sets[s]);
+    else queue_mean_motion(model, model.history_sets[s], sample.sets[s], sums);
+  }
+  queue_load_totals(model, sample.loads, sums);
+  sums.fetch();
   if (model.beams) sample.beams = beam_resultants(model);
-  sample.loads = load_totals(model);
+}
+
+HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
+  HistorySample sample = take_look(model, step, by_part);
+  add_what_histories_tell(model, sample);
   return sample;
 }
 

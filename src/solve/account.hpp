@@ -9,8 +9,7 @@ namespace railwave {
 /// independent of the forces that move the nodes, so the balance tests the time integration:
 /// kinetic v(n-1/2) M v(n+1/2) / 2, elastic stress and strain, penalty and connector springs.
 /// `balance_error` is left zero: the time loop knows the start.
-/// @param by_part if not null: gets the energies of each part of the assembly
-EnergyAccount account_energies(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
+EnergyAccount account_energies(const Model& model, double step);
 
 /// kinetic + stored + dissipated - external work: constant in an exact run.
 double balance_total(const EnergyAccount& energy);
@@ -19,10 +18,15 @@ double balance_total(const EnergyAccount& energy);
 double largest_energy(const EnergyAccount& energy);
 
 ContactTotals contact_totals(const Model& model, const ContactPair& pair);
-MeanMotion mean_motion(const Model& model, int set);
 
-/// Everything that a history row holds, at the present instant.
-/// @param by_part as of account_energies()
+/// The energies and contacts of a history row at the present instant: what the watch looks at.
+/// @param by_part if not null: gets the energies of each part of the assembly
+HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
+
+/// Adds its sets, loads and beams.
+void add_what_histories_tell(const Model& model, HistorySample& sample);
+
+/// Both.
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
 
 }  // namespace railwave

@@ -1,6 +1,5 @@
 #include "solve/beams.hpp"
 
-#include "kernels/block_sum.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -20,15 +19,11 @@ void advance_rotations(const Model& model, double step) {
   Kokkos::parallel_for("beam_rotations", SpreadRange(0, beams.node_count), BeamRotationUpdate{{beams}, model.velocity_lag + 0.5 * step, step});
 }
 
-void add_beam_energies(const Model& model, double step, EnergyAccount& energy) {
+void queue_beam_energies(const Model& model, double step, EnergyAccount& energy, Reductions& sums) {
   const BeamArrays& beams = model.beams->arrays;
-  double sum = 0;
-  block_sum(BeamEnergy{beams, model.nodes.position}, beams.count, &sum, model.sum_space);
-  energy.internal += sum;
-  block_sum(BeamKineticEnergy{{beams}, model.velocity_lag, step}, beams.node_count, &sum, model.sum_space);
-  energy.kinetic += sum;
-  const auto work = to_host(beams.work);
-  for (int l = 0; l < beams.moment_count; ++l) energy.external_work += work(l);
+  sums.sum(BeamEnergy{beams, model.nodes.position}, beams.count, [&energy](const double* sum) { energy.internal += *sum; });
+  sums.sum(BeamKineticEnergy{{beams}, model.velocity_lag, step}, beams.node_count, [&energy](const double* sum) { energy.kinetic += *sum; });
+  sums.sum(ArraySum{beams.work}, beams.moment_count, [&energy](const double* sum) { energy.external_work += *sum; });
 }
 
 std::vector<BeamResultants> beam_resultants(const Model& model) {
@@ -56,7 +51,7 @@ void stop_rotations(const Model& model) { Kokkos::deep_copy(model.beams->arrays.
 BeamRelaxationState relaxation_state(const Model& model) {
   const BeamStage& stage = *model.beams;
   double sum[3];
-  block_sum(BeamRelaxationSums{{stage.arrays}, stage.relaxation_inertia, stage.arm}, stage.arrays.node_count, sum, model.sum_space);
+  block_sum(BeamRelaxationSums{{stage.arrays}, stage.relaxation_inertia, stage.arm}, stage.arrays.node_count, sum, *model.reduction_space);
   return {sum[0], sum[1], sum[2]};
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "kernels/beam_rotation.hpp"
+#include "kernels/reductions.hpp"
 #include "model/beams.hpp"
 #include "solve/observer.hpp"
 #include "solve/stages.hpp"
@@ -16,8 +17,8 @@ Stage beam_stage(Model& model);
 /// The rotations' step, at the same time as the nodes'.
 void advance_rotations(const Model& model, double step);
 
-/// Adds elastic and kinetic energy, and the work of moments.
-void add_beam_energies(const Model& model, double step, EnergyAccount& energy);
+/// Adds elastic and kinetic energy, and the work of moments, when the sums are fetched.
+void queue_beam_energies(const Model& model, double step, EnergyAccount& energy, Reductions& sums);
 
 /// One entry for each of the scene's beams.
 std::vector<BeamResultants> beam_resultants(const Model& model);

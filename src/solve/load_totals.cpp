@@ -1,6 +1,5 @@
 #include "solve/load_totals.hpp"
 
-#include "kernels/block_sum.hpp"
 #include "kernels/vector3.hpp"
 
 namespace railwave {
@@ -27,36 +26,35 @@ struct FacetSum {
   }
 };
 
-LoadTotals totals_of(const Model& model, const LoadArrays& arrays) {
+void queue_total(const Model& model, const LoadArrays& arrays, LoadTotals& totals, Reductions& sums) {
   const scene::Load& load = *arrays.load;
   const double factor = curve_value(arrays.curve, model.time);
-  LoadTotals totals;
-  double sum[3] = {};
+  const auto forces = [&totals](double scale) {
+    return [&totals, scale](const double* sum) {
+      for (int i = 0; i < 3; ++i) totals.force[i] = scale * sum[i];
+    };
+  };
   switch (load.type) {
     case scene::LoadType::nodal_force:
       for (int i = 0; i < 3; ++i) totals.force[i] = factor * load.force[i];
       break;
     case scene::LoadType::traction:
-      block_sum(AmplitudeSum{arrays.amplitude}, arrays.count, sum, model.sum_space);
-      for (int i = 0; i < 3; ++i) totals.force[i] = factor * sum[i];
+      sums.sum(AmplitudeSum{arrays.amplitude}, arrays.count, forces(factor));
       break;
     case scene::LoadType::pressure:
-      block_sum(FacetSum{model.nodes.position, arrays.facets}, arrays.count, sum, model.sum_space);
-      for (int i = 0; i < 3; ++i) totals.force[i] = -factor * load.pressure * sum[i];
+      sums.sum(FacetSum{model.nodes.position, arrays.facets}, arrays.count, forces(-factor * load.pressure));
       break;
     case scene::LoadType::torque:
       totals.moment = factor * load.moment;
       break;
   }
-  return totals;
 }
 
 }  // namespace
 
-std::vector<LoadTotals> load_totals(const Model& model) {
-  std::vector<LoadTotals> totals;
-  for (const LoadArrays& load : model.loads) totals.push_back(totals_of(model, load));
-  return totals;
+void queue_load_totals(const Model& model, std::vector<LoadTotals>& totals, Reductions& sums) {
+  totals.resize(model.loads.size());
+  for (std::size_t l = 0; l < totals.size(); ++l) queue_total(model, model.loads[l], totals[l], sums);
 }
 
 }  // namespace railwave

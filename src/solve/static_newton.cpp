@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/block_sum.hpp"
+#include "kernels/reductions.hpp"
 #include "model/beams.hpp"
 #include "model/host_copy.hpp"
 #include "model/non_reflecting.hpp"
@@ -102,7 +102,7 @@ class Newton {
 
   double inner(const NodeVector& a, const NodeVector& b) const {
     double sum = 0;
-    block_sum(InnerProduct{a, b}, unknowns_.rows(), &sum, model_.sum_space);
+    block_sum(InnerProduct{a, b}, unknowns_.rows(), &sum, *model_.reduction_space);
     return sum;
   }
 
@@ -117,7 +117,7 @@ class Newton {
     for (const Stage& stage : ties_) stage.run(instant);
     Kokkos::parallel_for("static_residual", nodes(), residual_);
     double sum[2];
-    block_sum(StaticUnbalance{residual_}, unknowns_.nodes(), sum, model_.sum_space);
+    block_sum(StaticUnbalance{residual_}, unknowns_.nodes(), sum, *model_.reduction_space);
     if (model_.beams) add_moments(sum);
     return {sum[1] > 0 ? sum[0] / sum[1] : sum[0], inner(residual_.residual, step_), sum[1]};
   }

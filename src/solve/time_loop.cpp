@@ -202,7 +202,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     for (const Stage& stage : stages) stage.run(instant);
 
     if (looked_at) {
-      HistorySample sample = take_sample(model, model.step_size, watch.part_energies(model.step));
+      HistorySample sample = (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
       if (model.step == 0) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
       if (asked_for) looks.begin();
@@ -215,6 +215,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
         summary.reason = fault->told();
       }
       const bool broken = summary.fault.has_value();
+      if (broken && !asked_for) add_what_histories_tell(model, sample);
       for (std::size_t c = 0; c < swings.size(); ++c) swings[c].add(sample.time, sample.contacts[c].normal_force);
       for (RunObserver* observer : observers) {
         if (due.history() || stopping || broken) observer->history(model, sample);

@@ -4,20 +4,11 @@
 
 #include <cmath>
 
-#include "kernels/block_largest.hpp"
+#include "kernels/reductions.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
-namespace {
-
-template <int Values>
-Extreme extreme(const Largest<Values>& largest, int k) {
-  return {largest.value[k], largest.place[k]};
-}
-
-}  // namespace
-
 WatchArrays::WatchArrays(const Model& model) {
   const auto& elements = model.assembly.elements;
   shapes_.count = static_cast<int>(elements.size());
@@ -60,20 +51,22 @@ void WatchArrays::archive(StateLayer& state) {
 
 WatchMeasures WatchArrays::measure(const Model& model) const {
   WatchMeasures found;
-  const auto element = block_largest(ElementWatch{shapes_, model.nodes.position}, shapes_.count);
-  found.jacobian = extreme(element, 0);
-  found.jacobian.value = -found.jacobian.value;
-  found.distortion = extreme(element, 1);
-  found.speed = extreme(block_largest(NodeWatch{model.nodes.velocity}, model.nodes.count), 0);
+  Reductions looks(*model.reduction_space);
+  looks.largest(ElementWatch{shapes_, model.nodes.position}, shapes_.count, [&found](const Largest<2>& of) {
+    found.jacobian = {-of.value[0], of.place[0]};
+    found.distortion = {of.value[1], of.place[1]};
+  });
+  looks.largest(NodeWatch{model.nodes.velocity}, model.nodes.count,
+                [&found](const Largest<1>& of) { found.speed = {of.value[0], of.place[0]}; });
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const ContactPair& pair = model.contacts[c];
-    const auto contact = block_largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count);
-    for (auto [list, k] : {std::pair{&found.penetration, 0}, {&found.chatter, 1}}) {
-      Extreme one = extreme(contact, k);
-      if (one.place >= 0) one.place = pair.slave_nodes[one.place];
-      list->push_back(one);
-    }
+    looks.largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count, [&](const Largest<2>& of) {
+      const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
+      found.penetration.push_back({of.value[0], node(of.place[0])});
+      found.chatter.push_back({of.value[1], node(of.place[1])});
+    });
   }
+  looks.fetch();
   return found;
 }
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/block_largest.hpp"
+#include "kernels/reductions.hpp"
 #include "kernels/watch_terms.hpp"
 #include "model/host_copy.hpp"
 
@@ -19,13 +19,22 @@ struct Row {
   }
 };
 
+Largest<2> largest_of(const std::vector<double>& numbers) {
+  Largest<2> found;
+  ReductionSpace space;
+  Reductions looks(space);
+  looks.largest(Row{to_device("numbers", numbers)}, static_cast<int>(numbers.size()), [&](const Largest<2>& of) { found = of; });
+  looks.fetch();
+  return found;
+}
+
 }  // namespace
 
 TEST_CASE("of equal values the lowest item is told, and what is no number is the largest") {
   for (int count : {1, 31, 32, 33, 5000}) {
     std::vector<double> numbers(count);
     for (int i = 0; i < count; ++i) numbers[i] = (i * 7) % 13;
-    auto found = block_largest(Row{to_device("numbers", numbers)}, count);
+    auto found = largest_of(numbers);
     int first = 0, least = 0;
     for (int i = 0; i < count; ++i) {
       if (numbers[i] > numbers[first]) first = i;
@@ -35,11 +44,11 @@ TEST_CASE("of equal values the lowest item is told, and what is no number is the
     CHECK(found.value[0] == numbers[first]);
     CHECK(found.place[1] == least);
     numbers[count / 2] = std::nan("");
-    found = block_largest(Row{to_device("numbers", numbers)}, count);
+    found = largest_of(numbers);
     CHECK(found.place[0] == count / 2);
     CHECK(found.value[0] == std::numeric_limits<double>::infinity());
   }
-  CHECK(block_largest(Row{}, 0).place[0] == -1);
+  CHECK(largest_of({}).place[0] == -1);
 }
 
 TEST_CASE("an element's smallest Jacobian and hourglass modes are those of its corners") {

@@ -28,7 +28,8 @@ std::set<int> pulled_nodes(const std::vector<ConnectorCell>& cells) {
   return nodes;
 }
 
-/// By element, what its own stable step would be.
+/// By element, what its own stable step would be. Heights can be beyond what a region one or two elements thick allows, and only
+/// the finest level is asked whether they are.
 class OwnSteps {
  public:
   explicit OwnSteps(const Model& model) : model_(model), at_node_(model.assembly.nodes.size(), 0) {
@@ -40,7 +41,7 @@ class OwnSteps {
 
   /// The square of a sum's highest frequency is at most the sum of the squares.
   std::vector<double> steps() const {
-    std::vector<double> steps = own_steps(model_);
+    std::vector<double> steps = safe_steps(model_);
     for (std::size_t e = 0; e < steps.size(); ++e) {
       double springs = 0;
       for (int n : model_.assembly.elements[e]) springs = std::fmax(springs, at_node_[n]);

@@ -202,6 +202,8 @@ std::vector<double> own_steps(const Model& model) {
   return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalues.step : element_steps(model, eigenvalues);
 }
 
+std::vector<double> safe_steps(const Model& model) { return eigenvalue_steps(model).step; }
+
 double largest_initial_speed(const scene::Scene& scene) {
   double largest = 0;
   for (const scene::InitialMotion& motion : scene.initial_motions)

@@ -14,6 +14,9 @@ double largest_step(const Model& model);
 /// Each element's own stable step by the estimate that the case chose, s; not for the global one.
 std::vector<double> own_steps(const Model& model);
 
+/// The same by its highest eigenvalue: whatever its neighbours are, free surfaces too, it is stable with that.
+std::vector<double> safe_steps(const Model& model);
+
 /// Speed of the fastest initial motion, turning left out, m/s: what bodies that hit at the beginning hit with.
 double largest_initial_speed(const scene::Scene& scene);
 

@@ -4,11 +4,11 @@
 
 namespace railwave::verify {
 
-/// Planes of a bar along x, graded from 30 mm down to 1 mm in its middle and back, m.
-inline std::vector<double> graded_planes(int coarse, int fine) {
+/// Planes of a bar along x, graded from `largest` down to 1 mm in its middle and back, m.
+inline std::vector<double> graded_planes(int coarse, int fine, double largest) {
   std::vector<double> half;
-  for (double h = 1e-3; h < 30e-3; h *= 1.1) half.push_back(h);
-  half.insert(half.end(), coarse, 30e-3);
+  for (double h = 1e-3; h < largest; h *= 1.1) half.push_back(h);
+  half.insert(half.end(), coarse, largest);
   std::vector<double> sizes(half.rbegin(), half.rend());
   sizes.insert(sizes.end(), fine, 1e-3);
   sizes.insert(sizes.end(), half.begin(), half.end());
@@ -17,15 +17,15 @@ inline std::vector<double> graded_planes(int coarse, int fine) {
   return x;
 }
 
-/// The bar as a scene and its assembly: elements of 30 mm across, `across` by `across` of them.
+/// The bar as a scene and its assembly: elements of the largest size across, `across` by `across` of them.
 struct GradedBar {
   std::vector<double> planes;
   scene::Scene scene;
   Assembly assembly;
 
-  GradedBar(int coarse, int fine, double end, int across = 2) : planes(graded_planes(coarse, fine)) {
+  GradedBar(int coarse, int fine, double end, int across = 2, double largest = 0.03) : planes(graded_planes(coarse, fine, largest)) {
     const int layers = static_cast<int>(planes.size()) - 1;
-    const double width = 0.03 * across;
+    const double width = largest * across;
     scene = block_scene({static_cast<double>(layers), width, width}, {layers, across, across}, end);
     set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
     scene.time.step_scale = 0.9;

@@ -54,8 +54,10 @@ void elements(const Model& model, std::vector<Cause>& causes) {
                          model.scene.parts[q].name);
     };
     if (certain) causes.push_back(Cause{"step beyond elements", fmt::format("{}: {}", who(step / stable.elements), mend), weight(step / stable.elements, true)});
-    else causes.push_back({possible_step_cause, who(ratio) + ", alone: solver.step_estimate = \"eigenvalue\" is safe for bodies one element thick",
-                           weight(ratio, false)});
+    // What the assembled elements have vouched for is no cause.
+    else if (step > stable.by_elements)
+      causes.push_back({possible_step_cause, who(ratio) + ", alone: solver.step_estimate = \"eigenvalue\" is safe for bodies one element thick",
+                        weight(ratio, false)});
   }
 }
 

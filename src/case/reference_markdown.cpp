@@ -71,11 +71,16 @@ end = 1e-3
 | mesh | node sets | surfaces | element sets |
 |---|---|---|---|
 | `box` | `x_min`, `x_max`, `y_min`, `y_max`, `z_min`, `z_max` | the same six | |
+| `crowned_block` | `x_min`, `x_max`, `y_min`, `y_max`, `bottom`, `top` | the same six, `zone` | |
+| `roller` | `y_min`, `y_max`, `tread`, `bore`; unless it is a ring, `arc_min`, `arc_max` | the same, `zone` | |
+| `cylinder` | `z_min`, `z_max`, `skin` | the same three | |
 | `wheel` | `bore`, `centre_section` | `tread`, `running_surface` | `zone` |
-| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `start_face`, `end_face` | `zone` |
+| `wheelset` | as `wheel`, `middle` | as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the axle | `zone`, `wheel`, `axle` |
+| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `fishing_left`, `fishing_right`, `start_face`, `end_face` | `zone` |
 
 `tread` and `head` are where bodies usually touch: the contact band over the solution zone, and a margin around it.
-`running_surface` goes all along the wheel or rail; `zone` is the solution zone; `centre_section` is the wheel's plane x = 0
+`running_surface` goes all along the wheel or rail; `zone` is the solution zone; `middle` is where a half wheelset ends, a whole one's sets
+are also there by halves, as `left_tread` and `right_tread`; `centre_section` is the wheel's plane x = 0
 below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names. `[node_sets.NAME]` makes
 more of them, of the nodes in a box or near a place. A surface is a set of its nodes too.
 

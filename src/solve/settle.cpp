@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "case/error.hpp"
-#include "kernels/block_sum.hpp"
+#include "kernels/reductions.hpp"
 #include "kernels/relaxation.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
@@ -87,8 +87,7 @@ struct Unbalance {
     const NodeArrays& nodes = update.acceleration.force.nodes;
     if (update.relaxation_mass(n) > 1e299) return;  // held
     sum[0] += norm(row(update.unbalanced, n));
-    Vector3 applied = nodes.mass(n) * (update.acceleration.gravity + row(update.body_acceleration, n));
-    sum[1] += norm(applied);
+    sum[1] += nodes.mass(n) * norm(update.acceleration.gravity + centrifugal_share * row(update.body_acceleration, n));
     sum[1] += norm(update.acceleration.force.extra_force(n));
   }
 };
@@ -133,7 +132,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
     if (model.beams) relax_rotations(model, local_damping);
     if (report.steps % steps_between_peaks == 0) {
       double energy = 0;
-      block_sum(RelaxationEnergy{update}, model.nodes.count, &energy);
+      block_sum(RelaxationEnergy{update}, model.nodes.count, &energy, *model.reduction_space);
       if (model.beams) energy += relaxation_state(model).energy;
       if (energy < energy_before) {
         Kokkos::deep_copy(model.nodes.velocity, 0.0);
@@ -144,7 +143,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
     }
     if (report.steps % steps_between_checks != 0 || report.steps == 0) continue;
     double sum[2];
-    block_sum(Unbalance{update}, model.nodes.count, sum);
+    block_sum(Unbalance{update}, model.nodes.count, sum, *model.reduction_space);
     if (model.beams) {
       const BeamRelaxationState beams = relaxation_state(model);
       sum[0] += beams.unbalanced;

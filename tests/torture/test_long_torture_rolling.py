@@ -23,7 +23,7 @@ GRAVITY, SPRUNG = 9.81, 106929.0
 def run(what, end, options):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "rolling.h5")
-        told = program("run", {**COARSE, "settle.method": "automatic", "settle.tolerance": 1e-4, "settle.cache": "false", "time.end": end,
+        told = program("run", {**COARSE, "settle.cache": "false", "time.end": end,
                                "output.file": results, "output.history_interval": end / 200, "output.field_interval": end, **options},
                        capture_output=True, text=True).stdout
         with h5py.File(results, "r") as file:

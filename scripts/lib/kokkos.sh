@@ -108,6 +108,7 @@ setup_kokkos() {
 
     prefix="$deps_dir/kokkos-$version"
     say "building Kokkos $version with OpenMP into ${prefix#"$project_root"/}"
+    mkdir -p "$deps_dir"
     rm -rf "$prefix" "$deps_dir/kokkos-build"
     build_kokkos "$source" "$deps_dir/kokkos-build" "$prefix" "${options[@]}"
     echo "${RAILWAVE_KOKKOS_SOURCE:-Debian trilinos}" >"$prefix/built-from"

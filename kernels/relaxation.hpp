@@ -4,10 +4,6 @@
 
 namespace railwave {
 
-/// Share of the centrifugal forces that counts among the forces by which an unbalance is judged: they balance within the body that
-/// turns, and a fast one's would hide what its contacts lack. Some must count: elements round off in proportion to them.
-inline constexpr double centrifugal_share = 0.01;
-
 /// One step towards static equilibrium by dynamic relaxation with local damping (Cundall 1987): masses scaled so that
 /// every element has the same stable step (one unit of pseudo-time), and a damping force on each degree of freedom that is
 /// a fraction of its unbalanced force, against its velocity; it vanishes with the unbalance, so the rest state is exact.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/beam_rotation.hpp"
-#include "kernels/relaxation.hpp"
 #include "kernels/tangent.hpp"
 #include "kernels/tie.hpp"
 
@@ -64,15 +63,13 @@ struct StaticMoment {
   }
 };
 
-/// Sums of |unbalanced force|, and of |applied and contact force| with those of beams and ties; see centrifugal_share.
+/// Sums of |unbalanced force|, and of |applied and contact force| with those of beams and ties.
 struct StaticUnbalance {
   static constexpr int values = 2;
   StaticResidual residual;
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
     sum[0] += norm(row(residual.residual, n));
-    const NodalAcceleration& acceleration = residual.acceleration;
-    const Vector3 body = acceleration.gravity + centrifugal_share * row(residual.body_acceleration, n);
-    sum[1] += acceleration.force.nodes.mass(n) * norm(body) + norm(acceleration.force.extra_force(n));
+    sum[1] += norm(residual.body_force(n)) + norm(residual.acceleration.force.extra_force(n));
   }
 };
 

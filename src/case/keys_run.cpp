@@ -30,7 +30,7 @@ Section settle_section() {
           "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held; `automatic` is "
           "Newton's method, and relaxation from the start again where that does not settle")
           .one_of({"automatic", "newton", "relaxation"}),
-      key("tolerance", &Settle::tolerance, "residual over applied force, of centrifugal ones a hundredth, at which it counts as settled")
+      key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),
       key("friction", &Settle::friction,

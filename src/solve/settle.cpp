@@ -87,7 +87,8 @@ struct Unbalance {
     const NodeArrays& nodes = update.acceleration.force.nodes;
     if (update.relaxation_mass(n) > 1e299) return;  // held
     sum[0] += norm(row(update.unbalanced, n));
-    sum[1] += nodes.mass(n) * norm(update.acceleration.gravity + centrifugal_share * row(update.body_acceleration, n));
+    Vector3 applied = nodes.mass(n) * (update.acceleration.gravity + row(update.body_acceleration, n));
+    sum[1] += norm(applied);
     sum[1] += norm(update.acceleration.force.extra_force(n));
   }
 };

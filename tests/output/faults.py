@@ -72,6 +72,11 @@ def faulty_disk():
     return library
 
 
+def sanitized():
+    """Whether the program is built with AddressSanitizer, which takes address space without end for itself."""
+    return b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
+
+
 def limited(kind, value):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -95,6 +100,8 @@ class Folder(unittest.TestCase):
         if faults:
             environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(faulty_disk()))
             environment.setdefault("FAULTY_FOLDER", str(self.folder))
+            # AddressSanitizer would else insist on being loaded first.
+            environment["ASAN_OPTIONS"] = ":".join(filter(None, [environment.get("ASAN_OPTIONS"), "verify_asan_link_order=0"]))
         run = subprocess.Popen([*before, PROGRAM, *arguments], cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                text=True, **options)
         self.addCleanup(run.communicate)

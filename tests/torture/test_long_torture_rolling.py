@@ -20,10 +20,33 @@ COARSE = {"meshes.wheel.zone_size": 0.004, "meshes.rail.zone_size": 0.004, "mesh
 GRAVITY, SPRUNG = 9.81, 106929.0
 
 
+def rise_of_wheel():
+    """How far the centre of mass of the wheel's mesh lies above its axis, m: far from the contact its cells cut circles' chords."""
+    with tempfile.TemporaryDirectory() as folder:
+        model = os.path.join(folder, "model.h5")
+        program("mesh", {**COARSE}, "--out", model, capture_output=True)
+        with h5py.File(model, "r") as file:
+            x, cells = file["parts/wheel/coordinates"][:], file["parts/wheel/connectivity"][:]
+    sign = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
+    volume, moment = 0, 0
+    for point in sign / np.sqrt(3):
+        shape = np.prod(1 + sign * point, axis=1) / 8
+        slope = np.stack([sign[:, i] * np.prod(np.delete(1 + sign * point, i, 1), axis=1) / 8 for i in range(3)], 1)
+        part = np.linalg.det(np.einsum("eni,nj->eij", x[cells], slope))
+        volume, moment = volume + part.sum(), moment + (part * (x[cells][:, :, 2] @ shape)).sum()
+    # The axis: the middle of the circle on which the bore's nodes lie.
+    around, middle = x[:, [0, 2]], np.array([0, moment / volume])
+    for _ in range(5):
+        radius = np.hypot(*(around - middle).T)
+        bore = around[radius < radius.min() + 0.002]
+        middle = np.linalg.lstsq(np.c_[2 * bore, np.ones(len(bore))], (bore**2).sum(1), rcond=None)[0][:2]
+    return moment / volume - middle[1]
+
+
 def run(what, end, options):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "rolling.h5")
-        told = program("run", {**COARSE, "settle.cache": "false", "time.end": end,
+        told = program("run", {**COARSE, "settle.method": "automatic", "settle.tolerance": 1e-3, "settle.cache": "false", "time.end": end,
                                "output.file": results, "output.history_interval": end / 200, "output.field_interval": end, **options},
                        capture_output=True, text=True).stdout
         with h5py.File(results, "r") as file:
@@ -33,11 +56,14 @@ def run(what, end, options):
             vertical = (history["contact/tread/normal_force"][:] + history["contact/tread/tangential_force"][:])[:, 2]
             energy = {name: history["energy"][name][:] for name in history["energy"]}
     mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", program("check", COARSE, capture_output=True, text=True).stdout).group(1))
+    turning = options.get("initial_motion.roll.angular_velocity", [0, 60.41, 0])[1]
     sprung = -options.get("connectors.primary_suspension.preload", [0, 0, -SPRUNG])[2]
-    weight = mass * GRAVITY + sprung
+    unbalance = mass * turning**2 * rise_of_wheel()
+    weight = mass * GRAVITY + sprung - unbalance
     error = np.abs(energy["balance_error"]).max()
     elastic = (energy["internal"] + energy["contact"]).max()
-    print(f"{what}: {steps} steps, mean vertical contact force {vertical.mean():.0f} N, from {vertical.min():.0f} to {vertical.max():.0f}, load {weight:.0f} N")
+    print(f"{what}: {steps} steps, mean vertical contact force {vertical.mean():.0f} N, from {vertical.min():.0f} to {vertical.max():.0f}, load {weight:.0f} N "
+          f"({unbalance:.0f} N taken off: the wheel's mesh is not quite balanced)")
     for line in told.splitlines():
         if "warning" in line.lower():
             print("  " + line.strip())

@@ -9,10 +9,10 @@ CASE = os.path.join(SOURCE, "cases", "rolling.toml")
 failures = []
 
 
-def program(command, case_options=None, **how):
-    """Runs a command of the program on the rolling case, with values in place of the case's own."""
+def program(command, case_options=None, *more, **how):
+    """Runs a command of the program on the rolling case, with values in place of the case's own and more arguments."""
     options = [word for key, value in (case_options or {}).items() for word in ("--set", f"{key}={value}")]
-    return subprocess.run([PROGRAM, command, CASE, *options], check=True, **how)
+    return subprocess.run([PROGRAM, command, CASE, *options, *more], check=True, **how)
 
 
 def show(what, figure, limit):

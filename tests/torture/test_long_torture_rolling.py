@@ -21,7 +21,7 @@ GRAVITY, SPRUNG = 9.81, 106929.0
 
 
 def rise_of_wheel():
-    """How far the centre of mass of the wheel's mesh lies above its axis, m: far from the contact its cells cut circles' chords."""
+    """How far the centre of mass of the wheel's mesh lies above its axis, m."""
     with tempfile.TemporaryDirectory() as folder:
         model = os.path.join(folder, "model.h5")
         program("mesh", {**COARSE}, "--out", model, capture_output=True)

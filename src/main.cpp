@@ -21,6 +21,7 @@
 #include "post/contact_command.hpp"
 #include "signal_options.hpp"
 #include "solve/time_loop.hpp"
+#include "sudden_exit.hpp"
 
 namespace railwave {
 namespace {
@@ -203,6 +204,7 @@ int dispatch(int argc, char** argv) {
 int main(int argc, char** argv) {
   // One thread stays on one core; Kokkos warns when nobody says.
   setenv("OMP_PROC_BIND", "false", 0);
+  const railwave::NoSuddenExit no_sudden_exit;
   try {
     return railwave::dispatch(argc, argv);
   } catch (const railwave::InputError& error) {

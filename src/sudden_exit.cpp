@@ -17,7 +17,8 @@ void tell() {
   constexpr const char* text =
       "railwave: out of memory: a library found none and ended the program; take a coarser mesh or fewer outputs, or see what else takes memory; "
       "a run that had written a checkpoint goes on from it with --restart\n";
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) _exit(1);
+  const auto written = write(STDERR_FILENO, text, std::strlen(text));
+  static_cast<void>(written);
   _exit(1);
 }
 

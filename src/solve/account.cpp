@@ -365,8 +365,9 @@ HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>
   if (by_part != nullptr) share_out_all(model, *by_part);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactPair& pair = model.contacts[c];
+    if (pair.reversed) continue;
     if (pair.partner >= 0) add_other_half(pairs[c], pairs[pair.partner]);
-    if (!pair.reversed) sample.contacts.push_back(pairs[c]);
+    sample.contacts.push_back(pairs[c]);
   }
   return sample;
 }

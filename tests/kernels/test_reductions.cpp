@@ -1,5 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <limits>
 
 #include "kernels/reductions.hpp"
 #include "model/host_copy.hpp"
@@ -18,11 +19,24 @@ struct Powers {
   }
 };
 
-struct Number {
-  static constexpr int values = 1;
+/// A number and its negative.
+struct Signed {
+  static constexpr int values = 2;
   Array<const double*> number;
-  KOKKOS_INLINE_FUNCTION void operator()(int i, double* value) const { value[0] = number(i); }
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double* value) const {
+    value[0] = number(i);
+    value[1] = -number(i);
+  }
 };
+
+Largest<2> largest_of(const std::vector<double>& numbers) {
+  Largest<2> found;
+  ReductionSpace space;
+  Reductions looks(space);
+  looks.largest(Signed{to_device("numbers", numbers)}, static_cast<int>(numbers.size()), [&](const Largest<2>& of) { found = of; });
+  looks.fetch();
+  return found;
+}
 
 }  // namespace
 
@@ -37,7 +51,7 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
     for (int i = 0; i < counts[c]; ++i) list.push_back(std::sin(1.0 + i) / 3);
     numbers.push_back(to_device("numbers", list));
     queue.sum(Powers{numbers[c]}, counts[c], [&sums, c](const double* sum) { std::copy(sum, sum + 2, &sums[2 * c]); });
-    queue.largest(Number{numbers[c]}, counts[c], [&largest, c](const Largest<1>& of) { largest[c] = of.place[0] < 0 ? 0 : of.value[0]; });
+    queue.largest(Signed{numbers[c]}, counts[c], [&largest, c](const Largest<2>& of) { largest[c] = of.place[0] < 0 ? 0 : of.value[0]; });
   }
   queue.fetch();
   for (std::size_t c = 0; c < counts.size(); ++c) {
@@ -60,4 +74,25 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
   queue.fetch();
   queue.fetch();
   CHECK(asked == 1);
+}
+
+TEST_CASE("of equal values the lowest item is told, and what is no number is the largest") {
+  for (int count : {1, 31, 32, 33, 5000}) {
+    std::vector<double> numbers(count);
+    for (int i = 0; i < count; ++i) numbers[i] = (i * 7) % 13;
+    auto found = largest_of(numbers);
+    int first = 0, least = 0;
+    for (int i = 0; i < count; ++i) {
+      if (numbers[i] > numbers[first]) first = i;
+      if (numbers[i] < numbers[least]) least = i;
+    }
+    CHECK(found.place[0] == first);
+    CHECK(found.value[0] == numbers[first]);
+    CHECK(found.place[1] == least);
+    numbers[count / 2] = std::nan("");
+    found = largest_of(numbers);
+    CHECK(found.place[0] == count / 2);
+    CHECK(found.value[0] == std::numeric_limits<double>::infinity());
+  }
+  CHECK(largest_of({}).place[0] == -1);
 }

@@ -3,6 +3,7 @@
 
 A coarser mesh than the case's own. Prints every figure.
 """
+import functools
 import os
 import re
 import sys
@@ -20,11 +21,12 @@ COARSE = {"meshes.wheel.zone_size": 0.004, "meshes.rail.zone_size": 0.004, "mesh
 GRAVITY, SPRUNG = 9.81, 106929.0
 
 
+@functools.cache
 def rise_of_wheel():
     """How far the centre of mass of the wheel's mesh lies above its axis, m."""
     with tempfile.TemporaryDirectory() as folder:
         model = os.path.join(folder, "model.h5")
-        program("mesh", {**COARSE}, "--out", model, capture_output=True)
+        program("mesh", COARSE, "--out", model, capture_output=True)
         with h5py.File(model, "r") as file:
             x, cells = file["parts/wheel/coordinates"][:], file["parts/wheel/connectivity"][:]
     sign = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <iostream>
 
 #include "case/error.hpp"
@@ -20,7 +19,10 @@
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
 #include "signal_options.hpp"
+#include "signals.hpp"
 #include "solve/time_loop.hpp"
+#include "standard_output.hpp"
+#include "steady_memory.hpp"
 #include "sudden_exit.hpp"
 
 namespace railwave {
@@ -42,13 +44,6 @@ struct Arguments {
   bool restart = false, keep_state = false;
   double wall_time = 0;  ///< s; 0: no limit
 };
-
-volatile std::sig_atomic_t signalled = 0;
-
-void on_signal(int) {
-  signalled = 1;
-  request_stop();
-}
 
 int run_case(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
@@ -74,15 +69,14 @@ int run_case(const Arguments& arguments) {
     keeping.from = &*restart.state;
   }
   Progress progress(std::cout);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  stop_on_signals();
   SettledFiles settled(RAILWAVE_VERSION);
   if (arguments.wall_time > 0)
     keeping.time_left = std::max(1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
-  return signalled != 0 ? interrupted : run_ended_early;
+  return was_signalled() ? interrupted : run_ended_early;
 }
 
 int check_case(const Arguments& arguments) {
@@ -198,20 +192,28 @@ int dispatch(int argc, char** argv) {
   return code;
 }
 
+int work(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << "railwave: " << error.what() << '\n';
+    return wrong_input;
+  } catch (const std::exception& error) {
+    std::cerr << "railwave: " << (is_out_of_memory(error) ? out_of_memory(error) : error.what()) << '\n';
+    return failed;
+  }
+}
+
 }  // namespace
 }  // namespace railwave
 
 int main(int argc, char** argv) {
+  railwave::keep_standard_descriptors();
+  railwave::end_on_signals();
   // One thread stays on one core; Kokkos warns when nobody says.
   setenv("OMP_PROC_BIND", "false", 0);
   const railwave::NoSuddenExit no_sudden_exit;
-  try {
-    return railwave::dispatch(argc, argv);
-  } catch (const railwave::InputError& error) {
-    std::cerr << "railwave: " << error.what() << '\n';
-    return railwave::wrong_input;
-  } catch (const std::exception& error) {
-    std::cerr << "railwave: " << (railwave::is_out_of_memory(error) ? railwave::out_of_memory(error) : error.what()) << '\n';
-    return railwave::failed;
-  }
+  railwave::steady_memory();
+  railwave::StandardOutput standard_output;
+  return standard_output.end(railwave::work(argc, argv));
 }

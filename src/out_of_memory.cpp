@@ -12,18 +12,24 @@
 #include <system_error>
 
 #include "case/memory.hpp"
+#include "output/room.hpp"
+#include "steady_memory.hpp"
 
 namespace {
 
 /// What the latest refused `new` wanted; written where nothing can be allocated any more.
 std::atomic<std::size_t> refused{0};
 
+constexpr std::size_t large = std::size_t{1} << 20;  ///< bytes; what is smaller is not worth a look at what is left
+
 }  // namespace
 
 // The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs; nvcc takes these for functions of the device.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 [[gnu::noinline]] void* operator new(std::size_t size) {
-  if (void* const place = std::malloc(size ? size : 1)) return place;
+  if (size < large || railwave::leaves_room(size))
+    if (void* const place = std::malloc(size ? size : 1)) return place;
+  if (!railwave::has_begun()) railwave::end_for_want_of_memory();  // nobody is there yet to catch anything
   refused = size;
   throw std::bad_alloc();
 }
@@ -66,6 +72,7 @@ bool is_out_of_memory(const std::exception& error) {
 
 std::string out_of_memory(const std::exception& error) try {
   const std::string said = error.what();
+  if (const auto* no_room = dynamic_cast<const NoRoom*>(&error)) refused = no_room->wanted();
   const std::string wanted = said.rfind(of_kokkos, 0) == 0 ? wanted_of_kokkos(said) : refused > 0 ? bytes_text(static_cast<double>(refused)) + " more" : "more memory";
   return fmt::format("out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or \"float\", or a machine with "
                      "more; railwave check on a coarser mesh tells the bytes an element",

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "output/unfinished.hpp"
+
 namespace railwave {
 namespace {
 
@@ -14,6 +16,7 @@ std::atomic<bool> sudden{false};
 /// Allocates nothing: there may be nothing left.
 void tell() {
   if (!sudden) return;
+  remove_unfinished();
   constexpr const char* text =
       "railwave: out of memory: a library found none and ended the program; take a coarser mesh or fewer outputs, or see what else takes memory; "
       "a run that had written a checkpoint goes on from it with --restart\n";

@@ -82,6 +82,8 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
                      rigid > 0 ? fmt::format("; {} of them rigid motions", rigid) : "");
   try {
     if (request.csv) write_whole_file(*request.csv, csv_of(model, list.modes));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("the table was not written: {}", error.what()));
   }

@@ -2,6 +2,7 @@
 
 #include <exception>
 
+#include "output/room.hpp"
 #include "output/tell.hpp"
 
 namespace railwave {
@@ -28,6 +29,8 @@ void BackgroundWriter::fields(const FieldSource& source, double time, long step)
     const RunDescription& run = writer_.description();
     selection_ = std::make_shared<const FieldSelection>(select_fields(run.sets, run.fields, static_cast<int>(run.contacts.size()), source));
   }
+  // The snapshot and what is fetched for it: made only where that leaves HDF5, in its thread, what it looked for.
+  if (!leaves_room(2 * selection_->bytes() + memory_margin)) throw NoRoom(2 * selection_->bytes() + memory_margin);
   const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection_);
   thread_.add([this, snapshot, time, step] { writer_.fields(*snapshot, time, step); }, size_of_fields);
 }

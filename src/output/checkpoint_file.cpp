@@ -91,6 +91,8 @@ CheckpointFile::Found CheckpointFile::find(const std::string& run) const {
       found.state = read(name, key_, run);
       found.file = name;
       return found;
+    } catch (const std::bad_alloc&) {
+      throw;  // is no fault of the file's
     } catch (const std::exception& error) {
       found.troubles.push_back(fmt::format("{} cannot be used: {}", name, error.what()));
     }

@@ -35,6 +35,11 @@ HostField pick(const HostField& all, const std::vector<int>& place, const std::v
 
 }  // namespace
 
+std::size_t FieldSelection::bytes() const {
+  const std::size_t of_node = 3 * node_fields.size(), of_element = (stress ? 6 : 0) + (plastic_strain ? 1 : 0);
+  return sizeof(double) * (of_node * nodes.size() + of_element * elements.size());
+}
+
 FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields, int contact_count,
                              const FieldSource& source) {
   FieldSelection selection;

@@ -18,6 +18,9 @@ struct FieldSelection {
   std::vector<NodeField> node_fields;
   bool stress = false, plastic_strain = false, beams = false;
   int contact_count = 0;
+
+  /// Of the fields of nodes and elements in a snapshot.
+  std::size_t bytes() const;
 };
 
 /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. The contacts' nodes are taken from `source`.

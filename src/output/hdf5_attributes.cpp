@@ -1,8 +1,14 @@
 #include <stdexcept>
 
 #include "output/hdf5_parts.hpp"
+#include "output/room.hpp"
 
 namespace railwave::hdf5 {
+namespace {
+
+constexpr std::size_t copies_of_text = 4;  ///< that HDF5 makes of a text on its way
+
+}  // namespace
 
 Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) const {
   const std::string what = "writing attribute " + name + " of " + name_;
@@ -18,18 +24,21 @@ Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) co
 }
 
 void Group::set_attribute(const std::string& name, double value) const {
+  expect_room();
   const Handle space = space_of({});
   const Handle attribute = new_attribute(name, H5T_NATIVE_DOUBLE, space.get());
   check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value), "writing attribute " + name);
 }
 
 void Group::set_attribute(const std::string& name, long value) const {
+  expect_room();
   const Handle space = space_of({});
   const Handle attribute = new_attribute(name, H5T_NATIVE_LONG, space.get());
   check(H5Awrite(attribute.get(), H5T_NATIVE_LONG, &value), "writing attribute " + name);
 }
 
 void Group::set_attribute(const std::string& name, const std::string& value) const {
+  expect_room(copies_of_text * value.size());
   const Handle space = space_of({}), type = text_type();
   const Handle attribute = new_attribute(name, type.get(), space.get());
   const char* text = value.c_str();
@@ -37,6 +46,9 @@ void Group::set_attribute(const std::string& name, const std::string& value) con
 }
 
 void Group::set_attribute(const std::string& name, const std::vector<std::string>& values) const {
+  std::size_t length = 0;
+  for (const std::string& value : values) length += value.size() + sizeof(value);
+  expect_room(copies_of_text * length);
   const Handle space = space_of({values.size()}), type = text_type();
   const Handle attribute = new_attribute(name, type.get(), space.get());
   if (values.empty()) return;
@@ -45,9 +57,13 @@ void Group::set_attribute(const std::string& name, const std::vector<std::string
   check(H5Awrite(attribute.get(), type.get(), texts.data()), "writing attribute " + name);
 }
 
-bool Group::has_attribute(const std::string& name) const { return check(H5Aexists(id_.get(), name.c_str()), "looking for attribute " + name) > 0; }
+bool Group::has_attribute(const std::string& name) const {
+  expect_room();
+  return check(H5Aexists(id_.get(), name.c_str()), "looking for attribute " + name) > 0;
+}
 
 double Group::number_attribute(const std::string& name) const {
+  expect_room();
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
   const Handle space(check(H5Aget_space(attribute.get()), what), H5Sclose);
@@ -58,6 +74,7 @@ double Group::number_attribute(const std::string& name) const {
 }
 
 std::string Group::text_attribute(const std::string& name) const {
+  expect_room();
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
   const Handle stored(check(H5Aget_type(attribute.get()), what), H5Tclose);

@@ -2,10 +2,12 @@
 
 #include "case/memory.hpp"
 #include "output/hdf5_parts.hpp"
+#include "output/room.hpp"
 
 namespace railwave::hdf5 {
 
 Shape Dataset::shape() const {
+  expect_room();
   const Handle space = file_space(id_.get(), name_);
   Shape result(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_));
   if (!result.empty()) check(H5Sget_simple_extent_dims(space.get(), result.data(), nullptr), "asking for the shape of " + name_);
@@ -34,6 +36,7 @@ std::vector<T> Dataset::read() const {
   expect_memory(static_cast<double>(count) * sizeof(T), name_ + ": has " + std::to_string(count) + " values, which need", "see whether the file is whole");
   std::vector<T> values(count);
   if (values.empty()) return values;
+  expect_room();
   check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
   return values;
 }
@@ -47,6 +50,7 @@ std::vector<T> Dataset::read_row(hsize_t row) const {
   block[0] = 1;
   std::vector<T> values(count_of(block));
   if (values.empty()) return values;
+  expect_room();
   const Handle space = file_space(id_.get(), name_);
   check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), "reading " + name_);
   const Handle memory = space_of(block);

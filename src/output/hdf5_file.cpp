@@ -4,13 +4,14 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
 #include "output/disk.hpp"
 #include "output/hdf5_journal.hpp"
 #include "output/hdf5_parts.hpp"
+#include "output/room.hpp"
+#include "output/unfinished.hpp"
 
 namespace railwave::hdf5 {
 namespace {
@@ -49,6 +50,15 @@ Handle access_by_journal(const std::string& what) {
   return access;
 }
 
+/// Bytes that flushing a file may take: its structure is put together, then gathered into a journal, in order, and with its frame.
+std::size_t need_of_flush(hid_t file) {
+  std::size_t most = 0, least = 0, size = 0;
+  int entries = 0;
+  if (H5Fget_mdc_size(file, &most, &least, &size, &entries) < 0) return 0;
+  constexpr std::size_t copies = 8;
+  return copies * size;
+}
+
 }  // namespace
 
 std::string reason() {
@@ -58,7 +68,10 @@ std::string reason() {
   return words[0] == 0 ? "HDF5 gives no reason" : words.data();
 }
 
-void be_quiet() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void be_quiet() {
+  expect_room();  // HDF5 keeps something for each thread
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this != &other) {
@@ -70,24 +83,21 @@ Handle& Handle::operator=(Handle&& other) noexcept {
 }
 
 void Handle::close() noexcept {
+  const hid_t id = release();
+  if (id < 0 || !room_to_close()) return;
   // A file that was closed has closed what was open in it; asked again, HDF5 notes an error that a thread never clears.
-  if (id_ >= 0 && H5Iis_valid(id_) > 0) closer_(id_);
-  id_ = -1;
+  if (H5Iis_valid(id) <= 0) return;
+  // What can't be closed for want of memory is left as by a kill: as it was flushed last.
+  if (closer_ == H5Fclose && !room_to_close(need_of_flush(id))) return;
+  closer_(id);
 }
 
 namespace {
 
-/// HDF5 1.10 takes some megabytes for a file that it opens, and goes on with nothing where it does not get them. Here their lack
-/// is a std::bad_alloc.
-void expect_room() {
-  constexpr std::size_t enough = 8 << 20;
-  operator delete(operator new(enough));
-}
-
 void before_a_file() {
+  expect_room();
   stay_out_of_exit();
   be_quiet();
-  expect_room();
 }
 
 }  // namespace
@@ -98,6 +108,7 @@ File File::create(const std::string& path) {
   const Handle access = access_by_journal(what);
   File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, path);
   file.name_ = Name::unfinished;
+  note_unfinished(beside);
   return file;
 }
 
@@ -134,22 +145,36 @@ File::~File() { abandon(); }
 
 void File::abandon() noexcept {
   id_.close();
-  if (name_ == Name::unfinished) unlink((path_ + unfinished).c_str());
+  if (name_ == Name::unfinished) {
+    unlink((path_ + unfinished).c_str());
+    forget_unfinished(path_ + unfinished);
+  }
   name_ = Name::own;
 }
 
-Group File::root() const { return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_}; }
+Group File::root() const {
+  expect_room();
+  return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_};
+}
 
-void File::flush() const { check(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL), "writing " + path_); }
+void File::flush() const {
+  expect_room();
+  expect_room(need_of_flush(id_.get()));
+  check(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL), "writing " + path_);
+}
 
 void File::take_name() {
   if (name_ == Name::own) return;
   name_ = Name::own;  // what is there stays, whatever comes
+  forget_unfinished(path_ + unfinished);
   if (rename((path_ + unfinished).c_str(), path_.c_str()) != 0)
     throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " + path_ + unfinished);
 }
 
-std::string File::keep_name() const { return name_ == Name::own ? hdf5::keep_name(id_.get(), path_) : std::string(); }
+std::string File::keep_name() const {
+  expect_room();
+  return name_ == Name::own ? hdf5::keep_name(id_.get(), path_) : std::string();
+}
 
 void File::close(const std::function<void()>& before_naming) {
   if (!is_open()) return;

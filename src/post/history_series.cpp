@@ -165,6 +165,8 @@ HistorySeries read_history(const ResultsReader& results, const HistoryRequest& r
     return read(results, request);
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: histories: {}", results.path(), error.what()));
   }

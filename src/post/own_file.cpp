@@ -16,6 +16,8 @@ bool is_of(const OwnFormat& format, const std::string& path) {
   try {
     const hdf5::File file = hdf5::File::open(path);
     return file.root().has_attribute("format") && file.root().text_attribute("format") == format.name;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {
     return false;
   }
@@ -43,6 +45,8 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
     root.set_attribute("title", results.title());
     fill(root);
     file.close();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{} was not written: {}", path, error.what()));
   }
@@ -59,6 +63,8 @@ void write_table(const std::string& path, const std::string& text) {
     throw InputError(fmt::format("{} is an HDF5 file, which would be lost: name another for the table", path));
   try {
     write_whole_file(path, text);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("the table was not written: {}", error.what()));
   }

@@ -66,6 +66,8 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
       throw InputError(fmt::format("{} was written by a newer program ({}), in a format that this one does not know", path, root.text_attribute("program")));
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     const std::string reason = error.what();
     if (reason.find("truncated") != std::string::npos)
@@ -81,6 +83,8 @@ std::string ResultsReader::reason() const { return file_.root().text_attribute("
 std::vector<std::string> ResultsReader::contacts() const {
   try {
     return file_.root().group("contact").names();
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
   }
@@ -89,6 +93,8 @@ std::vector<std::string> ResultsReader::contacts() const {
 hdf5::Group ResultsReader::history() const {
   try {
     return file_.root().group("history");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
   }
@@ -97,6 +103,8 @@ hdf5::Group ResultsReader::history() const {
 std::string ResultsReader::slave_surface(const std::string& contact) const {
   try {
     return file_.root().group("contact").group(contact).group("slave").text_attribute("surface");
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
   }
@@ -117,6 +125,8 @@ std::vector<double> ResultsReader::contact_times(const std::string& contact) con
     if (group.group("slave").has("friction")) complete = std::min<std::size_t>(complete, group.group("slave").dataset("friction").shape().at(0));
     times.resize(complete);
     return times;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
   }
@@ -144,6 +154,8 @@ std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set,
     return result;
   } catch (const InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: history of set '{}': {}", path_, set, error.what()));
   }
@@ -168,6 +180,8 @@ ContactState ResultsReader::contact_state(const std::string& contact, std::size_
         (!state.friction_now.empty() && state.friction_now.size() != count))
       throw std::runtime_error("an array has another length than the nodes");
     return state;
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: contact '{}', output time {}: {}", path_, contact, index, error.what()));
   }

@@ -6,38 +6,23 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include "case/error.hpp"
 #include "case/read_case.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace railwave::test {
 
 /// A case file that lives as long as this object.
 class TemporaryCase {
  public:
-  explicit TemporaryCase(const std::string& text) {
-    static int count = 0;
-    folder_ = std::filesystem::temp_directory_path() /
-              ("railwave_case_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(folder_);
-    write("case.toml", text);
-  }
-  ~TemporaryCase() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  TemporaryCase(const TemporaryCase&) = delete;
-  TemporaryCase& operator=(const TemporaryCase&) = delete;
+  explicit TemporaryCase(const std::string& text) { write("case.toml", text); }
 
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-  std::filesystem::path folder() const { return folder_; }
-  std::string path() const { return (folder_ / "case.toml").string(); }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
+  std::filesystem::path folder() const { return folder_.path(); }
+  std::string path() const { return folder_ / "case.toml"; }
 
  private:
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
 };
 
 /// What InputError says when the file is read; "" when it is read without one.

@@ -6,12 +6,11 @@
 #include <fstream>
 #include <set>
 
-#include <unistd.h>
-
 #include "complaint.hpp"
 #include "mesh/height_map.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -22,14 +21,11 @@ namespace {
 /// A file that lives as long as this object.
 class MapFile {
  public:
-  explicit MapFile(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / ("railwave_heights_" + std::to_string(::getpid()) + ".csv")).string()) {
-    std::ofstream(path_) << text;
-  }
-  ~MapFile() { std::filesystem::remove(path_); }
+  explicit MapFile(const std::string& text) : path_(folder_.write("heights.csv", text)) {}
   const std::string& path() const { return path_; }
 
  private:
+  TemporaryFolder folder_;
   std::string path_;
 };
 

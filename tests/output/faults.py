@@ -1,6 +1,8 @@
 """What the tests of faults share: a folder with a case, runs of the program under a failing disk, without rights or memory, and the table
 of what was told, which docs/faults.md holds."""
 
+import atexit
+import functools
 import json
 import os
 import pathlib
@@ -61,14 +63,18 @@ fields = ["displacement", "velocity", "stress"]
 LONG = 0.3  # s: some minutes, so that no test sees its end; its results fit onto a small disk
 
 
-def faulty_disk():
-    """The library that makes the disk fail at a chosen call (tests/output/faulty_disk.c); without a C compiler these tests are skipped."""
+@functools.lru_cache(maxsize=None)
+def between(name):
+    """The library tests/output/NAME.c, to stand between the program and the system (LD_PRELOAD), built in a folder of this process's own;
+    without a C compiler these tests are skipped."""
     compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if not compiler:
         raise unittest.SkipTest("no C compiler")
-    library = pathlib.Path(tempfile.gettempdir()) / f"railwave-faulty-disk-{os.getpid()}.so"
-    if not library.exists():
-        subprocess.run([*compiler.split(), "-O1", "-shared", "-fPIC", "-o", library, SOURCE / "tests" / "output" / "faulty_disk.c", "-ldl"], check=True)
+    folder = tempfile.TemporaryDirectory(prefix="railwave-")
+    atexit.register(folder.cleanup)
+    os.chmod(folder.name, 0o755)  # the program may run as somebody else
+    library = pathlib.Path(folder.name) / f"{name}.so"
+    subprocess.run([*compiler.split(), "-O1", "-shared", "-fPIC", "-o", library, SOURCE / "tests" / "output" / f"{name}.c", "-ldl"], check=True)
     return library
 
 
@@ -79,9 +85,16 @@ def sanitized():
 
 def limited(kind, value):
     def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(kind, (value, value))
     return limit
+
+
+def arrays_of(results):
+    """The bytes of every dataset, by its name."""
+    found = {}
+    with h5py.File(results, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()].tobytes()}) if isinstance(item, h5py.Dataset) else None)
+    return found
 
 
 class Folder(unittest.TestCase):
@@ -98,12 +111,13 @@ class Folder(unittest.TestCase):
     def start(self, *arguments, before=(), faults=None, **options):
         environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_PROC_BIND="false", OMP_WAIT_POLICY="passive")
         if faults:
-            environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(faulty_disk()))
+            environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(between("faulty_disk")))
             environment.setdefault("FAULTY_FOLDER", str(self.folder))
             # AddressSanitizer would else insist on being loaded first.
             environment["ASAN_OPTIONS"] = ":".join(filter(None, [environment.get("ASAN_OPTIONS"), "verify_asan_link_order=0"]))
-        run = subprocess.Popen([*before, PROGRAM, *arguments], cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, **options)
+        environment.update(options.pop("environment", {}))
+        options = dict(cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) | options
+        run = subprocess.Popen([*before, PROGRAM, *arguments], **options)
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
         return run
@@ -129,10 +143,7 @@ class Folder(unittest.TestCase):
         self.assertEqual([path.name for path in self.folder.iterdir() if ".new" in path.name], [])
 
     def arrays(self):
-        found = {}
-        with h5py.File(self.results, "r") as file:
-            file.visititems(lambda name, item: found.update({name: item[()].tobytes()}) if isinstance(item, h5py.Dataset) else None)
-        return found
+        return arrays_of(self.results)
 
     def whole_run(self):
         """The arrays of the run that nothing disturbs; leaves no files."""

@@ -7,20 +7,15 @@
 
 #include "output/checkpoint_file.hpp"
 #include "output/hdf5.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / "railwave_test_checkpoint_file";
-  Folder() {
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string file() const { return (path / "run.checkpoint.h5").string(); }
+struct Folder : TemporaryFolder {
+  std::string file() const { return *this / "run.checkpoint.h5"; }
 };
 
 RunState state_at(long step) {
@@ -122,7 +117,7 @@ TEST_CASE("what a kill leaves of the next state harms nothing") {
   file.write(state_at(8), "run");
   CHECK(file.find("run").state->step == 8);
   file.remove();
-  CHECK(std::filesystem::is_empty(folder.path));
+  CHECK(std::filesystem::is_empty(folder.path()));
 }
 
 TEST_CASE("no damage is taken for a state") {

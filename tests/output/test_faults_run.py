@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is told, with the exit code, and nothing that was there is lost."""
 
+import concurrent.futures
 import pathlib
 import resource
 import signal
+import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from faults import LONG, Folder, limited, sanitized  # noqa: E402
+from faults import LONG, Folder, arrays_of, limited, sanitized  # noqa: E402
 
 
 @unittest.skipIf(sanitized(), "the address space can't be limited under AddressSanitizer")
@@ -40,21 +42,36 @@ class Memory(Folder):
         self.fail("memory was never short")
 
     def test_at_any_moment(self):
-        """The smallest memory in which the program starts, and more, until the run comes to its end: it neither hangs nor aborts nor crashes."""
-        ended, refused = False, 0
-        for megabytes in list(range(34, 80, 3)) + [200, 400, 800, 1600, 3200]:
-            run = self.start("run", "case.toml", preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
-            said, complaint = run.communicate(timeout=60)
-            if run.returncode == 127 or "error while loading shared libraries" in complaint:
-                continue  # the system's loader had too little
-            self.assertIn(run.returncode, (0, 1), f"{megabytes} MB: {complaint}")
-            refused += run.returncode == 1
-            if run.returncode == 1:
-                self.assertTrue(complaint.startswith(("railwave: ", "libgomp: ")), complaint)
-            ended = run.returncode == 0
-            if ended:
-                break
-        self.assertTrue(ended)
+        """Every limit in steps of 1 MB, from the smallest in which the program starts to where the run comes to its end: it neither hangs
+        nor aborts nor crashes, leaves no half-written file, and what it leaves can be read; at its end all is there."""
+        wanted = self.whole_run()
+        with concurrent.futures.ThreadPoolExecutor(4) as several:
+            ends = list(several.map(self.run_within, range(34, 121)))
+        for megabytes, code, complaint, arrays, half_written in ends:
+            with self.subTest(megabytes=megabytes):
+                if code == 127 or "error while loading shared libraries" in complaint:
+                    continue  # the system's loader had too little
+                self.assertIn(code, (0, 1), complaint)
+                self.assertEqual(half_written, [])
+                if code == 0:
+                    self.assertEqual(arrays, wanted)
+                else:
+                    self.assertRegex(complaint, r"(?m)^railwave: ")
+        self.assertEqual(ends[-1][1], 0, "120 MB are enough")
+
+    def run_within(self, megabytes):
+        """(megabytes, exit code, what it said on stderr, the arrays of its results, files without names) in a folder of its own."""
+        folder = self.folder / str(megabytes)
+        folder.mkdir()
+        (folder / "case.toml").write_text((self.folder / "case.toml").read_text())
+        run = self.start("run", "case.toml", cwd=folder, preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
+        try:
+            said, complaint = run.communicate(timeout=120)
+        except subprocess.TimeoutExpired:
+            run.kill()
+            return megabytes, "it hangs", "", {}, []
+        found = arrays_of(folder / "results.h5") if (folder / "results.h5").exists() else {}
+        return megabytes, run.returncode, complaint, found, [path.name for path in folder.iterdir() if ".new" in path.name]
 
 
 class DamagedCheckpoint(Folder):

@@ -24,7 +24,7 @@ void expect(std::size_t bytes) {
   munmap(place, bytes);
 }
 
-#ifndef __CUDACC__
+#if !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers have not begun then
 /// Some of the libraries that HDF5 brings, and their constructors, don't live through a lack of memory.
 void before_libraries(int, char**, char**) { expect(of_libraries); }
 [[gnu::section(".preinit_array"), gnu::used]] void (*const look_before_libraries)(int, char**, char**) = before_libraries;

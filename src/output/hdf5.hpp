@@ -60,12 +60,15 @@ class Dataset {
   std::string name_;
 };
 
-/// How a growing dataset is stored. Compressed chunks are written once and whole: a chunk that is rewritten in another
-/// size moves, and would not survive a kill between two flushes.
+/// How a growing dataset is stored. Compressed chunks are written once and whole: one that is rewritten in another size moves, and its
+/// old place is lost.
 struct Storage {
   hsize_t rows_in_chunk = 1;
   bool compressed = false;
 };
+
+/// What tells that values were damaged: a checksum with each of their chunks, or one of the whole file (see seal.hpp).
+enum class Check { by_chunk, by_seal };
 
 /// A group, or a file's root.
 class Group {
@@ -86,12 +89,14 @@ class Group {
   /// In a file opened by File::extend() these take what is there; throw if that is of another shape.
   /// Dataset of fixed shape, written at once.
   template <class T>
-  void write(const std::string& name, const std::vector<T>& values, const Shape& shape) const;
+  void write(const std::string& name, const std::vector<T>& values, const Shape& shape, Check check = Check::by_chunk) const;
 
   /// Entries of the growing dataset with the fewest in this group and those below; none: there is none.
   std::optional<hsize_t> least_entries() const;
   /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer.
   void cut(hsize_t entries) const;
+  /// Reads the last entry of each growing dataset in this group and those below: throws std::runtime_error where one is damaged.
+  void check_last() const;
 
   void set_attribute(const std::string& name, double value) const;
   void set_attribute(const std::string& name, long value) const;

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "output/call_limit.hpp"
 #include "output/hdf5_parts.hpp"
 #include "output/room.hpp"
 
@@ -59,11 +60,13 @@ void Group::set_attribute(const std::string& name, const std::vector<std::string
 
 bool Group::has_attribute(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   return check(H5Aexists(id_.get(), name.c_str()), "looking for attribute " + name) > 0;
 }
 
 double Group::number_attribute(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
   const Handle space(check(H5Aget_space(attribute.get()), what), H5Sclose);
@@ -75,6 +78,7 @@ double Group::number_attribute(const std::string& name) const {
 
 std::string Group::text_attribute(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
   const Handle stored(check(H5Aget_type(attribute.get()), what), H5Tclose);

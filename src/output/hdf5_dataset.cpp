@@ -1,10 +1,22 @@
 #include <stdexcept>
 
 #include "case/memory.hpp"
+#include "output/call_limit.hpp"
 #include "output/hdf5_parts.hpp"
 #include "output/room.hpp"
 
 namespace railwave::hdf5 {
+namespace {
+
+/// A damaged file may claim anything.
+void expect_room(const Shape& shape, std::size_t size, const std::string& name) {
+  double values = 1;
+  for (const hsize_t extent : shape) values *= static_cast<double>(extent);
+  expect_memory(values * static_cast<double>(size), name + ": has " + bytes_text(values * static_cast<double>(size)) + " in one piece, which need",
+                "see whether the file is whole");
+}
+
+}  // namespace
 
 Shape Dataset::shape() const {
   expect_room();
@@ -31,10 +43,10 @@ void Dataset::append(const T* rows, hsize_t count) {
 
 template <class T>
 std::vector<T> Dataset::read() const {
-  const hsize_t count = count_of(shape());
-  // A damaged file may claim anything.
-  expect_memory(static_cast<double>(count) * sizeof(T), name_ + ": has " + std::to_string(count) + " values, which need", "see whether the file is whole");
-  std::vector<T> values(count);
+  const LimitedCall limited;
+  const Shape extent = shape();
+  expect_room(extent, sizeof(T), name_);
+  std::vector<T> values(count_of(extent));
   if (values.empty()) return values;
   expect_room();
   check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
@@ -43,11 +55,13 @@ std::vector<T> Dataset::read() const {
 
 template <class T>
 std::vector<T> Dataset::read_row(hsize_t row) const {
+  const LimitedCall limited;
   Shape block = shape();
   if (block.empty() || row >= block[0]) throw std::runtime_error("reading " + name_ + ": it has no entry " + std::to_string(row));
   Shape start(block.size(), 0);
   start[0] = row;
   block[0] = 1;
+  expect_room(block, sizeof(T), name_);
   std::vector<T> values(count_of(block));
   if (values.empty()) return values;
   expect_room();

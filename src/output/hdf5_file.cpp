@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "output/call_limit.hpp"
 #include "output/disk.hpp"
 #include "output/hdf5_journal.hpp"
 #include "output/hdf5_parts.hpp"
@@ -46,6 +47,9 @@ Handle access_by_journal(const std::string& what) {
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
   check(H5Pset_mdc_config(access.get(), &cache), what);
+  // The superblock has a checksum from HDF5 1.8 on. That of 1.10 has a mark besides that the file is being written, by which HDF5 would
+  // refuse what a kill leaves.
+  check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_LATEST), what);
   use_journal(access.get());
   return access;
 }
@@ -58,6 +62,9 @@ std::size_t need_of_flush(hid_t file) {
   constexpr std::size_t copies = 8;
   return copies * size;
 }
+
+/// With the formats of HDF5 1.10 all structure has checksums: headers, groups, indices of chunks. Only texts have none (global heap).
+void have_checksums(hid_t file, const std::string& what) { check(H5Fset_libver_bounds(file, H5F_LIBVER_V110, H5F_LIBVER_LATEST), what); }
 
 }  // namespace
 
@@ -109,10 +116,12 @@ File File::create(const std::string& path) {
   File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, path);
   file.name_ = Name::unfinished;
   note_unfinished(beside);
+  have_checksums(file.id_.get(), what);
   return file;
 }
 
 File File::open(const std::string& path) {
+  const LimitedCall limited;
   before_a_file();
   finish_journal(path);
   return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening " + path), H5Fclose), path};
@@ -125,6 +134,7 @@ File File::extend(const std::string& path) {
   const Handle access = access_by_journal(what);
   File file({check(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.get()), what), H5Fclose}, path);
   file.extends_ = true;
+  have_checksums(file.id_.get(), what);
   return file;
 }
 

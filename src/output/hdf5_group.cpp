@@ -2,10 +2,35 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "case/memory.hpp"
+#include "output/call_limit.hpp"
 #include "output/hdf5_parts.hpp"
 #include "output/room.hpp"
 
 namespace railwave::hdf5 {
+namespace {
+
+constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
+
+/// Fletcher32 takes a chunk of zeros for sound, which is what a file system leaves of a lost block; a zlib stream, even one that is not
+/// compressed, it cannot be. Without compression all chunks of a dataset have one size.
+void add_checks(hid_t properties, bool compressed, const std::string& what) {
+  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    if (compressed) check(H5Pset_shuffle(properties), what);
+    check(H5Pset_deflate(properties, compressed ? 1 : 0), what);
+  }
+  check(H5Pset_fletcher32(properties), what);
+}
+
+/// Chunks of rows, or of parts of one where rows are long.
+Shape chunk_of(Shape shape) {
+  const hsize_t row = std::max<hsize_t>(count_of(shape) / shape[0], 1);
+  shape[0] = std::clamp<hsize_t>(largest_chunk / row, 1, shape[0]);
+  if (shape.size() > 1 && row > largest_chunk) shape[1] = std::max<hsize_t>(1, largest_chunk / (row / shape[1]));
+  return shape;
+}
+
+}  // namespace
 
 Group Group::create_group(const std::string& name) const {
   if (extends_ && has(name)) return group(name);
@@ -16,20 +41,24 @@ Group Group::create_group(const std::string& name) const {
 
 Group Group::group(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
 }
 
 Dataset Group::dataset(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose), name_ + name};
 }
 
 bool Group::has(const std::string& name) const {
   expect_room();
+  const LimitedCall limited;
   return check(H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT), "looking for " + name_ + name) > 0;
 }
 
 std::vector<std::string> Group::names() const {
+  const LimitedCall limited;
   std::vector<std::string> result;
   const H5L_iterate_t visit = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
     try {
@@ -46,7 +75,6 @@ std::vector<std::string> Group::names() const {
 
 template <class T>
 Dataset Group::create_growing(const std::string& name, const Shape& row, const Storage& storage) const {
-  constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
   const std::string what = "making " + name_ + name;
   if (extends_ && has(name)) {
     Dataset there = dataset(name);
@@ -75,16 +103,13 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
     const double nothing = std::nan("");
     check(H5Pset_fill_value(properties.get(), H5T_NATIVE_DOUBLE, &nothing), what);
   }
-  if (storage.compressed && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
-    check(H5Pset_shuffle(properties.get()), what);
-    check(H5Pset_deflate(properties.get(), 1), what);
-  }
+  add_checks(properties.get(), storage.compressed, what);
   const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   return {Handle(check(id, what), H5Dclose), name_ + name};
 }
 
 template <class T>
-void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape) const {
+void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape, Check by) const {
   const std::string what = "writing " + name_ + name;
   if (values.size() != count_of(shape)) throw std::logic_error(what + ": the number of values is not that of the shape");
   if (extends_ && has(name)) {
@@ -92,8 +117,13 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
     return;
   }
   expect_room();
-  const Handle space = space_of(shape);
-  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  const Handle space = space_of(shape), properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
+  if (by == Check::by_chunk && !values.empty() && !shape.empty()) {
+    const Shape chunk = chunk_of(shape);
+    check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
+    add_checks(properties.get(), false, what);
+  }
+  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   const Handle dataset(check(id, what), H5Dclose);
   if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
 }
@@ -130,9 +160,26 @@ void Group::cut(hsize_t entries) const {
   });
 }
 
+void Group::check_last() const {
+  const LimitedCall limited;
+  each_growing([&](hid_t id, Shape extent, const std::string& name) {
+    if (count_of(extent) == 0) return;
+    Shape start(extent.size(), 0);
+    start[0] = extent[0] - 1;
+    extent[0] = 1;
+    const Handle space = file_space(id, name);
+    check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr), "reading " + name);
+    const Handle memory = space_of(extent), type(check(H5Dget_type(id), "reading " + name), H5Tclose);
+    const double bytes = static_cast<double>(count_of(extent)) * static_cast<double>(H5Tget_size(type.get()));
+    expect_memory(bytes, name + ": has rows that need", "see whether the file is whole");
+    std::vector<char> row(static_cast<std::size_t>(bytes));
+    check(H5Dread(id, type.get(), memory.get(), space.get(), H5P_DEFAULT, row.data()), "reading " + name);
+  });
+}
+
 #define RAILWAVE_FOR_TYPE(T)                                                                          \
   template Dataset Group::create_growing<T>(const std::string&, const Shape&, const Storage&) const;  \
-  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&) const;
+  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, Check) const;
 
 RAILWAVE_FOR_TYPE(double)
 RAILWAVE_FOR_TYPE(int)

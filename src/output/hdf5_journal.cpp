@@ -71,8 +71,9 @@ bool lay(int file, const std::vector<char>& pieces) {
 int rank(const Piece& piece, const char* bytes) {
   constexpr int level_of_node = 5;
   if (piece.place == 0) return 0;
-  const bool node = piece.size > level_of_node && std::memcmp(bytes, "TREE", 4) == 0;
-  return node ? 1 + 255 - static_cast<unsigned char>(bytes[level_of_node]) : 257;
+  if (piece.size > level_of_node && std::memcmp(bytes, "TREE", 4) == 0) return 1 + 255 - static_cast<unsigned char>(bytes[level_of_node]);
+  const bool index = piece.size > 4 && (std::memcmp(bytes, "EA", 2) == 0 || std::memcmp(bytes, "FA", 2) == 0);  // extensible and fixed arrays
+  return index ? 257 : 258;
 }
 
 std::vector<char> in_order(const std::vector<char>& pieces) {
@@ -261,7 +262,8 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t place, size_t size, void* b
 herr_t write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t place, size_t size, const void* buffer) {
   JournalledFile& file = own(base);
   if (file.failed) return 0;
-  if (type == H5FD_MEM_DRAW) return disk::write_at(file.descriptor, buffer, size, static_cast<off_t>(place)) ? 0 : give_up(file, "writing");
+  // A chunk that was flushed and gets more rows is written again in its place, with another checksum: it waits like structure.
+  if (type == H5FD_MEM_DRAW && place >= file.flushed_end) return disk::write_at(file.descriptor, buffer, size, static_cast<off_t>(place)) ? 0 : give_up(file, "writing");
   return without_exceptions(file, [&] { return add_piece(file.waiting, {place, size}, buffer), 0; });
 }
 

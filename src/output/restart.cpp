@@ -15,13 +15,14 @@ struct ResultsThere {
   double completed_until = -1;  ///< s, the end of a complete run
 };
 
-ResultsThere look_into(const std::string& path) {
+ResultsThere look_into(const std::string& path, bool last_too = false) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw InputError(fmt::format("--restart: there are no results {} to add to; run the case without --restart", path));
   try {
     const hdf5::File file = hdf5::File::open(path);
     const hdf5::Group root = file.root();
+    if (last_too) root.check_last();
     if (!root.has_attribute("run")) throw std::runtime_error("no run of this version of the program wrote it");
     const bool completed = root.has_attribute("completed") && root.number_attribute("completed") != 0;
     return {root.text_attribute("run"), root.text_attribute("key"), completed ? root.number_attribute("end_time") : -1};
@@ -31,6 +32,11 @@ ResultsThere look_into(const std::string& path) {
 }
 
 }  // namespace
+
+void check_can_be_extended(const std::string& results_path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(results_path, ignored)) look_into(results_path, true);
+}
 
 Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end) {
   Restart restart;

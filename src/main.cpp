@@ -18,12 +18,15 @@
 #include "output/results_writer.hpp"
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
+#include "reading_child.hpp"
 #include "signal_options.hpp"
 #include "signals.hpp"
 #include "solve/time_loop.hpp"
+#include "stack.hpp"
 #include "standard_output.hpp"
 #include "steady_memory.hpp"
 #include "sudden_exit.hpp"
+#include "threads.hpp"
 
 namespace railwave {
 namespace {
@@ -48,7 +51,11 @@ struct Arguments {
 int run_case(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
   const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
-  const Kokkos::ScopeGuard kokkos;
+  if (arguments.restart) {
+    const std::string& file = scene.output.file;
+    if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); })) return *code;
+  }
+  const KokkosScope kokkos;
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
@@ -81,7 +88,7 @@ int run_case(const Arguments& arguments) {
 
 int check_case(const Arguments& arguments) {
   const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
-  const Kokkos::ScopeGuard kokkos;
+  const KokkosScope kokkos;
   Model model;
   build_model(scene, model);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
@@ -92,7 +99,7 @@ int check_case(const Arguments& arguments) {
 
 int write_mesh(const Arguments& arguments) {
   const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
-  const Kokkos::ScopeGuard kokkos;
+  const KokkosScope kokkos;
   Model model;
   build_model(scene, model);
   write_model_file(model, arguments.mesh_file);
@@ -107,7 +114,7 @@ int write_mesh(const Arguments& arguments) {
 
 int find_modes(const Arguments& arguments) {
   const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
-  const Kokkos::ScopeGuard kokkos;
+  const KokkosScope kokkos;
   return modes_command(scene, arguments.modes, std::cout);
 }
 
@@ -171,10 +178,10 @@ int dispatch(int argc, char** argv) {
   modes->callback([&] { code = find_modes(arguments); });
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
   add_contact_options(contact, arguments.contact);
-  contact->callback([&] { code = contact_command(arguments.contact, std::cout); });
-  add_signal_command(app, arguments.signal, [&] { code = signal_command(arguments.signal, std::cout); });
-  add_response_command(app, arguments.response, [&] { code = response_command(arguments.response, std::cout); });
-  add_decay_command(app, arguments.decay, [&] { code = decay_command(arguments.decay, std::cout); });
+  contact->callback([&] { code = in_reading_child("railwave contact", {arguments.contact.results}, [&] { return contact_command(arguments.contact, std::cout); }); });
+  add_signal_command(app, arguments.signal, [&] { code = in_reading_child("railwave signal", {arguments.signal.results}, [&] { return signal_command(arguments.signal, std::cout); }); });
+  add_response_command(app, arguments.response, [&] { code = in_reading_child("railwave frf", arguments.response.results, [&] { return response_command(arguments.response, std::cout); }); });
+  add_decay_command(app, arguments.decay, [&] { code = in_reading_child("railwave decay", arguments.decay.results, [&] { return decay_command(arguments.decay, std::cout); }); });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
   help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");
   help->callback([&] { std::cout << case_help(arguments.topic) << '\n'; });
@@ -193,6 +200,7 @@ int dispatch(int argc, char** argv) {
 }
 
 int work(int argc, char** argv) {
+  const NoSuddenExit no_sudden_exit;
   try {
     return dispatch(argc, argv);
   } catch (const InputError& error) {
@@ -212,8 +220,9 @@ int main(int argc, char** argv) {
   railwave::end_on_signals();
   // One thread stays on one core; Kokkos warns when nobody says.
   setenv("OMP_PROC_BIND", "false", 0);
-  const railwave::NoSuddenExit no_sudden_exit;
-  railwave::steady_memory();
-  railwave::StandardOutput standard_output;
-  return standard_output.end(railwave::work(argc, argv));
+  return railwave::with_enough_stack([&] {
+    railwave::steady_memory();
+    railwave::StandardOutput standard_output;
+    return standard_output.end(railwave::work(argc, argv));
+  });
 }

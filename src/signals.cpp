@@ -17,10 +17,16 @@ constexpr int of_stopping[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR
 constexpr int interrupted = 130;
 
 volatile std::sig_atomic_t running = 0, signalled = 0;
+volatile pid_t child_at_work = 0;
 
 /// Only what a handler may call.
 void on_signal(int) {
   const int before = errno;
+  if (child_at_work > 0) {
+    kill(child_at_work, SIGTERM);
+    errno = before;
+    return;
+  }
   if (running == 0) {
     remove_unfinished();
     constexpr const char* text = "railwave: interrupted before its work was done; no half-written file is left\n";
@@ -51,6 +57,8 @@ void end_on_signals() {
 }
 
 void stop_on_signals() { running = 1; }
+
+void pass_signals_to(pid_t child) { child_at_work = child; }
 
 bool was_signalled() { return signalled != 0; }
 

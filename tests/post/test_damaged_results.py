@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+"""Damaged results files: a handful of scripts/fuzz_results' damages, and those that once were findings. Each command comes to its end with
+the sound file's output or refuses with a message that names the file."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
+PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+sys.path.insert(0, str(SOURCE / "scripts"))
+try:
+    import h5py
+    from damage import sound, verdict
+    from damage.damage import Damage
+except ImportError:
+    sys.exit(77)
+
+# Numbers of damages that were findings once, and in which HDF5 crashed or came to no end.
+ONCE_FINDINGS = []
+DAMAGES = 60
+
+
+class DamagedResults(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        cls.folder = pathlib.Path(cls.temporary.name).resolve()
+        cls.seeds = sound.make(PROGRAM, cls.folder / "sound")
+        cls.commands = verdict.Commands(PROGRAM, cls.folder / "work")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def seed(self, name):
+        return next(seed for seed in self.seeds if seed.name == name)
+
+    def judged(self, number):
+        damage = Damage(number)
+        seed = damage.chance.choice(self.seeds)
+        name = damage.chance.choice(sorted(seed.commands))
+        data = damage.apply(seed.bytes)
+        outcome = self.commands.judge(seed, name, data)
+        self.assertFalse(outcome.finding, f"damage {number}, {name} on {seed.name}, {', '.join(damage.done)}: {outcome.kind}\n{outcome.text}")
+        return outcome.kind
+
+    def test_some_damages(self):
+        kinds = {self.judged(number) for number in range(7, 7 + DAMAGES)}
+        self.assertIn("refused with a message", kinds)
+        self.assertIn("as from the sound file", kinds)
+
+    def test_damages_that_once_were_findings(self):
+        for number in ONCE_FINDINGS:
+            self.judged(number)
+
+    def test_every_chunk_has_a_checksum(self):
+        def look(name, item):
+            if isinstance(item, h5py.Dataset) and item.size:
+                self.assertTrue(item.fletcher32, name)
+        for name in ("contact", "symmetric", "hammer"):
+            with h5py.File(self.seed(name).path, "r") as file:
+                file.visititems(look)
+
+    def test_a_flipped_bit_in_what_is_read_is_told(self):
+        """In each of the arrays that a command reads, and a chunk that was lost and reads as zeros."""
+        seed = self.seed("hammer")
+        with h5py.File(seed.path, "r") as file:
+            group = file["history/set/bar.row_2"]
+            chunk = file["history/set/bar.row_2/velocity"].id.get_chunk_info(0)
+            place = group["position"].id.get_chunk_info(0)
+        for at, length in ((chunk.byte_offset, chunk.size), (place.byte_offset, place.size)):
+            for damaged in (bytes([seed.bytes[at + length // 2] ^ 4]), bytes(length)):
+                data = bytearray(seed.bytes)
+                first = at if len(damaged) > 1 else at + length // 2
+                data[first : first + len(damaged)] = damaged
+                if at == place.byte_offset:
+                    answer = self.commands.run(seed, "signal speed FILE --channel bar.row_*.velocity.z", bytes(data))
+                else:
+                    answer = self.commands.run(seed, "signal psd FILE --channel bar.row_2.velocity.z", bytes(data))
+                self.assertEqual(answer.code, 2, answer.complaint)
+                self.assertIn("damaged.h5 is damaged", answer.complaint)
+
+    def test_texts_in_a_destroyed_heap(self):
+        """HDF5 crashes there (H5HG_read); texts have no checksum."""
+        seed = self.seed("hammer")
+        heap = seed.bytes.index(b"GCOL")
+        for offset in range(8, 64, 4):
+            data = bytearray(seed.bytes)
+            data[heap + offset : heap + offset + 4] = b"\xff\xff\xff\x7f"
+            outcome = self.commands.judge(seed, "frf", bytes(data))
+            self.assertFalse(outcome.finding, f"{offset}: {outcome.kind} {outcome.text}")
+
+    def test_a_restart_is_refused_before_it_computes(self):
+        """Where what was written last is damaged, to which the run would add."""
+        seed = self.seed("restart")
+        with h5py.File(seed.path, "r") as file:
+            chunk = file["history/energy/kinetic"].id.get_chunk_info(0)
+        data = bytearray(seed.bytes)
+        data[chunk.byte_offset + 100] ^= 1
+        answer = self.commands.run(seed, seed.commands["run --restart"], bytes(data))
+        self.assertEqual(answer.code, 2, answer.complaint)
+        self.assertIn("--restart: the results results.h5 cannot be added to", answer.complaint)
+        self.assertNotIn("step", answer.said)
+        self.assertEqual((self.commands.folder / "results.h5").read_bytes(), bytes(data))
+
+    def test_pictures_of_damaged_files(self):
+        seed, script = self.seed("contact"), SOURCE / "scripts" / "picture"
+        heap = seed.bytes.index(b"GCOL")
+        for what, change in (("cut short", lambda data: data[: len(data) // 2]), ("heap", lambda data: data[: heap + 8] + b"\xff" * 40 + data[heap + 48 :]),
+                             ("header", lambda data: data[:60] + b"\x55" + data[61:])):
+            path = self.folder / "picture.h5"
+            path.write_bytes(change(seed.bytes))
+            done = subprocess.run([sys.executable, script, path, "--only", "forces", "--out", self.folder / "pictures", "--program", PROGRAM], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, f"{what}: {done.stderr}")
+            self.assertIn("picture.h5", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

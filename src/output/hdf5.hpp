@@ -56,6 +56,7 @@ class Dataset {
   std::vector<T> read_row(hsize_t row) const;
 
  private:
+  Shape extent() const;  ///< shape() without a look at memory
   Handle id_;
   std::string name_;
 };

@@ -20,6 +20,10 @@ void expect_room(const Shape& shape, std::size_t size, const std::string& name) 
 
 Shape Dataset::shape() const {
   expect_room();
+  return extent();
+}
+
+Shape Dataset::extent() const {
   const Handle space = file_space(id_.get(), name_);
   Shape result(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_));
   if (!result.empty()) check(H5Sget_simple_extent_dims(space.get(), result.data(), nullptr), "asking for the shape of " + name_);
@@ -29,11 +33,12 @@ Shape Dataset::shape() const {
 template <class T>
 void Dataset::append(const T* rows, hsize_t count) {
   if (count == 0) return;
-  Shape extent = shape(), start(extent.size(), 0), block = extent;
-  start[0] = extent[0];
+  expect_room();
+  Shape whole = extent(), start(whole.size(), 0), block = whole;
+  start[0] = whole[0];
   block[0] = count;
-  extent[0] += count;
-  check(H5Dset_extent(id_.get(), extent.data()), "extending " + name_);
+  whole[0] += count;
+  check(H5Dset_extent(id_.get(), whole.data()), "extending " + name_);
   if (count_of(block) == 0) return;  // a set without entries still counts its times
   const Handle space = file_space(id_.get(), name_);
   check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr), "extending " + name_);

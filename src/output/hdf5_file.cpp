@@ -91,7 +91,9 @@ Handle& Handle::operator=(Handle&& other) noexcept {
 
 void Handle::close() noexcept {
   const hid_t id = release();
-  if (id < 0 || !room_to_close()) return;
+  // Spaces, types and properties live within a call that has looked, and closing them writes nothing.
+  const bool only_frees = closer_ == H5Sclose || closer_ == H5Tclose || closer_ == H5Pclose;
+  if (id < 0 || !(only_frees || room_to_close())) return;
   // A file that was closed has closed what was open in it; asked again, HDF5 notes an error that a thread never clears.
   if (H5Iis_valid(id) <= 0) return;
   // What can't be closed for want of memory is left as by a kill: as it was flushed last.

@@ -34,7 +34,7 @@ def limits():
 class Commands:
     """Runs commands on files in a folder of their own."""
 
-    def __init__(self, program, folder, most_seconds=120, most_memory=2e9):
+    def __init__(self, program, folder, most_seconds=300, most_memory=2e9):
         self.program, self.folder, self.most_seconds, self.most_memory = str(program), pathlib.Path(folder), most_seconds, most_memory
         self.sanitized = b"__asan_init" in pathlib.Path(program).read_bytes()
         self.sound = {}

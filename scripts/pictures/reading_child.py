@@ -38,7 +38,7 @@ def child(path, work):
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     signal.signal(signal.SIGPROF, signal.SIG_DFL)
     try:
-        signal.setitimer(signal.ITIMER_PROF, 20 + os.path.getsize(path) / 5e6)
+        signal.setitimer(signal.ITIMER_PROF, 5 + os.path.getsize(path) / 5e6)
         look_through(path)
     except OSError as error:
         if "Unable to open file" in str(error) or not os.path.isfile(path):

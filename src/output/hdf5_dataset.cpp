@@ -9,7 +9,7 @@ namespace railwave::hdf5 {
 namespace {
 
 /// A damaged file may claim anything.
-void expect_room(const Shape& shape, std::size_t size, const std::string& name) {
+void expect_claimed_memory(const Shape& shape, std::size_t size, const std::string& name) {
   double values = 1;
   for (const hsize_t extent : shape) values *= static_cast<double>(extent);
   expect_memory(values * static_cast<double>(size), name + ": has " + bytes_text(values * static_cast<double>(size)) + " in one piece, which need",
@@ -50,7 +50,7 @@ template <class T>
 std::vector<T> Dataset::read() const {
   const LimitedCall limited;
   const Shape extent = shape();
-  expect_room(extent, sizeof(T), name_);
+  expect_claimed_memory(extent, sizeof(T), name_);
   std::vector<T> values(count_of(extent));
   if (values.empty()) return values;
   expect_room();
@@ -66,7 +66,7 @@ std::vector<T> Dataset::read_row(hsize_t row) const {
   Shape start(block.size(), 0);
   start[0] = row;
   block[0] = 1;
-  expect_room(block, sizeof(T), name_);
+  expect_claimed_memory(block, sizeof(T), name_);
   std::vector<T> values(count_of(block));
   if (values.empty()) return values;
   expect_room();

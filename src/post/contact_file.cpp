@@ -8,11 +8,12 @@ namespace {
 constexpr const char* format = "Railwave contact solution";
 constexpr long format_version = 1;
 
-void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, ContactTables>>& contacts, const ResultsReader& results) {
+void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, ContactTables>>& contacts, const std::vector<std::string>& surfaces) {
   const hdf5::Group group = root.create_group("contact");
-  for (const auto& [name, tables] : contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& [name, tables] = contacts[i];
     const hdf5::Group contact = group.create_group(name);
-    contact.set_attribute("surface", results.slave_surface(name));
+    contact.set_attribute("surface", surfaces[i]);
     tables.patches.write(contact.create_group("patches"));
     tables.nodes.write(contact.create_group("nodes"));
     tables.facets.write(contact.create_group("facets"));
@@ -23,7 +24,9 @@ void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, Cont
 }  // namespace
 
 void write_contact_file(const std::string& path, const ResultsReader& results, const std::vector<std::pair<std::string, ContactTables>>& contacts) {
-  write_own_file(path, {format, format_version, "railwave contact --hdf5"}, results, [&](const hdf5::Group& root) { fill(root, contacts, results); });
+  std::vector<std::string> surfaces;  // read before anything is made: a damaged file may end this process
+  for (const auto& [name, tables] : contacts) surfaces.push_back(results.slave_surface(name));
+  write_own_file(path, {format, format_version, "railwave contact --hdf5"}, results, [&](const hdf5::Group& root) { fill(root, contacts, surfaces); });
 }
 
 }  // namespace railwave

@@ -67,14 +67,16 @@ std::vector<std::string> SignalNotes::told() const {
 HammerTest::HammerTest(const std::vector<std::string>& files, const std::string& load) {
   if (files.empty()) throw InputError("no results file was named");
   for (const std::string& file : files) results_.emplace_back(file);
-  const hdf5::Group history = results_.front().history();
-  if (history.has("set")) sets_ = history.group("set").names();
+  results_.front().damage_told([&] {
+    const hdf5::Group history = results_.front().history();
+    if (history.has("set")) sets_ = history.group("set").names();
+  });
   std::sort(sets_.begin(), sets_.end(), in_number_order);
   if (sets_.empty())
     throw InputError(fmt::format(
         "{} has the history of no set; add a section [probes.NAME] to the case, or name sets in output.history_sets",
         files.front()));
-  choose_input(load);
+  results_.front().damage_told([&] { choose_input(load), check_texts(); });
   for (const ResultsReader& results : results_) {
     const HistorySeries series =
         read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction))}});
@@ -116,18 +118,37 @@ void HammerTest::choose_input(const std::string& load) {
                                  suggestion(load, forces)));
   const hdf5::Group group = history.group("load").group(input_.load);
   input_.set = group.text_attribute("target");
-  input_.direction = Eigen::Vector3d(group.dataset("direction").read<double>().data());
+  input_.direction = read_vector(group, "direction");
+}
+
+/// Texts have no checksums in the file: a hammer is to hit a set that was made for one, and whatever made a set gave it its name.
+void HammerTest::check_texts() const {
+  const hdf5::Group group = results_.front().history().group("load").group(input_.load);
+  const bool hammer = group.number_attribute("hammer") != 0;
+  if (hammer && std::find(sets_.begin(), sets_.end(), input_.set) == sets_.end())
+    throw std::runtime_error(fmt::format("load '{}' has the target '{}', of which there is no history", input_.load, input_.set));
+  for (const std::string& set : sets_) {
+    const std::string by = asker(set), name = by.substr(std::min(by.size(), by.find(' ') + 1)), own = behind_dot(set);
+    if (by.empty()) continue;
+    const bool of_hammer = by == "hammer " + name, named = own == name || own.compare(0, name.size() + 1, name + "_") == 0;
+    if (!named || (!of_hammer && by != "probe " + name) || (hammer && set == input_.set && !of_hammer))
+      throw std::runtime_error(fmt::format("set '{}' was made by '{}', which cannot be", set, by));
+  }
 }
 
 std::string HammerTest::asker(const std::string& set) const {
-  const hdf5::Group group = results_.front().history().group("set").group(set);
-  return group.has_attribute("asked_by") ? group.text_attribute("asked_by") : std::string();
+  return results_.front().damage_told([&] {
+    const hdf5::Group group = results_.front().history().group("set").group(set);
+    return group.has_attribute("asked_by") ? group.text_attribute("asked_by") : std::string();
+  });
 }
 
 std::optional<Eigen::Vector3d> HammerTest::place(const std::string& set) const {
-  const hdf5::Group group = results_.front().history().group("set").group(set);
-  if (!group.has("position")) return std::nullopt;
-  return Eigen::Vector3d(group.dataset("position").read<double>().data());
+  return results_.front().damage_told([&]() -> std::optional<Eigen::Vector3d> {
+    const hdf5::Group group = results_.front().history().group("set").group(set);
+    if (!group.has("position")) return std::nullopt;
+    return read_vector(group, "position");
+  });
 }
 
 Eigen::Vector3d HammerTest::direction_of(const std::string& text, const std::string& asked) const {

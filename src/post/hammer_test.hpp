@@ -74,6 +74,7 @@ class HammerTest {
 
  private:
   void choose_input(const std::string& load);
+  void check_texts() const;
   Eigen::Vector3d direction_of(const std::string& text, const std::string& asked) const;
   std::vector<std::string> sets_named(const std::string& name) const;
   HammerResponse response(const std::string& set, const Eigen::Vector3d& direction, const std::string& text) const;

@@ -64,7 +64,7 @@ HistoryChannel read_mean(const hdf5::Group& history, const std::vector<ChannelPl
     for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] += values[i] / static_cast<double>(places.size());
     const hdf5::Group group = group_of(history, place);
     placed = placed && place.group == "set" && group.has("position");
-    if (placed) position += Eigen::Vector3d(group.dataset("position").read<double>().data()) / static_cast<double>(places.size());
+    if (placed) position += read_vector(group, "position") / static_cast<double>(places.size());
     owners += (owners.empty() ? "" : "+") + place.owner;
   }
   if (placed) channel.position = position;

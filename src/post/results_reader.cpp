@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -35,6 +36,7 @@ ContactSide read_side(const hdf5::Group& group, std::size_t index) {
   ContactSide side;
   side.nodes = group.dataset("nodes").read<int>();
   const std::vector<int> corners = group.dataset("facets").read<int>();
+  if (corners.size() % 4 != 0) throw std::runtime_error("a facet has no four corners");
   side.facets.resize(corners.size() / 4);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (corners[i] < 0 || corners[i] >= static_cast<int>(side.nodes.size())) throw std::runtime_error("a facet has a corner that is no node");
@@ -76,38 +78,26 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
   }
 }
 
-std::string ResultsReader::title() const { return file_.root().text_attribute("title"); }
-bool ResultsReader::completed() const { return file_.root().number_attribute("completed") != 0; }
-std::string ResultsReader::reason() const { return file_.root().text_attribute("reason"); }
+std::string ResultsReader::title() const {
+  return damage_told([&] { return file_.root().text_attribute("title"); });
+}
+bool ResultsReader::completed() const {
+  return damage_told([&] { return file_.root().number_attribute("completed") != 0; });
+}
+std::string ResultsReader::reason() const {
+  return damage_told([&] { return file_.root().text_attribute("reason"); });
+}
 
 std::vector<std::string> ResultsReader::contacts() const {
-  try {
-    return file_.root().group("contact").names();
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
-  }
+  return damage_told([&] { return file_.root().group("contact").names(); });
 }
 
 hdf5::Group ResultsReader::history() const {
-  try {
-    return file_.root().group("history");
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
-  }
+  return damage_told([&] { return file_.root().group("history"); });
 }
 
 std::string ResultsReader::slave_surface(const std::string& contact) const {
-  try {
-    return file_.root().group("contact").group(contact).group("slave").text_attribute("surface");
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("results file {} is damaged: {}", path_, error.what()));
-  }
+  return damage_told([&] { return file_.root().group("contact").group(contact).group("slave").text_attribute("surface"); });
 }
 
 std::vector<double> ResultsReader::contact_times(const std::string& contact) const {
@@ -185,6 +175,13 @@ ContactState ResultsReader::contact_state(const std::string& contact, std::size_
   } catch (const std::exception& error) {
     throw InputError(fmt::format("results file {} is damaged: contact '{}', output time {}: {}", path_, contact, index, error.what()));
   }
+}
+
+Eigen::Vector3d read_vector(const hdf5::Group& group, const std::string& name) {
+  const std::vector<double> values = group.dataset(name).read<double>();
+  if (values.size() != 3 || !std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }))
+    throw std::runtime_error(name + " is not three numbers");
+  return Eigen::Vector3d(values.data());
 }
 
 }  // namespace railwave

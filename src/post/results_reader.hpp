@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <new>
 #include <string>
 #include <vector>
 
+#include "case/error.hpp"
 #include "model/fields.hpp"
 #include "output/hdf5.hpp"
 
@@ -16,6 +18,21 @@ class ResultsReader {
   explicit ResultsReader(const std::string& path);
 
   const std::string& path() const { return path_; }
+
+  /// What `read` returns, which reads this file: what it throws becomes an InputError that names the file as damaged.
+  template <class Read>
+  auto damage_told(const Read& read) const {
+    try {
+      return read();
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw InputError("results file " + path_ + " is damaged: " + error.what());
+    }
+  }
+
   std::string title() const;
   bool completed() const;
   std::string reason() const;  ///< why not completed
@@ -42,5 +59,8 @@ class ResultsReader {
   std::string path_;
   hdf5::File file_;
 };
+
+/// A dataset of three numbers. Throws std::runtime_error if it has others.
+Eigen::Vector3d read_vector(const hdf5::Group& group, const std::string& name);
 
 }  // namespace railwave

@@ -2,9 +2,9 @@
 
 #include <sys/types.h>
 
-/// SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 (schedulers send these before a job's time is up) end the program in good order.
-/// Those that whoever started it has it ignore stay ignored (nohup, jobs in a shell's background). SIGPIPE and SIGXFSZ are ignored: what
-/// is written then is refused with EPIPE and EFBIG.
+/// SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 (schedulers send these before a job's time is up) end the
+/// program in good order. Those that whoever started it has it ignore stay ignored (nohup, jobs in a shell's
+/// background). SIGPIPE and SIGXFSZ are ignored: what is written then is refused with EPIPE and EFBIG.
 namespace railwave {
 
 /// From now on such a signal takes away what was half written, says so and ends the program with exit code 130.

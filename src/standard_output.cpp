@@ -75,7 +75,10 @@ int StandardOutput::end(int code) {
   if (failure_ == 0) return code;
   errno = failure_;
   const std::string reason = disk::reason(), mend = disk::mend();
-  std::fputs(("railwave: not all that was to go to standard output got there: " + reason + (mend.empty() ? "" : "; ") + mend + "\n").c_str(), stderr);
+  std::fputs(("railwave: not all that was to go to standard output got there: " + reason + (mend.empty() ? "" : "; ") +
+              mend + "\n")
+                 .c_str(),
+             stderr);
   return code == 0 ? 1 : code;
 }
 

@@ -5,12 +5,13 @@
 
 namespace railwave {
 
-/// Standard descriptors (0, 1, 2) that are closed when the program starts are given to a thing that can be neither written nor read:
-/// else the first file that is opened, such as one of results, would become standard output. To be called before anything is opened.
+/// Standard descriptors (0, 1, 2) that are closed when the program starts are given to a thing that can be neither
+/// written nor read: else the first file that is opened, such as one of results, would become standard output. To be
+/// called before anything is opened.
 void keep_standard_descriptors();
 
-/// While this lives std::cout goes through it to descriptor 1, and what the system refuses is remembered; the stream itself never fails,
-/// so that a run goes on. A reader that has gone (EPIPE) is no fault: nobody wants the rest.
+/// While this lives std::cout goes through it to descriptor 1, and what the system refuses is remembered; the stream
+/// itself never fails, so that a run goes on. A reader that has gone (EPIPE) is no fault: nobody wants the rest.
 class StandardOutput : public std::streambuf {
  public:
   StandardOutput();

@@ -24,10 +24,12 @@ void expect(std::size_t bytes) {
   munmap(place, bytes);
 }
 
-#if !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers have not begun then
+#if !defined(__CUDACC__) && !defined(__SANITIZE_ADDRESS__) && \
+    !defined(__SANITIZE_THREAD__)  // sanitizers have not begun then
 /// Some of the libraries that HDF5 brings, and their constructors, don't live through a lack of memory.
 void before_libraries(int, char**, char**) { expect(of_libraries); }
-[[gnu::section(".preinit_array"), gnu::used]] void (*const look_before_libraries)(int, char**, char**) = before_libraries;
+[[gnu::section(".preinit_array"), gnu::used]] void (*const look_before_libraries)(int, char**,
+                                                                                  char**) = before_libraries;
 #endif
 
 [[gnu::noinline]] void touch_stack(std::size_t bytes) {
@@ -41,7 +43,9 @@ void before_libraries(int, char**, char**) { expect(of_libraries); }
 bool has_begun() noexcept { return begun; }
 
 void end_for_want_of_memory() noexcept {
-  constexpr const char* text = "railwave: out of memory: not even the program itself finds enough to begin; see ulimit -v, ulimit -d and what else takes memory\n";
+  constexpr const char* text =
+      "railwave: out of memory: not even the program itself finds enough to begin; see ulimit -v, ulimit -d and what "
+      "else takes memory\n";
   const auto written = write(STDERR_FILENO, text, std::strlen(text));
   static_cast<void>(written);
   _exit(1);

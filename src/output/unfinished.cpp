@@ -11,7 +11,8 @@ namespace {
 
 enum State { free_place, being_changed, noted };
 
-/// A handler may not wait for a lock, nor allocate. Few files are made at once; what finds no place is left as a kill leaves it.
+/// A handler may not wait for a lock, nor allocate. Few files are made at once; what finds no place is left as a kill
+/// leaves it.
 struct Place {
   std::atomic<int> state{free_place};
   char path[4096];

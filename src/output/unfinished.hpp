@@ -2,7 +2,8 @@
 
 #include <string>
 
-/// Files that have not got their names yet (PATH.new): taken away when the program is ended by a signal, or by a library.
+/// Files that have not got their names yet (PATH.new): taken away when the program is ended by a signal, or by a
+/// library.
 namespace railwave {
 
 void note_unfinished(const std::string& path);

@@ -7,6 +7,7 @@
 
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
+#include "model/doubts.hpp"
 #include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/stages.hpp"
@@ -68,6 +69,16 @@ void describe_places(const Model& model, std::ostream& out) {
   }
 }
 
+/// What rolls, and at what rate; then all that may be a mistake.
+void describe_motions(const Model& model, std::ostream& out) {
+  for (const scene::InitialMotion& motion : model.scene.initial_motions)
+    if (motion.rolling) {
+      const Vec3& w = motion.angular_velocity;
+      out << fmt::format("[initial_motion.{}] rolls at [{:.6g}, {:.6g}, {:.6g}] rad/s\n", motion.name, w[0], w[1], w[2]);
+    }
+  for (const std::string& doubt : scene_doubts(model)) out << "warning: " << doubt << '\n';
+}
+
 }  // namespace
 
 void describe_run(Model& model, std::ostream& out) {
@@ -88,6 +99,7 @@ void describe_run(Model& model, std::ostream& out) {
   if (!model.scene.connectors.empty())
     out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
   describe_places(model, out);
+  describe_motions(model, out);
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,

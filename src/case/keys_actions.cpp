@@ -109,7 +109,8 @@ Section curve_section() {
           "pairs [time in s, factor] with increasing time; straight lines between, constant before and after")
           .otherwise("none: give `file`")
           .only({"table"}),
-      key("file", &Curve::file, "CSV with such pairs, one in a line, of a measured blow for instance; lines before the first that don't begin with a number are left out")
+      key("file", &Curve::file, "CSV with such pairs, one in a line, of a measured blow for instance: two columns, time in s and factor, separated by commas, semicolons, "
+          "tabs or blanks, with decimal points; lines of names may stand before the first number, remarks begin with #; all else is refused")
           .path()
           .otherwise("none: give `points`")
           .only({"table"}),
@@ -162,6 +163,13 @@ Section motion_section() {
       key("parts", &InitialMotion::parts, "what moves").names(whole_part | point).needed(),
       key("velocity", &InitialMotion::velocity, "of the centre").in("m/s"),
       key("angular_velocity", &InitialMotion::angular_velocity, "about the centre").in("rad/s"),
+      key("rolling", &InitialMotion::rolling,
+          "the angular velocity is that with which the round part among `parts` (wheel, wheelset, roller, cylinder) rolls without sliding on what it touches: its velocity "
+          "over its radius where it is nearest to the other surface of its contact, or over the mesh's radius where it has none"),
+      key("rolling_radius", &InitialMotion::rolling_radius, "the radius to roll on, of a mesh from a file for instance, which turns about the horizontal across its velocity")
+          .in("m")
+          .within(above(0))
+          .otherwise("found from the meshes"),
       key("centre", &InitialMotion::centre, "centre of the rotation").in("m").otherwise("the centre of mass of `around`, or of each part"),
       key("around", &InitialMotion::around, "a node set whose centre of mass is the centre of the rotation: an axle's bore")
           .names(node_set | whole_part | point)

@@ -2,46 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstdlib>
+#include <array>
 #include <filesystem>
 #include <fstream>
-#include <optional>
+#include <iterator>
 #include <string>
+#include <vector>
 
+#include "case/error.hpp"
 #include "case/memory.hpp"
+#include "case/number_table.hpp"
 
 namespace railwave::case_file {
 namespace {
-
-/// The number at the beginning of `text` and what follows it; nothing where there is none, or it isn't finite.
-std::optional<double> leading_number(const std::string& text, std::string& rest) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (end == text.c_str() || !std::isfinite(value)) return std::nullopt;
-  rest = end;
-  return value;
-}
-
-std::string without_blanks(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// What is wrong with the line; empty: its pair is added.
-std::string read_pair(const std::string& line, std::vector<std::array<double, 2>>& points) {
-  std::string rest, end;
-  const auto time = leading_number(line, rest);
-  if (!time) return points.empty() ? "" : "'" + printable(line, 40) + "' is no pair time,value";
-  rest = without_blanks(rest);
-  if (!rest.empty() && (rest[0] == ',' || rest[0] == ';')) rest = rest.substr(1);
-  const auto value = leading_number(rest, end);
-  if (!value) return "'" + printable(line, 40) + "' is no pair time,value";
-  if (!points.empty() && !(*time > points.back()[0]))
-    return fmt::format("time must increase from line to line, but has {} s after {} s", *time, points.back()[0]);
-  points.push_back({*time, *value});
-  return "";
-}
 
 /// Why a file isn't read at all; empty: it is.
 std::string refusal(const std::string& path) {
@@ -55,24 +28,33 @@ std::string refusal(const std::string& path) {
   return "";
 }
 
+/// The pairs of a file that may be read. Throws InputError with its line.
+std::vector<std::array<double, 2>> read_pairs(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw InputError("'" + path + "' cannot be opened; check that you may read it");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::vector<std::array<double, 2>> points;
+  parse_number_table(text, path, {time_column("time"), {"value", "", {}}}, TableNames::may_stand, [&](int line, const std::vector<double>& pair) {
+    if (!points.empty() && !(pair[0] > points.back()[0]))
+      throw InputError(fmt::format("{}:{}: time must increase from line to line, but has {} s after {} s", path, line, pair[0], points.back()[0]));
+    points.push_back({pair[0], pair[1]});
+  });
+  if (points.empty()) throw InputError("'" + path + "' has no line with a pair time,value");
+  return points;
+}
+
 }  // namespace
 
 void read_curves(scene::Scene& scene, Complaints& complaints) {
   for (scene::Curve& curve : scene.curves) {
     if (curve.file.empty()) continue;
-    const std::string subject = "[curves." + curve.name + "] file: ";
-    std::string line, mistake = refusal(curve.file);
-    std::ifstream file;
-    if (mistake.empty()) file.open(curve.file, std::ios::binary);
-    if (mistake.empty() && !file) mistake = "'" + curve.file + "' cannot be opened; check that you may read it";
-    for (int number = 1; mistake.empty() && std::getline(file, line); ++number) {
-      line = without_blanks(line);
-      if (line.empty()) continue;
-      mistake = read_pair(line, curve.points);
-      if (!mistake.empty()) mistake = fmt::format("{}:{}: {}", curve.file, number, mistake);
+    std::string mistake = refusal(curve.file);
+    try {
+      if (mistake.empty()) curve.points = read_pairs(curve.file);
+    } catch (const InputError& error) {
+      mistake = error.what();
     }
-    if (mistake.empty() && curve.points.empty()) mistake = "'" + curve.file + "' has no line with a pair time,value";
-    if (!mistake.empty()) complaints.add({curve.line}, subject + mistake);
+    if (!mistake.empty()) complaints.add({curve.line}, "[curves." + curve.name + "] file: " + mistake);
     for (const auto& [time, value] : curve.points)
       scene.static_text += fmt::format(".curves.{} {:.17g} {:.17g}\n", curve.name, time, value);
   }

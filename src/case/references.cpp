@@ -166,27 +166,4 @@ void check_references(const std::vector<NameUse>& uses, const scene::Scene& scen
   }
 }
 
-void check_scene(const scene::Scene& scene, Complaints& complaints) {
-  for (const auto& mass : scene.points) {
-    for (const auto& part : scene.parts) {
-      if (part.name != mass.name) continue;
-      const bool mass_later = mass.line >= part.line;
-      complaints.add({mass_later ? mass.line : part.line},
-                     "[" + std::string(mass_later ? "points." : "parts.") + mass.name +
-                         "]: a part and a point mass are both called '" + mass.name + "' (line " +
-                         std::to_string(mass_later ? part.line : mass.line) + "); rename one");
-    }
-  }
-  for (std::size_t i = 0; i < scene.contacts.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto &later = scene.contacts[i], &earlier = scene.contacts[j];
-      const bool same = later.slave == earlier.slave && later.master == earlier.master;
-      const bool turned = later.slave == earlier.master && later.master == earlier.slave;
-      if (later.slave.empty() || later.master.empty() || later.slave == later.master || (!same && !turned)) continue;
-      complaints.add({later.line}, "[contacts." + later.name + "]: has the same two surfaces as [contacts." +
-                                       earlier.name + "], so that their forces would count twice; keep one of them");
-    }
-  }
-}
-
 }  // namespace railwave::case_file

@@ -247,8 +247,12 @@ void check_curve(void* entry, EntryCheck& check) {
 void check_motion(void* entry, EntryCheck& check) {
   const auto& motion = *static_cast<scene::InitialMotion*>(entry);
   const scene::Vec3 zero{0, 0, 0};
-  if (motion.centre && motion.angular_velocity == zero && check.sound({"centre", "angular_velocity"})) {
-    check.complain("centre", "has no effect without angular_velocity; give that too, or leave centre out");
+  if (check.given("rolling_radius") && !motion.rolling && check.sound({"rolling"}))
+    check.complain("rolling_radius", "has no effect without rolling = true; give that too, or leave rolling_radius out");
+  if (motion.rolling && check.given("angular_velocity"))
+    check.complain("rolling", "is true beside angular_velocity; leave out angular_velocity, which then follows from the velocity, or rolling");
+  if (motion.centre && motion.angular_velocity == zero && !motion.rolling && check.sound({"centre", "angular_velocity", "rolling"})) {
+    check.complain("centre", "has no effect without angular_velocity or rolling; give one of them too, or leave centre out");
   }
 }
 

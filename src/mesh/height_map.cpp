@@ -8,21 +8,12 @@
 #include <map>
 
 #include "case/error.hpp"
+#include "case/number_table.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/text_file.hpp"
 
 namespace railwave {
 namespace {
-
-std::vector<std::string_view> split(std::string_view text, char at) {
-  std::vector<std::string_view> pieces;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const auto end = std::min(text.find(at, begin), text.size());
-    pieces.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return pieces;
-}
 
 /// Cell of an ascending list that holds the value, and how far along it; -1: outside.
 std::pair<int, double> cell_of(const std::vector<double>& places, double value) {
@@ -35,30 +26,15 @@ std::pair<int, double> cell_of(const std::vector<double>& places, double value) 
 }  // namespace
 
 HeightMap::HeightMap(const std::string& path) {
-  const std::string text = read_whole_file(path);
-  const auto refuse = [&](std::size_t line, const std::string& what) { throw InputError(fmt::format("{}:{}: {}", path, line, what)); };
-  const auto lines = split(text, '\n');
   std::map<std::array<double, 2>, double> points;
-  for (std::size_t n = 0; n < lines.size(); ++n) {
-    const auto line = trim(lines[n]);
-    if (line.empty() && n > 0) continue;
-    auto cells = split(line, ',');
-    for (auto& cell : cells) cell = trim(cell);
-    if (n == 0) {
-      if (cells != std::vector<std::string_view>{"x", "y", "dz"})
-        refuse(1, fmt::format("the first line is '{}', must name the columns: x,y,dz", for_message(line)));
-      continue;
-    }
-    if (cells.size() != 3) refuse(n + 1, fmt::format("has {} values, must have three: x,y,dz", cells.size()));
-    std::array<double, 3> value{};
-    for (int i = 0; i < 3; ++i) {
-      const auto read = parse_real(cells[i]);
-      if (!read) refuse(n + 1, fmt::format("'{}' is no finite number", for_message(cells[i])));
-      value[i] = *read;
-    }
+  const auto take = [&](int line, const std::vector<double>& value) {
     if (!points.insert({{value[0], value[1]}, value[2]}).second)
-      refuse(n + 1, fmt::format("gives the place x = {}, y = {} a second time", value[0], value[1]));
-  }
+      throw InputError(fmt::format("{}:{}: gives the place x = {}, y = {} a second time", path, line, value[0], value[1]));
+  };
+  const std::string text = read_whole_file(path);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InputError(fmt::format("{}:1: the first line is '', must name the columns: x,y,dz", path));
+  parse_number_table(text, path, {length_column("x"), length_column("y"), length_column("dz")}, TableNames::must_stand, take);
   for (const auto& [place, height] : points) {
     x_.push_back(place[0]);
     y_.push_back(place[1]);

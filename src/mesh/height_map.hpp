@@ -11,8 +11,8 @@ namespace railwave {
 class HeightMap {
  public:
   /// Reads a CSV file whose first line names the columns x, y, dz (m) and which has one line for each pair of its x and y, in
-  /// any order. Throws InputError naming file and line for other columns, numbers that are none, places given twice, and
-  /// places that are missing.
+  /// any order; case/number_table.hpp says how numbers and columns may be written. Throws InputError naming file and line for other
+  /// columns, numbers that are none, places given twice, and places that are missing.
   explicit HeightMap(const std::string& path);
 
   /// By bilinear interpolation, m; 0 beyond the grid.

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <charconv>
-#include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -35,39 +32,6 @@ std::string read_whole_file(const std::string& path) {
   // A file that another program is shortening meanwhile gives fewer bytes than it promised.
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
-}
-
-std::optional<std::int64_t> parse_integer(std::string_view text) {
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  std::int64_t value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
-  return value;
-}
-
-std::optional<double> parse_real(std::string_view text) {
-  constexpr std::size_t longest = 63;
-  char buffer[longest + 1];
-  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-  if (text.empty() || text.size() > longest) return std::nullopt;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    buffer[i] = (c == 'd' || c == 'D') ? 'e' : c;
-  }
-  buffer[text.size()] = '\0';
-
-  double value = 0;
-  const char* end = buffer + text.size();
-  const auto result = std::from_chars(buffer, end, value);
-  if (result.ptr != end || result.ec == std::errc::invalid_argument) return std::nullopt;
-  if (result.ec == std::errc::result_out_of_range) {
-    // from_chars doesn't tell too large from too small; strtod does.
-    value = std::strtod(buffer, nullptr);
-    if (std::fabs(value) > 1) return std::nullopt;
-  }
-  if (!std::isfinite(value)) return std::nullopt;
-  return value;
 }
 
 std::string_view trim(std::string_view text) {

@@ -126,6 +126,8 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
   const std::string part = contact.slave.substr(0, contact.slave.find('.'));
   for (int n : assembly.node_sets.at(part))
     for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
+  for (Assembly::PartRange& range : assembly.parts)
+    for (int i = 0; range.name == part && i < 3; ++i) range.origin[i] += nearest * direction[i];
 }
 
 /// Turns parts with an angle of attack about their origins.
@@ -207,6 +209,7 @@ Assembly assemble(const scene::Scene& scene) {
                                    scene.path, part.line, part.name, nodes, std::numeric_limits<int>::max()));
     Assembly::PartRange range;
     range.name = part.name;
+    range.origin = part.position;
     range.first_node = static_cast<int>(assembly.nodes.size());
     range.node_count = static_cast<int>(mesh.nodes.size());
     range.first_element = static_cast<int>(assembly.elements.size());

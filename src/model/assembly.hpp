@@ -19,6 +19,7 @@ struct Assembly {
     int first_node = 0, node_count = 0;
     int first_element = 0, element_count = 0;
     int material = 0;  ///< position in scene.materials
+    Vec3 origin{0, 0, 0};  ///< m, where the mesh's origin lies, after close_gap: a point of a round part's axis
   };
 
   /// A beam's nodes, from end to end.

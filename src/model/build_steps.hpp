@@ -16,6 +16,8 @@ void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
 void build_ties(Model& model);         ///< ties.cpp: places of slave nodes on their masters' faces
 void build_non_reflecting(Model& model);  ///< non_reflecting.cpp: dashpots of the ends
 void build_contacts(Model& model);     ///< contact_pairs.cpp
+void refuse_contradictions(const Model& model);  ///< contradictions.cpp: InputError for entries that cannot all hold
+void resolve_rolling(Model& model);    ///< rolling.cpp: angular velocities of initial motions that roll
 void build_stable_step(Model& model);  ///< stable_step.cpp
 void build_subcycling(Model& model);   ///< subcycling.cpp: paces of nodes; whole rounds of steps
 std::vector<std::string> what_is_left_out(const scene::Scene& scene);  ///< left_out.cpp

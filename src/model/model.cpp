@@ -27,6 +27,8 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_non_reflecting(model);
   build_loads(model);
   build_prescribed_motions(model);
+  refuse_contradictions(model);
+  resolve_rolling(model);
   build_node_arrays(model);
   build_carried_nodes(model);
   model.left_out = what_is_left_out(model.scene);

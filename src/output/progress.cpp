@@ -5,6 +5,7 @@
 #include <chrono>
 #include <ostream>
 
+#include "model/doubts.hpp"
 #include "model/model.hpp"
 #include "solve/settle.hpp"
 
@@ -16,6 +17,7 @@ double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady
 }  // namespace
 
 void Progress::begin(const Model& model) {
+  for (const std::string& doubt : scene_doubts(model)) out_ << "warning: " << doubt << '\n' << std::flush;
   ProgressPlan plan;
   plan.element_count = model.element_count();
   plan.updates_saved = model.subcycling.gain();

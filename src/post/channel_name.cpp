@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/number_text.hpp"
 #include "case/suggest.hpp"
 #include "post/set_names.hpp"
 
@@ -55,9 +55,9 @@ void set_direction(ChannelPlace& place, const std::string& text, const Asked& as
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   bool good = parts.size() == 3;
   for (std::size_t i = 0; good && i < 3; ++i) {
-    char* end = nullptr;
-    direction[static_cast<int>(i)] = std::strtod(parts[i].c_str(), &end);
-    good = !parts[i].empty() && *end == '\0';
+    const auto read = parse_real(parts[i]);
+    good = read.has_value();
+    direction[static_cast<int>(i)] = read.value_or(0);
   }
   if (!good || !std::isfinite(direction.norm()) || !(direction.norm() > 0))
     asked.refuse(text.empty() ? fmt::format("it needs a direction at its end: {}", directions) : fmt::format("'{}' is no direction; it may be {}", text, directions));

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <optional>
+#include <string_view>
 
 #include "case/error.hpp"
+#include "case/number_text.hpp"
 #include "case/suggest.hpp"
 #include "post/history_series.hpp"
 #include "post/set_names.hpp"
@@ -162,16 +164,17 @@ Eigen::Vector3d HammerTest::direction_of(const std::string& text, const std::str
     if (text == "-" + letter) return -along;
   }
   Eigen::Vector3d direction;
-  const char* at = text.c_str();
+  std::string_view rest = text;
   for (int i = 0; i < 3; ++i) {
-    char* end = nullptr;
-    direction[i] = std::strtod(at, &end);
-    if (end == at || *end != (i < 2 ? ',' : '\0') || !std::isfinite(direction[i]))
+    const auto comma = i < 2 ? rest.find(',') : rest.size();
+    const auto read = comma == std::string_view::npos ? std::nullopt : parse_real(rest.substr(0, comma));
+    if (!read)
       throw InputError(
           fmt::format("--response {}: '{}' is no direction; it may be vertical, lateral, longitudinal, x, y, z, -x, "
                       "-y, -z or a vector such as 1,0,0.05",
                       asked, text));
-    at = end + 1;
+    direction[i] = *read;
+    if (i < 2) rest.remove_prefix(comma + 1);
   }
   if (!(direction.norm() > 0)) throw InputError(fmt::format("--response {}: the direction has no length", asked));
   return direction.normalized();

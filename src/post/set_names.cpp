@@ -1,7 +1,9 @@
 #include "post/set_names.hpp"
 
 #include <algorithm>
-#include <cstdlib>
+#include <string_view>
+
+#include "case/number_text.hpp"
 
 namespace railwave {
 namespace {
@@ -22,7 +24,7 @@ bool in_number_order(const std::string& a, const std::string& b) {
   while (i < a.size() && j < b.size()) {
     if (digit(a[i]) && digit(b[j])) {
       const std::size_t end_a = std::min(a.size(), a.find_first_not_of("0123456789", i)), end_b = std::min(b.size(), b.find_first_not_of("0123456789", j));
-      const double number_a = std::strtod(a.substr(i, end_a - i).c_str(), nullptr), number_b = std::strtod(b.substr(j, end_b - j).c_str(), nullptr);
+      const double number_a = leading_real(std::string_view(a).substr(i, end_a - i)), number_b = leading_real(std::string_view(b).substr(j, end_b - j));
       if (number_a != number_b) return number_a < number_b;
       i = end_a;
       j = end_b;

@@ -6,6 +6,7 @@
 #include "mesh/vectors.hpp"
 #include "model/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
+#include "model/rolling.hpp"
 #include "solve/beams.hpp"
 #include "solve/settle.hpp"
 
@@ -33,6 +34,10 @@ void move_beams_along(const Model& model, const Array<double* [3]>::HostMirror& 
 Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position) {
   if (motion.centre) return *motion.centre;
+  if (const auto axis = carried_axis(model, motion)) {
+    const Vec3 mean = centre_of_mass(model, *axis->nodes, to_host(position));
+    return {mean[0] + axis->from_mean[0], mean[1] + axis->from_mean[1], mean[2] + axis->from_mean[2]};
+  }
   const auto& nodes = motion.around.empty()
                           ? model.assembly.node_sets.at(part)
                           : find_node_set(model.scene, model.assembly, motion, "around", motion.around);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 
+#include "model/doubts.hpp"
 #include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/account.hpp"
@@ -251,6 +252,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
+  for (const std::string& doubt : scene_doubts(model)) summary.warnings.push_back(doubt);
   for (std::size_t c = 0; c < swings.size(); ++c)
     if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty()) summary.swings.push_back(told);
   summary.completed = summary.reason.empty();

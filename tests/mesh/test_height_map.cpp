@@ -70,16 +70,26 @@ TEST_CASE("A height map is interpolated bilinearly, and is nothing beyond its gr
     for (double y : {0.0, 1.1, 2.0}) CHECK_THAT(map.at(x, y), WithinAbs(1e-3 * (1 + 2 * x + 3 * y + 4 * x * y), 1e-15));
   CHECK(map.at(-0.01, 1) == 0);
   CHECK(map.at(0.5, 2.01) == 0);
+  const MapFile other("\xef\xbb\xbf# measured\r\nx [m]; y [m]; dz [m]\r\n1;2;17e-3\r\n0;0;1e-3\r\n1;0;3e-3\r\n0;2;7e-3\r\n");
+  CHECK(HeightMap(other.path()).at(0.3, 1.1) == map.at(0.3, 1.1));
 }
 
 TEST_CASE("What is wrong with a height map is told with its line") {
   CHECK_THAT(refusal("x,y,z\n0,0,0\n"), ContainsSubstring(":1: the first line is 'x,y,z', must name the columns: x,y,dz"));
   CHECK_THAT(refusal("x,y,dz\n0,0\n"), ContainsSubstring(":2: has 2 values, must have three: x,y,dz"));
-  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,nan\n"), ContainsSubstring(":3: 'nan' is no finite number"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,nan\n"), ContainsSubstring(":3: column 3 (dz in m): 'nan' is no finite number"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,0,1\n"), ContainsSubstring(":3: gives the place x = 0, y = 0 a second time"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,0\n1,1,0\n"), ContainsSubstring("has a hole: no line gives the place x = 1, y = 0"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,0\n"), ContainsSubstring("has 1 different x and 2 different y"));
   CHECK_THAT(refusal(""), ContainsSubstring("the first line is ''"));
+  CHECK_THAT(refusal("x;y;dz\n0;0;0,001\n"), ContainsSubstring(":2: column 3 (dz in m): '0,001' has a comma in it: a decimal comma? then write 0.001"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0,001\n"), ContainsSubstring(":2: has 4 values, must have three: x,y,dz"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0.1 mm\n"), ContainsSubstring(":2: column 3 (dz in m): '0.1 mm' has something behind the number"));
+  CHECK_THAT(refusal("x,y,dz [mm]\n0,0,0.1\n"), ContainsSubstring(":1: column 3 (dz in m) is called 'dz [mm]', but is read in m"));
+  CHECK_THAT(refusal("y,x,dz\n0,0,0.1\n"), ContainsSubstring("must name the columns: x,y,dz"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0,\n"), ContainsSubstring(":2: '0,0,0,' ends with a separator"));
+  CHECK_THAT(refusal("x,y,dz\n0;0;0\n0,1,0\n"), ContainsSubstring(":3: its columns are separated by commas, those of line 2 by semicolons"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,1e400\n"), ContainsSubstring("'1e400' is too large"));
 }
 
 TEST_CASE("A rail's running surface takes the measured heights, and the rail below keeps its place") {

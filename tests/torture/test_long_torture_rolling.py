@@ -58,7 +58,7 @@ def run(what, end, options):
             vertical = (history["contact/tread/normal_force"][:] + history["contact/tread/tangential_force"][:])[:, 2]
             energy = {name: history["energy"][name][:] for name in history["energy"]}
     mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", program("check", COARSE, capture_output=True, text=True).stdout).group(1))
-    turning = options.get("initial_motion.roll.angular_velocity", [0, 60.41, 0])[1]
+    turning = options.get("initial_motion.roll.velocity", [27.78, 0, 0])[0] / (27.78 / 60.41)
     sprung = -options.get("connectors.primary_suspension.preload", [0, 0, -SPRUNG])[2]
     unbalance = mass * turning**2 * rise_of_wheel()
     weight = mass * GRAVITY + sprung - unbalance
@@ -75,8 +75,7 @@ def run(what, end, options):
 
 
 def main():
-    speed, radius = 300 / 3.6, 27.78 / 60.41
-    run("300 km/h", 1.2e-3, {"initial_motion.roll.velocity": [speed, 0, 0], "initial_motion.roll.angular_velocity": [0, speed / radius, 0]})
+    run("300 km/h", 1.2e-3, {"initial_motion.roll.velocity": [300 / 3.6, 0, 0]})
     run("10 times the load", 1e-3, {"connectors.primary_suspension.preload": [0, 0, -10 * SPRUNG], "points.sprung_mass.mass": 10 * SPRUNG / GRAVITY})
     conclude()
 

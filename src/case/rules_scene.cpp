@@ -1,0 +1,82 @@
+#include "case/references.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+// Entries of one case file that cannot all hold, as far as their names show it; model/contradictions.cpp looks at what the names mean.
+namespace railwave::case_file {
+namespace {
+
+void check_names(const scene::Scene& scene, Complaints& complaints) {
+  for (const auto& mass : scene.points)
+    for (const auto& part : scene.parts) {
+      if (part.name != mass.name) continue;
+      const bool mass_later = mass.line >= part.line;
+      complaints.add({mass_later ? mass.line : part.line},
+                     fmt::format("[{}.{}]: a part and a point mass are both called '{}' (line {}); rename one", mass_later ? "points" : "parts", mass.name, mass.name,
+                                 mass_later ? part.line : mass.line));
+    }
+}
+
+/// Two entries with a slave and a master, of one section or two.
+template <class Later, class Earlier>
+bool same_pair(const Later& later, const Earlier& earlier) {
+  const bool same = later.slave == earlier.slave && later.master == earlier.master;
+  const bool turned = later.slave == earlier.master && later.master == earlier.slave;
+  return (same || turned) && !later.slave.empty() && !later.master.empty() && later.slave != later.master;
+}
+
+template <class Entry>
+void check_pairs_of(const std::vector<Entry>& entries, const char* section, const char* why, Complaints& complaints) {
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (same_pair(entries[i], entries[j]))
+        complaints.add({entries[i].line}, fmt::format("[{}.{}]: has the same two surfaces as [{}.{}], {}; keep one of them", section, entries[i].name, section, entries[j].name, why));
+}
+
+void check_ties_and_contacts(const scene::Scene& scene, Complaints& complaints) {
+  for (const auto& tie : scene.ties)
+    for (const auto& contact : scene.contacts)
+      if (same_pair(tie, contact))
+        complaints.add({tie.line}, fmt::format("[ties.{}]: has the same two surfaces as [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two", tie.name,
+                                               contact.name, contact.line));
+}
+
+/// Velocities would add up.
+void check_initial_motions(const scene::Scene& scene, Complaints& complaints) {
+  std::map<std::string, const scene::InitialMotion*> moved;
+  for (const auto& motion : scene.initial_motions)
+    for (const auto& part : motion.parts) {
+      const auto [known, first] = moved.try_emplace(part, &motion);
+      if (first || known->second == &motion) continue;
+      complaints.add({motion.line}, fmt::format("[initial_motion.{}] parts: '{}' has an initial motion already, [initial_motion.{}] (line {}), and the two would add up; give its velocity and "
+                                                "its angular velocity in one entry",
+                                                motion.name, part, known->second->name, known->second->line));
+    }
+}
+
+void check_prescribed_motions(const scene::Scene& scene, Complaints& complaints) {
+  std::map<std::string, const scene::PrescribedMotion*> moved;
+  for (const auto& motion : scene.prescribed_motions) {
+    if (motion.target.empty()) continue;
+    const auto [known, first] = moved.try_emplace(motion.target, &motion);
+    if (first) continue;
+    complaints.add({motion.line}, fmt::format("[prescribed_motion.{}] target: '{}' has a prescribed motion already, [prescribed_motion.{}] (line {}); keep one of them, which may have "
+                                              "velocity, rotation and displacement together",
+                                              motion.name, motion.target, known->second->name, known->second->line));
+  }
+}
+
+}  // namespace
+
+void check_scene(const scene::Scene& scene, Complaints& complaints) {
+  check_names(scene, complaints);
+  check_pairs_of(scene.contacts, "contacts", "so that their forces would count twice", complaints);
+  check_pairs_of(scene.ties, "ties", "which are tied once only", complaints);
+  check_ties_and_contacts(scene, complaints);
+  check_initial_motions(scene, complaints);
+  check_prescribed_motions(scene, complaints);
+}
+
+}  // namespace railwave::case_file

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// What in a scene may be meant but more often is a mistake, a line each with the case's entries and lines, and how to mend it: round parts that begin by
+/// sliding, loads on nodes that are held, parts that overlap, initial motions that a prescribed motion contradicts, entries without effect.
+/// Told by `railwave check`, at a run's start and in its summary.
+std::vector<std::string> scene_doubts(const Model& model);
+
+}  // namespace railwave

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// A part whose mesh is a body of revolution: wheel, wheelset, roller or cylinder.
+struct RoundPart {
+  const scene::Part* part = nullptr;
+  Vec3 origin{0, 0, 0};       ///< m, a point of its axis
+  Vec3 own_axis{0, 1, 0};     ///< unit, as the mesh has it
+  Vec3 axis{0, 1, 0};         ///< unit, turned by the part's angle of attack
+  double nominal_radius = 0;  ///< m, as the mesh's key `radius` says
+};
+
+/// Nothing where the name is a point's, or of a part with another mesh.
+std::optional<RoundPart> round_part(const Model& model, const std::string& name);
+
+/// Where a round part is nearest to the other surface of a contact.
+struct Touch {
+  const scene::Contact* contact = nullptr;
+  std::string other;    ///< the other part
+  Vec3 place{0, 0, 0};  ///< m, on the other surface
+  Vec3 along{0, 0, 0};  ///< unit, in which that place of the round part goes per positive turn about the axis
+  double radius = 0;    ///< m, of the part from its axis, there
+  double gap = 0;       ///< m
+};
+
+/// The nearest place of each contact of the part, undeformed, after close_gap: between the other surface's faces, as they are curved,
+/// and the profile that the part's own nodes make about its axis. Contacts farther away than the radius are left out.
+std::vector<Touch> touches(const Model& model, const RoundPart& round);
+
+/// `part` of `part.set`.
+std::string part_of_name(const std::string& name);
+
+}  // namespace railwave

@@ -15,7 +15,7 @@ class Extruder {
   Extruder(const SectionMesh& section, const Stations& stations, const Placement& place, bool turned)
       : section_(section), stations_(stations), place_(place), turned_(turned) {
     const double nodes = static_cast<double>(section.nodes.size()) * static_cast<double>(stations.position.size());
-    expect_mesh_room(element_count(), nodes);
+    expect_mesh_room(extruded_elements(section, stations), nodes);
     node_at_.assign(section.nodes.size() * stations.position.size(), -1);
   }
 
@@ -31,14 +31,6 @@ class Extruder {
   }
 
  private:
-  /// At most: in templates of transitions are up to four elements.
-  double element_count() const {
-    double count = 0;
-    for (const SectionQuad& quad : section_.quads)
-      count += static_cast<double>(quad.transition ? 4 * stations_.levels[quad.level + 1].size() : stations_.levels[quad.level].size());
-    return count;
-  }
-
   /// The cells of a level as pairs of stations.
   std::vector<std::pair<int, int>> cells(int level) const {
     const auto& kept = stations_.levels[level];
@@ -147,6 +139,13 @@ class Extruder {
 };
 
 }  // namespace
+
+double extruded_elements(const SectionMesh& section, const Stations& stations) {
+  double count = 0;
+  for (const SectionQuad& quad : section.quads)
+    count += static_cast<double>(quad.transition ? 4 * stations.levels[quad.level + 1].size() : stations.levels[quad.level].size());
+  return count;
+}
 
 Extrusion extrude(const SectionMesh& section, const Stations& stations, const Placement& place, bool turned) {
   return Extruder(section, stations, place, turned).run();

@@ -27,6 +27,9 @@ using Placement = std::function<Vec3(Point2 point, double station)>;
 /// All elements come out with positive volume; sides 2 to 5 of an element of a plain quad are the quad's edges 0 to 3.
 Extrusion extrude(const SectionMesh& section, const Stations& stations, const Placement& place, bool turned);
 
+/// At most so many elements an extrusion has: each template of a transition counts as the four that it can have.
+double extruded_elements(const SectionMesh& section, const Stations& stations);
+
 /// Faces of elements that lie on the named edges of the section and begin at stations from `first` up to before `last`.
 std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<SectionEdge>& edges, int first, int last);
 

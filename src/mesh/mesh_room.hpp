@@ -10,6 +10,8 @@ class MeshTooLarge : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr const char* smaller_mesh = "make the elements larger, or the body smaller";
+
 /// Throws MeshTooLarge, before memory is asked for, when a mesh's nodes can't be numbered by an int or the mesh is larger than what
 /// this machine has left.
 void expect_mesh_room(double elements, double nodes);

@@ -62,6 +62,15 @@ Placement inclined(double inclination) {
   return [=](Point2 p, double x) { return Vec3{x, p.y * c - p.z * s, p.y * s + p.z * c}; };
 }
 
+double rail_elements(const scene::MeshSource& source) {
+  check_rail_mesh(source);
+  try {
+    return extruded_elements(rail_section(section_plan(source.rail), false), rail_stations(source.rail));
+  } catch (const std::invalid_argument& problem) {
+    throw InputError(place_of(source) + problem.what());
+  }
+}
+
 Mesh rail_mesh(const scene::MeshSource& source) {
   check_rail_mesh(source);
   const scene::RailMesh& r = source.rail;

@@ -14,6 +14,9 @@ namespace railwave {
 /// read, and for one that inverts elements.
 Mesh rail_mesh(const scene::MeshSource& source);
 
+/// About how many elements it has, without making it. Throws InputError if the parameters do not fit each other.
+double rail_elements(const scene::MeshSource& source);
+
 /// Throws InputError with every parameter of a rail mesh that does not fit the others.
 void check_rail_mesh(const scene::MeshSource& source);
 /// The plan of its section.

@@ -29,7 +29,7 @@ class RailSectionBuilder {
     head_ = joined({reversed(mirrored(outline_.head)), outline_.head});
   }
 
-  SectionMesh build() {
+  SectionMesh build(bool smoothed) {
     for (int side = 0; side < 2; ++side) {
       const auto add = [&](const Curve& curve) { return section_.add_curve(side == 0 ? mirrored(curve) : curve); };
       half_[side] = {add(outline_.underside), add(outline_.web), add(outline_.foot_top), add(outline_.toe)};
@@ -39,6 +39,7 @@ class RailSectionBuilder {
     add_core();
     add_web();
     add_foot();
+    if (!smoothed) return std::move(section_);
     place_zone();
     set_ideal_shapes(section_, size());
     smooth_section(section_);
@@ -294,6 +295,6 @@ class RailSectionBuilder {
 
 }  // namespace
 
-SectionMesh rail_section(const RailSectionPlan& plan) { return RailSectionBuilder(plan).build(); }
+SectionMesh rail_section(const RailSectionPlan& plan, bool smoothed) { return RailSectionBuilder(plan).build(smoothed); }
 
 }  // namespace railwave

@@ -103,6 +103,15 @@ WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& w)
   return body;
 }
 
+double wheel_elements(const scene::MeshSource& source, const scene::WheelMesh& w) {
+  check_wheel_mesh(source, w);
+  try {
+    return extruded_elements(wheel_section(w, wheel_levels(w) == 3, false), wheel_stations(w));
+  } catch (const std::invalid_argument& problem) {
+    throw InputError(place_of(source) + problem.what());
+  }
+}
+
 Mesh wheel_mesh(const scene::MeshSource& source) { return wheel_body(source, source.wheel).extrusion.mesh; }
 
 }  // namespace railwave

@@ -30,6 +30,9 @@ WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& wh
 /// Throws InputError if the parameters don't fit.
 void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& wheel);
 
+/// About how many elements a wheel has, without making it. Throws InputError if the parameters don't fit.
+double wheel_elements(const scene::MeshSource& source, const scene::WheelMesh& wheel);
+
 /// Layers round a wheel; those of the last level reach the bore.
 Stations wheel_stations(const scene::WheelMesh& wheel);
 

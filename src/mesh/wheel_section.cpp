@@ -30,12 +30,13 @@ class WheelSectionBuilder {
   WheelSectionBuilder(const scene::WheelMesh& wheel, bool lower_transition)
       : wheel_(wheel), lower_transition_(lower_transition), surface_(wheel_running_surface(wheel)) {}
 
-  SectionMesh build() {
+  SectionMesh build(bool smoothed) {
     plan_columns();
     add_layers();
     add_rim();
     add_web();
     add_hub();
+    if (!smoothed) return std::move(section_);
     fix_zone(section_, layers_, columns_, surface_, wheel_.zone_layers, size());
     set_ideal_shapes(section_, size());
     smooth_section(section_);
@@ -284,8 +285,8 @@ Curve wheel_running_surface(const scene::WheelMesh& wheel) {
   return s1002_curve(wheel.radius, std::min(s1002_last, field));
 }
 
-SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition) {
-  return WheelSectionBuilder(wheel, lower_transition).build();
+SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition, bool smoothed) {
+  return WheelSectionBuilder(wheel, lower_transition).build(smoothed);
 }
 
 }  // namespace railwave

@@ -187,6 +187,17 @@ scene::WheelMesh with_even_bore(const scene::MeshSource& source) {
 
 }  // namespace
 
+double wheelset_elements(const scene::MeshSource& source) {
+  const scene::WheelsetMesh& w = source.wheelset;
+  const double wheel = wheel_elements(source, w);
+  check(source);
+  // As many cells in a disc of the axle as ring_disc() lays on so many round the bore: rings to a core of a quarter of them squared.
+  const double round = static_cast<double>(wheel_stations(w).levels.back().size());
+  const double disc = round * std::max(2.0, 0.12 * round) + round * round / 16;
+  const double layers = w.axle.back()[0] / w.axle_size + static_cast<double>(w.axle.size()) + w.web_columns + 2;
+  return (w.half ? 1 : 2) * (wheel + disc * layers);
+}
+
 Mesh wheelset_mesh(const scene::MeshSource& source) {
   const scene::WheelsetMesh& w = source.wheelset;
   check_wheel_mesh(source, w);

@@ -14,4 +14,7 @@ namespace railwave {
 /// Throws InputError if the parameters don't fit.
 Mesh wheelset_mesh(const scene::MeshSource& source);
 
+/// About how many elements it has, without making it. Throws InputError if the wheel's parameters don't fit.
+double wheelset_elements(const scene::MeshSource& source);
+
 }  // namespace railwave

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/activity.hpp"
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
@@ -18,12 +19,16 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.scene = scene;
   model.assembly = assembly;
   expect_model_room(model.assembly);
+  Activity laying("ordering the elements");
   check_elements(model);
   model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   build_elements(model);
   build_beams(model);
-  build_contacts(model);
-  build_ties(model);
+  {
+    const Activity looking("laying out contacts and ties");
+    build_contacts(model);
+    build_ties(model);
+  }
   build_non_reflecting(model);
   build_loads(model);
   build_prescribed_motions(model);
@@ -33,6 +38,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_carried_nodes(model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
+  const Activity estimating("estimating the stable step");
   build_stable_step(model);
   build_subcycling(model);
 }

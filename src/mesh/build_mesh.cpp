@@ -20,7 +20,7 @@ namespace railwave {
 
 namespace {
 
-Mesh made(const scene::MeshSource& source) {
+Mesh made(const scene::MeshSource& source, std::vector<std::string>* notes) {
   switch (source.type) {
     case scene::MeshType::box:
       return box_mesh(source);
@@ -29,7 +29,7 @@ Mesh made(const scene::MeshSource& source) {
     case scene::MeshType::rail:
       return rail_mesh(source);
     case scene::MeshType::file:
-      return read_mesh_file(source);
+      return read_mesh_file(source, notes);
     case scene::MeshType::crowned_block:
       return crowned_block_mesh(source);
     case scene::MeshType::roller:
@@ -48,9 +48,9 @@ Mesh made(const scene::MeshSource& source) {
 
 }  // namespace
 
-Mesh build_mesh(const scene::MeshSource& source) {
+Mesh build_mesh(const scene::MeshSource& source, std::vector<std::string>* notes) {
   try {
-    return made(source);
+    return made(source, notes);
   } catch (const MeshTooLarge& problem) {
     throw InputError(place_of(source) + problem.what());
   }

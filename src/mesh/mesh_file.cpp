@@ -9,6 +9,7 @@
 #include "mesh/abaqus_file.hpp"
 #include "mesh/gmsh_file.hpp"
 #include "mesh/mesh_checks.hpp"
+#include "mesh/set_names.hpp"
 #include "mesh/text_file.hpp"
 
 namespace railwave {
@@ -35,6 +36,7 @@ Mesh read_mesh_file(const scene::MeshSource& source, std::vector<std::string>* n
                                  where, file.path, ending));
   }
 
+  fit_set_names(mesh, file.path, notes);
   for (Vec3& node : mesh.nodes)
     for (double& coordinate : node) {
       coordinate *= file.scale;

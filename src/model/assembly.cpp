@@ -6,17 +6,27 @@
 #include <cmath>
 #include <limits>
 
+#include "case/activity.hpp"
+#include "case/complaints.hpp"
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/mesh_size.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
+#include "model/assemble_notes.hpp"
 #include "model/beams.hpp"
 #include "model/place_sets.hpp"
 
 namespace railwave {
 namespace {
+
+/// "1.2 million", "34 thousand".
+std::string rounded_count(double count) {
+  if (count >= 1e6) return fmt::format("{:.3g} million", 1e-6 * count);
+  return count >= 1e4 ? fmt::format("{:.3g} thousand", 1e-3 * count) : fmt::format("{:.0f}", count);
+}
 
 /// The part of a mesh that one element set covers, with a numbering of its own.
 Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
@@ -46,10 +56,15 @@ Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
   return result;
 }
 
-Mesh mesh_of(const scene::Scene& scene, const scene::Part& part) {
+Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std::string>& notes) {
   const auto source = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                    [&](const auto& candidate) { return candidate.name == part.mesh; });
-  Mesh mesh = build_mesh(*source);
+  const Activity making(fmt::format("{} the mesh of part {}, about {} elements", source->type == scene::MeshType::file ? "reading" : "making", part.name,
+                                    rounded_count(expected_elements(*source))));
+  std::vector<std::string> own;
+  Mesh mesh = build_mesh(*source, &own);
+  for (std::string& note : own)
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   for (const scene::Seam& seam : scene.seams)
     if (seam.mesh == part.mesh) open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh);
   if (part.element_set.empty()) return mesh;
@@ -167,7 +182,8 @@ Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, con
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
                         const std::string& name, const std::vector<std::string>& known) {
   const std::string hint = known.empty() ? "the mesh has none" : suggestion(name, known);
-  return fmt::format("{}:{}: {}: {}: there is no set '{}'; {}", scene.path, entry.line, entry.name, key, name, hint);
+  const std::string place = entry.line > 0 ? fmt::format("{}:{}", scene.path, entry.line) : scene.path;
+  return fmt::format("{}: {}: {}: there is no set '{}'; {}", place, entry.name, key, case_file::printable(name), hint);
 }
 
 const std::vector<int>& find_node_set(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
@@ -196,9 +212,16 @@ std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>
 }
 
 Assembly assemble(const scene::Scene& scene) {
+  std::vector<std::string> notes;
+  return assemble(scene, notes);
+}
+
+Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
+  const Activity assembling("putting the parts together");
   Assembly assembly;
+  expect_room_for_parts(scene);
   for (const scene::Part& part : scene.parts) {
-    Mesh mesh = mesh_of(scene, part);
+    Mesh mesh = mesh_of(scene, part, notes);
     if (part.mirror) mirror(mesh);
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += part.position[i];
@@ -229,7 +252,10 @@ Assembly assemble(const scene::Scene& scene) {
   add_node_sets(scene, assembly);
   turn_parts(scene, assembly);
   for (const scene::Contact& contact : scene.contacts)
-    if (contact.close_gap) close_gap(scene, contact, assembly);
+    if (contact.close_gap) {
+      const Activity closing("closing the gap of contact " + contact.name);
+      close_gap(scene, contact, assembly);
+    }
   lay_beams(scene, assembly);
   return assembly;
 }

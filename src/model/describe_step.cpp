@@ -34,6 +34,22 @@ bool shortened(const StableStep& stable) {
 
 }  // namespace
 
+std::string what_sets_step(const Model& model) {
+  const StableStep& stable = model.stable_step;
+  if (model.scene.time.step > 0) return "time.step";
+  const bool heights = model.scene.solver.step_estimate == scene::StepEstimate::element;
+  const double elements = heights ? stable.elements : stable.eigenvalue, contact = heights ? stable.contact : stable.eigenvalue_contact;
+  const auto least = [&](double step) { return step > 0 && step <= elements; };
+  if (least(stable.connector) && !(contact > 0 && contact < stable.connector)) return "springs and dashpots of connectors, by their stiffness, damping and masses";
+  if (least(contact)) return "contact springs, by penalty_scale and damping";
+  if (least(stable.beam)) return "beams, by their sections, lengths and material";
+  const int element = heights ? stable.element : stable.eigenvalue_element;
+  for (const auto& part : model.assembly.parts)
+    if (element >= part.first_element && element < part.first_element + part.element_count)
+      return fmt::format("elements of part {} by their size, material and damping{}", part.name, near(model, element));
+  return "the scene as a whole";
+}
+
 std::vector<std::string> describe_stable_step(const Model& model) {
   const StableStep& stable = model.stable_step;
   const scene::StepEstimate choice = model.scene.solver.step_estimate;

@@ -7,6 +7,9 @@
 
 namespace railwave {
 
+/// What sets the step, for messages: "the elements of part wheel, near (0, 0, 0) m", "connectors", "contact springs", "beams".
+std::string what_sets_step(const Model& model);
+
 /// The longest step that the case allows now, s: `time.step`, else `time.step_scale` of the stable step; never quite that step
 /// itself.
 double largest_step(const Model& model);

@@ -128,7 +128,9 @@ void ResultsFile::writing(const Do& one) {
   } catch (const std::exception& error) {
     std::error_code ignored;
     const bool can_go_on = checkpoint_ && std::filesystem::exists(checkpoint_->path(), ignored);
-    throw std::runtime_error(fmt::format("{}; the results {} hold what was written before{}", error.what(), path_,
+    const std::string what_is_left = std::filesystem::exists(path_, ignored) ? fmt::format("the results {} hold what was written before", path_)
+                                                                             : "no results were written";
+    throw std::runtime_error(fmt::format("{}; {}{}", error.what(), what_is_left,
                                          can_go_on ? ", and --restart goes on from the last checkpoint" : ""));
   }
 }

@@ -185,6 +185,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   instant.elapsed = elapsed;
   while (true) {
     bool stopping = false;
+    instant.time = model.time = control.time();  // before a state is kept: it tells the time of its step
     if (model.subcycling.in_phase(model.step)) {
       summary.out_of_time = keeper.out_of_time();
       stopping = summary.out_of_time || stop_requested != 0;
@@ -192,7 +193,6 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
       const bool worth_it = prepared && model.step > summary.first_step;
       if (worth_it && (due.last() ? keeping.at_end : stopping || keeper.due())) keeper.keep(model, memory, summary);
     }
-    instant.time = model.time = control.time();
     const double step_before = model.step_size;
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <sstream>
 
+#include "case/activity.hpp"
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
 #include "model/doubts.hpp"
@@ -81,7 +82,13 @@ void describe_motions(const Model& model, std::ostream& out) {
 
 }  // namespace
 
+void tell(const char* kind, const std::vector<std::string>& lines, std::ostream& out) {
+  for (const std::string& line : lines) out << kind << ": " << line << '\n';
+  out.flush();
+}
+
 void describe_run(Model& model, std::ostream& out) {
+  const Activity describing("judging the elements' shapes");
   if (!model.scene.title.empty()) out << model.scene.title << '\n';
   out << "Parts\n";
   for (std::size_t p = 0; p < model.assembly.parts.size();) {

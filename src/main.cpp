@@ -4,12 +4,15 @@
 #include <chrono>
 #include <iostream>
 
+#include "case/activity.hpp"
 #include "case/error.hpp"
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
 #include "check.hpp"
 #include "hammer_options.hpp"
+#include "model/assemble_notes.hpp"
 #include "modes/modes_command.hpp"
+#include "option_checks.hpp"
 #include "out_of_memory.hpp"
 #include "output/model_file.hpp"
 #include "output/progress.hpp"
@@ -27,6 +30,7 @@
 #include "steady_memory.hpp"
 #include "sudden_exit.hpp"
 #include "threads.hpp"
+#include "usage_error.hpp"
 
 namespace railwave {
 namespace {
@@ -35,7 +39,8 @@ namespace {
 enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, out_of_time = 4, interrupted = 130 };
 
 struct Arguments {
-  std::string case_file, topic;
+  std::string case_file;
+  std::vector<std::string> topic;
   std::vector<std::string> overrides;
   ContactRequest contact;
   SignalRequest signal;
@@ -48,16 +53,27 @@ struct Arguments {
   double wall_time = 0;  ///< s; 0: no limit
 };
 
+/// Reads the case and tells at once what is odd about it: what follows may take minutes.
+scene::Scene read_told(const Arguments& arguments) {
+  std::vector<std::string> warnings;
+  scene::Scene scene = read_case(arguments.case_file, arguments.overrides, &warnings);
+  tell("warning", warnings, std::cout);
+  return scene;
+}
+
 int run_case(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
-  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  PatienceTimer patience;
+  const scene::Scene scene = read_told(arguments);
   if (arguments.restart) {
     const std::string& file = scene.output.file;
     if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); })) return *code;
   }
   const KokkosScope kokkos;
   Model model;
-  build_model(scene, model);
+  std::vector<std::string> notes;
+  build_model(scene, assemble(scene, notes), model);
+  tell("note", notes, std::cout);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
   results.check_room(model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
@@ -80,6 +96,7 @@ int run_case(const Arguments& arguments) {
   SettledFiles settled(RAILWAVE_VERSION);
   if (arguments.wall_time > 0)
     keeping.time_left = std::max(1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+  patience.stop();
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
@@ -87,10 +104,13 @@ int run_case(const Arguments& arguments) {
 }
 
 int check_case(const Arguments& arguments) {
-  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const PatienceTimer patience;
+  const scene::Scene scene = read_told(arguments);
   const KokkosScope kokkos;
   Model model;
-  build_model(scene, model);
+  std::vector<std::string> notes;
+  build_model(scene, assemble(scene, notes), model);
+  tell("note", notes, std::cout);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
   results.check_room(model);
   describe_run(model, std::cout);
@@ -98,10 +118,14 @@ int check_case(const Arguments& arguments) {
 }
 
 int write_mesh(const Arguments& arguments) {
-  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const PatienceTimer patience;
+  const scene::Scene scene = read_told(arguments);
   const KokkosScope kokkos;
   Model model;
-  build_model(scene, model);
+  std::vector<std::string> notes;
+  build_model(scene, assemble(scene, notes), model);
+  tell("note", notes, std::cout);
+  const Activity writing("writing " + arguments.mesh_file);
   write_model_file(model, arguments.mesh_file);
   std::cout << arguments.mesh_file << " and " << xdmf_path(arguments.mesh_file) << ": " << model.element_count() << " elements of "
             << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots";
@@ -113,7 +137,8 @@ int write_mesh(const Arguments& arguments) {
 }
 
 int find_modes(const Arguments& arguments) {
-  const scene::Scene scene = read_case(arguments.case_file, arguments.overrides);
+  const PatienceTimer patience;
+  const scene::Scene scene = read_told(arguments);
   const KokkosScope kokkos;
   return modes_command(scene, arguments.modes, std::cout);
 }
@@ -162,8 +187,7 @@ int dispatch(int argc, char** argv) {
   add_case(run_command);
   run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
   run_command->add_flag("--keep-state", arguments.keep_state, "keep the checkpoint at the run's end: --restart with a later time.end goes on from it");
-  run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4")
-      ->check(CLI::PositiveNumber);
+  run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
   run_command->callback([&] { code = run_case(arguments); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
   add_case(check_command);
@@ -182,19 +206,22 @@ int dispatch(int argc, char** argv) {
   add_signal_command(app, arguments.signal, [&] { code = in_reading_child("railwave signal", {arguments.signal.results}, [&] { return signal_command(arguments.signal, std::cout); }); });
   add_response_command(app, arguments.response, [&] { code = in_reading_child("railwave frf", arguments.response.results, [&] { return response_command(arguments.response, std::cout); }); });
   add_decay_command(app, arguments.decay, [&] { code = in_reading_child("railwave decay", arguments.decay.results, [&] { return decay_command(arguments.decay, std::cout); }); });
-  CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means");
-  help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass ...; nothing: the list of sections");
-  help->callback([&] { std::cout << case_help(arguments.topic) << '\n'; });
+  CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means, or a command");
+  help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass, run, signal psd ...; nothing: the list of sections");
+  help->callback([&] { std::cout << help_on(app, arguments.topic) << '\n'; });
   CLI::App* reference = app.add_subcommand("reference", "the case file's reference page or JSON schema");
   reference->add_flag("--markdown", arguments.markdown, "the page (default)");
   reference->add_flag("--schema", arguments.schema, "the schema");
   reference->callback([&] { code = print_reference(arguments); });
 
+  add_option_checks(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& wish) {  // --help, --version
+    app.exit(wish);
+    return done;
   } catch (const CLI::ParseError& error) {
-    const int status = app.exit(error);
-    return status == 0 ? done : wrong_input;
+    throw InputError(usage_error(app, error, std::vector<std::string>(argv + 1, argv + argc)));
   }
   return code;
 }

@@ -20,7 +20,10 @@ int rank(const Where& where) {
 void Complaints::add(Where where, const std::string& text) { found_.push_back({where, text}); }
 
 void Complaints::throw_if_any() const {
-  if (found_.empty()) return;
+  if (!found_.empty()) throw InputError(lines());
+}
+
+std::vector<std::string> Complaints::lines() const {
   auto sorted = found_;
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const Complaint& a, const Complaint& b) { return rank(a.where) < rank(b.where); });
@@ -36,7 +39,7 @@ void Complaints::throw_if_any() const {
                                           : file_;
     lines.push_back(place + ": " + complaint.text);
   }
-  throw InputError(lines);
+  return lines;
 }
 
 std::string printable(const std::string& text, std::size_t longest) {

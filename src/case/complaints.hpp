@@ -23,6 +23,9 @@ class Complaints {
   /// command line.
   void throw_if_any() const;
 
+  /// The same lines, if not to be thrown: warnings.
+  std::vector<std::string> lines() const;
+
  private:
   struct Complaint {
     Where where;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 #include "case/read_value.hpp"
@@ -52,10 +53,13 @@ std::string alternatives(const std::vector<std::string>& choices) {
 }
 
 std::string range_text(const Range& range) {
-  const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", range.low);
-  const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", range.high);
+  // 1e+18 rather than its digits.
+  const auto written_limit = [](double limit) { return std::abs(limit) >= 1e6 ? fmt::format("{:g}", limit) : fmt::format("{}", limit); };
+  const auto low_limit = written_limit(range.low), high_limit = written_limit(range.high);
+  const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", low_limit);
+  const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", high_limit);
   if (finite(range.low) && finite(range.high)) {
-    return !range.low_open && !range.high_open ? fmt::format("between {} and {}", range.low, range.high)
+    return !range.low_open && !range.high_open ? fmt::format("between {} and {}", low_limit, high_limit)
                                                : low + " and " + high;
   }
   return finite(range.low) ? low : finite(range.high) ? high : "";
@@ -98,7 +102,7 @@ std::string expectation(const Key& key, bool with_unit) {
              : named              ? "a list of names in quotes"
                                   : "a list of texts";
     case Kind::pairs:
-      return "a list of pairs [[time, value], ...]";
+      return fmt::format("a list of pairs [[{}, {}], ...]", key.pair.first, key.pair.second);
     case Kind::numbers:
       return "a list of numbers" + unit;
     case Kind::integer_pair:

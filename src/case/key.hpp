@@ -51,6 +51,12 @@ enum Reference : unsigned {
   any_set = node_set | surface | element_set,
 };
 
+/// What the two numbers of a pair are, for keys that take a list of pairs: "time in s" and "factor".
+struct PairOf {
+  std::string first = "time in s", second = "value";
+  Range first_range, second_range;
+};
+
 struct Key {
   std::string name;
   std::string help;
@@ -60,6 +66,9 @@ struct Key {
 
   std::string unit;
   Range range;
+  std::optional<Range> usual;  ///< what the field has; what lies outside is warned of. Absent: by unit (plausible.hpp)
+  bool any_size = false;       ///< as large as one likes: limits of the watch, which a huge number switches off
+  PairOf pair;                 ///< of a list of pairs
   bool required = false;
   bool is_path = false;       ///< a file, relative to the case file's folder; must exist
   bool is_direction = false;  ///< any length but zero; stored with length 1
@@ -70,6 +79,9 @@ struct Key {
 
   Key in(std::string the_unit) && { return unit = std::move(the_unit), std::move(*this); }
   Key within(Range allowed) && { return range = allowed, std::move(*this); }
+  Key mostly(Range expected) && { return usual = expected, std::move(*this); }
+  Key unlimited() && { return any_size = true, std::move(*this); }
+  Key pairs_of(PairOf what) && { return pair = std::move(what), std::move(*this); }
   Key needed() && { return required = true, std::move(*this); }
   Key path() && { return is_path = true, std::move(*this); }
   Key direction() && { return is_direction = true, std::move(*this); }

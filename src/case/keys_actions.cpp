@@ -69,10 +69,11 @@ Section contact_section() {
           "normal is continuous, at nodes the mean of the faces around; faces that meet at more than 30 degrees keep their edge")
           .one_of({"facet", "smooth"}),
       key("sweeps", &Contact::sweeps, "iterations of the multipliers in a step; what they leave is made good in the next; of several contacts the most counts").within(between(2, 100)),
-      key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(above(0)),
+      key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness").within(between(1e-6, 1e6)).mostly(between(1e-3, 100)),
       key("penalty_growth", &Contact::penalty_growth,
           "pairs [penetration in m, factor on the penalty's stiffness there], with increasing penetration; straight lines between, "
           "constant before and after; the force is the integral")
+          .pairs_of({"penetration in m", "factor", between(0, 1), between(1e-6, 1e6)})
           .otherwise("the penalty is linear"),
       key("damping", &Contact::damping, "share of the critical damping of a contact spring and the masses that it joins")
           .within(between(0, 1)),
@@ -107,6 +108,7 @@ Section curve_section() {
           .only({"half_sine"}),
       key("points", &Curve::points,
           "pairs [time in s, factor] with increasing time; straight lines between, constant before and after")
+          .pairs_of({"time in s", "factor", between(-1e9, 1e9), between(-1e15, 1e15)})
           .otherwise("none: give `file`")
           .only({"table"}),
       key("file", &Curve::file, "CSV with such pairs, one in a line, of a measured blow for instance: two columns, time in s and factor, separated by commas, semicolons, "

@@ -18,9 +18,9 @@ Section beam_section() {
       key("to", &Beam::to, "where they end").names(node_set | point).needed(),
       key("material", &Beam::material, "their material; elastic whatever its yield stress").names(material).needed(),
       key("section", &Beam::section, "shape of the cross-section").one_of({"circle", "rectangle"}),
-      key("radius", &Beam::radius, "of a circle").in("m").within(at_least(0)).otherwise("above 0, needed for a circle"),
-      key("width", &Beam::width, "of a rectangle, across `orientation`").in("m").within(at_least(0)).otherwise("above 0, needed for a rectangle"),
-      key("height", &Beam::height, "of a rectangle, along `orientation`").in("m").within(at_least(0)).otherwise("above 0, needed for a rectangle"),
+      key("radius", &Beam::radius, "of a circle").in("m").within(above(0)).otherwise("none: needed for a circle"),
+      key("width", &Beam::width, "of a rectangle, across `orientation`").in("m").within(above(0)).otherwise("none: needed for a rectangle"),
+      key("height", &Beam::height, "of a rectangle, along `orientation`").in("m").within(above(0)).otherwise("none: needed for a rectangle"),
       key("orientation", &Beam::orientation,
           "direction across the beams: the height of their section, and the normal of the plane in which `count` beams are spread")
           .direction()

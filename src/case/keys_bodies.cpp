@@ -10,9 +10,9 @@ Section material_section() {
   using scene::Material;
   auto section = named_section("materials", "material", &Scene::materials, "Isotropic materials, elastic or elastoplastic.");
   section.keys = {
-      key("youngs_modulus", &Material::youngs_modulus, "Young's modulus").in("Pa").within(above(0)).needed(),
-      key("poissons_ratio", &Material::poissons_ratio, "Poisson's ratio").within(inside(-1, 0.5)).needed(),
-      key("density", &Material::density, "mass per volume").in("kg/m3").within(above(0)).needed(),
+      key("youngs_modulus", &Material::youngs_modulus, "Young's modulus").in("Pa").within(above(0)).mostly(between(5e5, 1.5e12)).needed(),
+      key("poissons_ratio", &Material::poissons_ratio, "Poisson's ratio; towards 0.5 waves grow without limit, and steps go to 0").within(between(-0.999, 0.4999)).mostly(between(-0.999, 0.495)).needed(),
+      key("density", &Material::density, "mass per volume").in("kg/m3").within(above(0)).mostly(between(20, 25e3)).needed(),
       key("yield_stress", &Material::yield_stress,
           "von Mises stress at which the material begins to flow, with linear hardening beyond")
           .in("Pa")

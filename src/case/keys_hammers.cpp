@@ -26,13 +26,15 @@ Section hammer_section() {
       key("peak", &Hammer::peak, "largest force; of a given curve: what that is multiplied by")
           .in("N")
           .within(above(0))
+          .mostly(between(1e-3, 1e7))
           .needed(),
       key("start", &Hammer::start, "when the blow begins").in("s").within(at_least(0)),
       key("duration", &Hammer::duration,
           "of the blow, half a sine wave; 0.2 ms excites up to 5 kHz (10 dB less than at 0 Hz there), shorter ones "
           "more")
           .in("s")
-          .within(at_least(0))
+          .within(above(0))
+          .mostly(between(1e-6, 0.1))
           .otherwise("none: give `curve`"),
       key("curve", &Hammer::curve, "the blow's shape instead, such as a table of a measured one")
           .names(curve)

@@ -48,7 +48,7 @@ Section time_section() {
   auto section = single_section("time", &Scene::time, "How long the run lasts and how it steps.");
   section.required = true;
   section.keys = {
-      key("end", &Time::end, "simulated time").in("s").within(above(0)).needed(),
+      key("end", &Time::end, "simulated time").in("s").within(above(0)).mostly(between(1e-8, 10)).needed(),
       key("step_scale", &Time::step_scale, "safety factor on the largest stable step").within(above_up_to(0, 1)),
       key("step", &Time::step, "time step; 0 takes it from elements and contact").in("s").within(at_least(0)),
   };
@@ -65,7 +65,8 @@ Section checkpoint_section() {
       key("interval", &Checkpoint::interval,
           "between checkpoints, by the clock on the wall; 0 is none but the one where the run is stopped from outside or its `--wall-time` is spent")
           .in("s")
-          .within(at_least(0)),
+          .within(at_least(0))
+          .mostly(at_least(0)),
       key("file", &Checkpoint::file, "checkpoint file (HDF5), relative to the folder in which the program runs; the one before it is kept as `FILE.previous`")
           .otherwise("beside the results: results.checkpoint.h5"),
   };
@@ -114,7 +115,8 @@ Section output_section() {
           .names(node_set | point),
       key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")
           .in("s")
-          .within(above(0)),
+          .within(above(0))
+          .mostly(above(0)),
   };
   section.rule = check_output;
   return section;

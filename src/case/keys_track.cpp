@@ -37,15 +37,16 @@ Section sleeper_section() {
       key("base", &Sleeper::base, "what all that isn't given here is taken from").one_of({"concrete", "timber"}).otherwise("concrete; of the kind timber, timber"),
       key("material", &Sleeper::material, "its material").names(material).otherwise(
           "concrete: E 38.4 GPa, nu 0.2, 2520 kg/m3; timber: E 20 GPa, nu 0.3, 1300 kg/m3"),
-      length("half_length", &Sleeper::half_length, "from the track's centre plane outwards").otherwise("concrete 1.26, timber 1.3"),
-      length("width", &Sleeper::width, "along the track").otherwise("0.25"),
-      length("height", &Sleeper::height, "from underside to top").otherwise("concrete 0.18, timber 0.15"),
+      length("half_length", &Sleeper::half_length, "from the track's centre plane outwards").within(between(0.3, 5)).otherwise("concrete 1.26, timber 1.3"),
+      length("width", &Sleeper::width, "along the track").within(between(0.02, 2)).otherwise("0.25"),
+      length("height", &Sleeper::height, "from underside to top").within(between(0.02, 1)).otherwise("concrete 0.18, timber 0.15"),
       key("divisions", &Sleeper::divisions, "elements along x, y, z").within(between(1, 1000)).otherwise("[3, 14, 2]"),
-      length("pad_thickness", &Sleeper::pad_thickness, "from the sleeper's top to the middle of the rail's foot").otherwise("0.007"),
-      length("pad_length", &Sleeper::pad_length, "of the fastening's area along the rail; across it is as wide as the foot").otherwise("0.16"),
+      length("pad_thickness", &Sleeper::pad_thickness, "from the sleeper's top to the middle of the rail's foot").within(between(1e-4, 0.1)).otherwise("0.007"),
+      length("pad_length", &Sleeper::pad_length, "of the fastening's area along the rail; across it is as wide as the foot").within(between(0.01, 2)).otherwise("0.16"),
       key("fastening_stiffness", &Sleeper::fastening_stiffness, "between foot and sleeper, along x, y, z, in all")
           .in("N/m")
           .within(at_least(0))
+          .mostly(between(1e4, 1e12))
           .otherwise("concrete [100e6, 100e6, 195e6], timber [150e6, 150e6, 86.7e6]"),
       key("fastening_damping", &Sleeper::fastening_damping, "the same of dashpots")
           .in("N s/m")
@@ -65,10 +66,10 @@ Section sleeper_section() {
       key("pad_density", &Sleeper::pad_density, "its density").in("kg/m3").within(above(0)),
       key("pad_damping", &Sleeper::pad_damping, "its stiffness_damping; 0 leaves all damping to the connectors, and allows a longer step")
           .in("s")
-          .within(at_least(0))
+          .within(between(0, 1))
           .otherwise("vertical fastening_damping over fastening_stiffness"),
       key("pad_layers", &Sleeper::pad_layers, "elements through its thickness").within(between(1, 100)),
-      key("ballast_stiffness", &Sleeper::ballast_stiffness, "vertical, under the half sleeper in all").in("N/m").within(above(0)).otherwise("45e6"),
+      key("ballast_stiffness", &Sleeper::ballast_stiffness, "vertical, under the half sleeper in all").in("N/m").within(above(0)).mostly(between(1e5, 1e11)).otherwise("45e6"),
       key("ballast_damping", &Sleeper::ballast_damping, "the same of dashpots").in("N s/m").within(at_least(0)).otherwise("32e3"),
       key("ballast_lateral_stiffness", &Sleeper::ballast_lateral_stiffness, "the same along y")
           .in("N/m")
@@ -96,7 +97,7 @@ std::vector<Key> joint_keys() {
       key("fishplate_friction", &Track::fishplate_friction, "Coulomb coefficient of that contact").within(at_least(0)),
       key("fishplate_material", &Track::fishplate_material, "of the plates").names(material).otherwise("the rail's"),
       length("fishplate_length", &Track::fishplate_length, "along the rails, half of it before the gap's middle"),
-      length("fishplate_thickness", &Track::fishplate_thickness, "beside the web where that is thinnest"),
+      length("fishplate_thickness", &Track::fishplate_thickness, "beside the web where that is thinnest").within(at_least(0.004)),
       key("fishplate_clearance", &Track::fishplate_clearance, "between web and plate; head and foot are touched").in("m").within(between(0, 0.003)),
       length("fishplate_size", &Track::fishplate_size, "of the plates' elements along x").otherwise("three times zone_size, or zone_size where they reach the layers of that size under the head"),
       key("bolt_positions", &Track::bolt_positions, "of each bolt along x from the gap's middle").in("m"),
@@ -130,7 +131,7 @@ Section track_section() {
           .in("m")
           .within(above(0)),
       key("sleeper", &Track::sleeper, "kind of the regular sleepers").names(sleeper),
-      key("pitch", &Track::pitch, "distance of regular sleepers").in("m").within(above(0)),
+      key("pitch", &Track::pitch, "distance of regular sleepers").in("m").within(at_least(0.2)).mostly(between(0.2, 3)),
       key("first_sleeper", &Track::first_sleeper, "x of the first of them").in("m").otherwise("half a pitch from the rail's start"),
       key("positions", &Track::positions, "x of each of them, instead of pitch and first_sleeper").in("m").otherwise("by pitch"),
       key("other_sleeper", &Track::other_sleeper, "kind of the other sleepers: at a joint").names(sleeper),

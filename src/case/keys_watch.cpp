@@ -21,8 +21,8 @@ Section watch_section() {
       key("penetration", &Watch::penetration, "of a contact node, over the size of the face under it").within(above(0)),
       key("volume_ratio", &Watch::volume_ratio, "smallest Jacobian of an element over that of the undeformed one; the run stops at 0")
           .within(inside(0, 1)),
-      key("speed", &Watch::speed, "of a node").in("m/s").within(above(0)),
-      key("fatal_speed", &Watch::fatal_speed, "of a node, at which the run stops").in("m/s").within(above(0)),
+      key("speed", &Watch::speed, "of a node").in("m/s").within(above(0)).unlimited(),
+      key("fatal_speed", &Watch::fatal_speed, "of a node, at which the run stops").in("m/s").within(above(0)).unlimited(),
       key("chatter", &Watch::chatter, "times that a contact node was seen to open and to close again").within(at_least(1)),
       key("box", &Watch::box, "half the edge of the box about a fatal fault that is written; 0 is six times the element's size")
           .in("m")

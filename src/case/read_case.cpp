@@ -9,6 +9,7 @@
 #include "case/fit_to_rails.hpp"
 #include "case/keys.hpp"
 #include "case/overrides.hpp"
+#include "case/plausible_scene.hpp"
 #include "case/read_curves.hpp"
 #include "case/read_entry.hpp"
 #include "case/static_text.hpp"
@@ -113,7 +114,7 @@ void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
 
 }  // namespace
 
-scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides) {
+scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides, std::vector<std::string>* warnings) {
   const auto text = load_text(path);
   Complaints complaints(path);
   auto document = parse_document(text, complaints);
@@ -123,8 +124,9 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   scene.path = path;
   apply_overrides(overrides, document.root, complaints);
   scene.static_text = static_text(document.root);
+  Complaints remarks(path);
   Reading reading{
-      complaints, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
+      complaints, remarks, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
   read_sections(document.root, scene, reading);
   // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
   if (complaints.empty()) expand_tracks(scene, complaints);
@@ -137,6 +139,8 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
     check_scene(scene, complaints);
   }
   complaints.throw_if_any();
+  remark_on_scene(scene, remarks);
+  if (warnings) *warnings = remarks.lines();
   return scene;
 }
 

@@ -36,6 +36,11 @@ class EntryReader : public EntryCheck {
     return std::none_of(keys.begin(), keys.end(), [&](const std::string& key) { return unsound_.count(key) != 0; });
   }
 
+  void remark(const std::string& key, const std::string& text) override {
+    const auto* node = table_.find(key);
+    reading_.remarks.add(node ? node->where : table_.where, subject_of(key) + ": " + text);
+  }
+
   void complain(const std::string& key, const std::string& text) override {
     const auto* node = table_.find(key);
     complain_at(node ? node->where : table_.where, key, text);
@@ -72,7 +77,8 @@ class EntryReader : public EntryCheck {
     }
     if (!key) return complain_at(node.where, node.name, unknown(node.name));
     const Complain complain = [&](Where where, const std::string& text) { complain_at(where, key->name, text); };
-    auto value = read_value(*key, node, complain);
+    const Complain remark = [&](Where where, const std::string& text) { reading_.remarks.add(where, subject_of(key->name) + ": " + text); };
+    auto value = read_value(*key, node, complain, remark);
     if (!value) {
       unsound_.insert(key->name);
       return;

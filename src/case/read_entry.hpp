@@ -12,6 +12,7 @@ namespace railwave::case_file {
 /// What is gathered while the entries of a file are read.
 struct Reading {
   Complaints& complaints;
+  Complaints& remarks;   ///< what is odd, but may be meant
   std::string folder;    ///< of the case file: what paths are relative to
   bool complete = true;  ///< false: don't tell what is missing, a line with broken syntax may have held it
   unsigned unsure = refers_to_nothing;  ///< kinds of names whose section was not understood

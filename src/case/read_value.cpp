@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "case/plausible.hpp"
 #include "case/suggest.hpp"
 
 namespace railwave::case_file {
@@ -14,7 +15,7 @@ namespace {
 /// Reads one value; each member function returns nothing once it has complained.
 class Reader {
  public:
-  Reader(const Key& key, const Complain& complain) : key_(key), complain_(complain) {}
+  Reader(const Key& key, const Complain& complain, const Complain& remark) : key_(key), complain_(complain), remark_(remark) {}
 
   std::optional<Value> read(const Node& node) const {
     switch (key_.kind) {
@@ -75,15 +76,20 @@ class Reader {
 
   /// `which` names a component: "its x".
   std::optional<double> number(const Node& node, const std::string& which) const {
+    const std::string& unit = key_.unit;
     const auto is = which.empty() ? std::string("is") : which + " is";
-    const auto unit = key_.unit.empty() ? "" : " in " + key_.unit;
-    if (!node.is_number()) return bad(node, fmt::format("{} {}, must be a number{}", is, node.described(), unit));
+    if (!node.is_number())
+      return bad(node, fmt::format("{} {}, must be a number{}", is, node.described(), unit.empty() ? "" : " in " + unit));
     if (!std::isfinite(node.number))
-      return bad(node, fmt::format("{} {}, must be a finite number{}", is, node.number, unit));
-    if (!key_.range.has(node.number)) {
-      return bad(node, fmt::format("{} {}, must be {}{}", is, node.number, range_text(key_.range),
-                                   key_.unit.empty() ? "" : " " + key_.unit));
-    }
+      return bad(node, fmt::format("{} {}, must be a finite number{}", is, node.number, unit.empty() ? "" : " in " + unit));
+    const Range allowed = key_.range.has(node.number) ? allowed_range(key_) : key_.range;
+    if (!allowed.has(node.number))
+      return bad(node, fmt::format("{} {}, must be {}{}{}", is, node.number, range_text(allowed), unit.empty() ? "" : " " + unit,
+                                   unit_hint(key_, node.number)));
+    if (const double least = least_beside_zero(key_); node.number != 0 && std::fabs(node.number) < least)
+      return bad(node, fmt::format("{} {}, must be 0 or at least {}{}{}", is, node.number, least, unit.empty() ? "" : " ", unit));
+    if (!is_usual(key_, node.number))
+      remark_(node.where, (which.empty() ? "" : which + " ") + oddity(key_, node.number));
     return node.number;
   }
 
@@ -266,31 +272,39 @@ class Reader {
     return good ? std::optional<Value>(result) : std::nullopt;
   }
 
+  /// Each number of a pair has a unit and a range of its own.
+  std::optional<double> of_pair(const Node& node, std::size_t pair, const std::string& what, const Range& range) const {
+    if (!node.is_number()) return bad(node, fmt::format("the {} of pair {} is {}, must be a number", what, pair, node.described()));
+    if (!std::isfinite(node.number)) return bad(node, fmt::format("the {} of pair {} is {}, must be a finite number", what, pair, node.number));
+    if (!range.has(node.number)) return bad(node, fmt::format("the {} of pair {} is {}, must be {}", what, pair, node.number, range_text(range)));
+    return node.number;
+  }
+
   std::optional<Value> pairs(const Node& node) const {
     if (node.type != Node::Type::list) return wrong(node);
     if (node.children.empty()) return bad(node, "is empty, must be " + expectation(key_));
     Pairs result;
     for (std::size_t i = 0; i < node.children.size(); ++i) {
       const auto& child = node.children[i];
-      if (child.type != Node::Type::list || child.children.size() != 2) {
-        return bad(child, fmt::format("entry {} must be a pair [time, value]", i + 1));
-      }
-      const auto time = number(child.children[0], fmt::format("the time of pair {}", i + 1));
-      const auto value = number(child.children[1], fmt::format("the value of pair {}", i + 1));
-      if (!time || !value) return std::nullopt;
-      result.push_back({*time, *value});
+      if (child.type != Node::Type::list || child.children.size() != 2)
+        return bad(child, fmt::format("entry {} must be a pair [{}, {}]", i + 1, key_.pair.first, key_.pair.second));
+      const auto first = of_pair(child.children[0], i + 1, key_.pair.first, key_.pair.first_range);
+      const auto second = of_pair(child.children[1], i + 1, key_.pair.second, key_.pair.second_range);
+      if (!first || !second) return std::nullopt;
+      result.push_back({*first, *second});
     }
     return result;
   }
 
   const Key& key_;
   const Complain& complain_;
+  const Complain& remark_;
 };
 
 }  // namespace
 
-std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain) {
-  return Reader(key, complain).read(node);
+std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain, const Complain& remark) {
+  return Reader(key, complain, remark).read(node);
 }
 
 }  // namespace railwave::case_file

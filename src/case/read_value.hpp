@@ -25,7 +25,7 @@ std::string alternatives(const std::vector<std::string>& choices);
 using Complain = std::function<void(Where, const std::string&)>;
 
 /// The node as the key's kind of value; nothing when it is of another kind or out of range, which has been told by
-/// `complain`. Names are not looked up here.
-std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain);
+/// `complain`; what is odd, but taken, is told by `remark`. Names are not looked up here.
+std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain, const Complain& remark);
 
 }  // namespace railwave::case_file

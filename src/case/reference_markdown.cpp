@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "case/keys.hpp"
+#include "case/plausible.hpp"
 #include "case/read_value.hpp"
 #include "case/reference.hpp"
 #include "case/references.hpp"
@@ -60,6 +61,8 @@ end = 1e-3
 - **Axes.** x runs along the rail, and wheels roll towards +x; y is lateral, with the track's centre and the wheel's flange towards
   -y; z points up. A wheel that rolls towards +x turns about +y.
 - **Units.** SI: m, kg, s, N, Pa, rad. Only `scale` of a mesh read from a file converts: 0.001 for a mesh in mm.
+- **Sizes.** A number beyond what its unit can be in any scene is refused, see [limits by unit](#limits-by-unit). One that is allowed
+  but unusual, such as a density of 7.8 kg/m3, is taken with a warning, which names the unit that was probably meant.
 - **Names.** Each section `[parts.NAME]`, `[materials.NAME]` and so on makes one thing, which others refer to by its name. A set of a
   part's mesh is `part.set`. `ground` is the fixed world, to which connectors may lead.
 - **Command line.** `railwave run CASE --set section.key=value` replaces a value: `time.end=1e-3`, `parts.wheel.hourglass=stiffness`.
@@ -176,7 +179,7 @@ std::vector<Key> keys_of(const Section& section, const std::string& type) {
 
 std::string section_text(const Section& section) {
   std::string text = "\n## " + (section.name.empty() ? "Above all sections" : "`" + section.title() + "`") + "\n";
-  if (!section.name.empty()) text += "\n" + section.help + (section.required ? " Required." : "") + "\n";
+  if (!section.name.empty()) text += "\n" + section.help + (!section.required ? "" : section.name == "parts" ? " Required, unless there is a track." : " Required.") + "\n";
   text += table(keys_of(section, ""));
   const auto* type = section.type_key();
   if (!type) return text;
@@ -192,7 +195,7 @@ std::string section_text(const Section& section) {
 std::string case_reference_markdown() {
   std::string text = introduction;
   for (const auto& section : sections()) text += section_text(section);
-  return text;
+  return text + "\n# Limits by unit\n\nBesides what the tables above allow, for every key that has the unit; those of `[watch]` may be larger.\n\n" + unit_limits_markdown();
 }
 
 }  // namespace railwave

@@ -2,6 +2,7 @@
 
 #include "case/json.hpp"
 #include "case/keys.hpp"
+#include "case/plausible.hpp"
 #include "case/read_value.hpp"
 #include "case/reference.hpp"
 #include "case/references.hpp"
@@ -38,25 +39,32 @@ Members text_schema(const Key& key) {
   return schema;
 }
 
+Members pair_schema(const Key& key) {
+  return {{"type", json::text("array")},
+          {"prefixItems", json::list({json::object(ranged("number", key.pair.first_range)), json::object(ranged("number", key.pair.second_range))})},
+          {"minItems", "2"},
+          {"maxItems", "2"}};
+}
+
 Members value_schema(const Key& key) {
   const auto least = key.required ? "1" : "";
-  const auto numbers = list_of(ranged("number", key.range), "3", "3");
+  const auto numbers = list_of(ranged("number", allowed_range(key)), "3", "3");
   switch (key.kind) {
     case Kind::absent:
       return {};
     case Kind::boolean:
       return {{"type", json::text("boolean")}};
     case Kind::integer:
-      return ranged("integer", key.range);
+      return ranged("integer", allowed_range(key));
     case Kind::number:
-      return ranged("number", key.range);
+      return ranged("number", allowed_range(key));
     case Kind::text:
     case Kind::choice:
       return text_schema(key);
     case Kind::vector:
       return numbers;
     case Kind::integer_vector:
-      return list_of(ranged("integer", key.range), "3", "3");
+      return list_of(ranged("integer", allowed_range(key)), "3", "3");
     case Kind::axes:
       return list_of(numbers, "3", "3");
     case Kind::directions:
@@ -64,11 +72,11 @@ Members value_schema(const Key& key) {
     case Kind::texts:
       return list_of(text_schema(key), least, "");
     case Kind::pairs:
-      return list_of(list_of({{"type", json::text("number")}}, "2", "2"), "1", "");
+      return list_of(pair_schema(key), "1", "");
     case Kind::numbers:
-      return list_of(ranged("number", key.range), "1", "");
+      return list_of(ranged("number", allowed_range(key)), "1", "");
     case Kind::integer_pair:
-      return list_of(ranged("integer", key.range), "2", "2");
+      return list_of(ranged("integer", allowed_range(key)), "2", "2");
     case Kind::box:
       return list_of(numbers, "2", "2");
   }
@@ -127,7 +135,7 @@ std::string section_schema(const Section& section) {
                  {"description", json::text(section.help)},
                  {"propertyNames", json::object({{"pattern", json::text("^[A-Za-z0-9_-]+$")}})},
                  {"additionalProperties", any_entry_schema(section)}};
-  if (section.required) schema.emplace_back("minProperties", "1");
+  if (section.required && section.name != "parts") schema.emplace_back("minProperties", "1");
   return json::object(schema);
 }
 
@@ -142,13 +150,16 @@ std::string case_schema_json() {
     } else {
       properties.emplace_back(section.name, section_schema(section));
     }
-    if (section.required) required.push_back(section.name);
+    if (section.required && section.name != "parts") required.push_back(section.name);
   }
+  // Tracks make parts of their own.
+  const auto one_needed = [](const char* name) { return json::object({{"required", json::texts({name})}}); };
   return json::indented(json::object({{"$schema", json::text("https://json-schema.org/draft/2020-12/schema")},
                                       {"title", json::text("Railwave case file")},
                                       {"type", json::text("object")},
                                       {"properties", json::object(properties)},
                                       {"required", json::texts(required)},
+                                      {"anyOf", json::list({one_needed("parts"), one_needed("tracks")})},
                                       {"additionalProperties", "false"}}));
 }
 

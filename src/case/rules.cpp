@@ -1,5 +1,6 @@
 #include "case/rules.hpp"
 #include "case/rules_rail.hpp"
+#include "case/usual_sizes.hpp"
 
 #include <fmt/format.h>
 
@@ -85,6 +86,10 @@ std::string part_of(const std::string& set) { return set.substr(0, set.find('.')
 }  // namespace
 
 void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
+  constexpr double longest_modelled = 200;  // m
+  if (const double length = rail.end - rail.start; check.sound({"start", "end"}) && length > longest_modelled)
+    check.remark("end", fmt::format("the rail is {:.6g} m long, which is unusual: mostly it is up to {} m; m are expected: {:.4g}, if it is in mm", length,
+                                    longest_modelled, 1e-3 * length));
   ascending(check, {{"start", rail.start}, {"end", rail.end}});
   ascending(check, {{"zone_start", rail.zone_start}, {"zone_end", rail.zone_end}});
   at_most(check, {"zone_size", rail.zone_size}, {"zone_width", rail.zone_width});
@@ -122,9 +127,25 @@ void check_material(void* entry, EntryCheck& check) {
   }
 }
 
+namespace {
+
+/// Elements of a body of so many divisions, against those that solids of a railway have.
+void remark_element_size(double length, int divisions, const char* size_key, const std::string& which, EntryCheck& check) {
+  const double size = length / divisions;
+  if (size >= finest_mesh && size <= coarsest_mesh) return;
+  check.remark(size_key, fmt::format("makes elements {:.4g} m {}, which is unusual: mostly they are {} to {} m; see the lengths, in m, and the divisions", size, which,
+                                     finest_mesh, coarsest_mesh));
+}
+
+}  // namespace
+
 void check_mesh(void* entry, EntryCheck& check) {
   const auto& mesh = *static_cast<scene::MeshSource*>(entry);
   if (!check.sound({"type"})) return;
+  if (mesh.type == scene::MeshType::box && check.sound({"size", "divisions"}))
+    for (int i = 0; i < 3; ++i) remark_element_size(mesh.box.size[i], mesh.box.divisions[i], "size", std::string("along ") + "xyz"[i], check);
+  if (mesh.type == scene::MeshType::cylinder && check.sound({"length", "length_divisions"}))
+    remark_element_size(mesh.cylinder.length, mesh.cylinder.length_divisions, "length", "along z", check);
   if (mesh.type == scene::MeshType::wheel) check_wheel(mesh.wheel, check);
   if (mesh.type == scene::MeshType::wheelset) check_wheel(mesh.wheelset, check);
   if (mesh.type == scene::MeshType::rail) check_rail(mesh.rail, check);
@@ -148,7 +169,6 @@ void check_beam(void* entry, EntryCheck& check) {
   for (const auto& [key, value] : {Named{"radius", beam.radius}, Named{"width", beam.width}, Named{"height", beam.height}}) {
     const bool belongs = circle == (key[0] == 'r');
     if (belongs && !check.given(key)) check.complain(key, fmt::format("is missing; section = \"{}\" needs it", name));
-    if (belongs && check.given(key) && check.sound({key}) && value == 0) check.complain(key, "is 0, must be above 0 m");
     if (!belongs && check.given(key)) check.complain(key, fmt::format("does not belong to section = \"{}\"; leave it out", name));
   }
 }
@@ -186,14 +206,10 @@ void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
   if (!check.sound({"penalty_growth"})) return;
   double before = -1;
   for (std::size_t i = 0; i < contact.penalty_growth.size(); ++i) {
-    const auto [depth, factor] = contact.penalty_growth[i];
-    if (!(depth >= 0 && depth > before)) {
+    const double depth = contact.penalty_growth[i][0];
+    if (!(depth > before)) {
       check.complain("penalty_growth", fmt::format("penetration must be at least 0 m and increase from pair to pair, but pair {} has {} m{}",
                                                    i + 1, depth, i > 0 ? fmt::format(" after {} m", before) : ""));
-      return;
-    }
-    if (!(factor > 0)) {
-      check.complain("penalty_growth", fmt::format("factors must be above 0, but pair {} has {}", i + 1, factor));
       return;
     }
     before = depth;

@@ -16,6 +16,8 @@ class EntryCheck {
   virtual bool sound(std::initializer_list<std::string> keys) const = 0;
   /// Adds a mistake at the key's line, or the entry's if the key is absent.
   virtual void complain(const std::string& key, const std::string& text) = 0;
+  /// Warns at the same place: the value is odd, but may be meant.
+  virtual void remark(const std::string& key, const std::string& text) = 0;
 };
 
 // Rules that bind several keys of one entry; each gets the section's entry. They also set defaults that depend on

@@ -16,7 +16,7 @@ void check_hammer(void* entry, EntryCheck& check) {
   const auto& hammer = *static_cast<scene::Hammer*>(entry);
   const bool measured = check.given("curve");
   if (!measured && check.sound({"duration"}) && !(hammer.duration > 0))
-    check.complain("duration", "is missing or 0; must be a number in s, above 0, unless curve is given");
+    check.complain("duration", "is missing; must be a number in s, above 0, unless curve is given");
   for (const char* key : {"duration", "start"})
     if (measured && check.given(key))
       check.complain(key, "has no effect beside curve, which has its own times; leave one of them out");

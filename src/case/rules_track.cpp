@@ -28,8 +28,12 @@ void check_sleeper(void* entry, EntryCheck& check) {
   // A section that changes the timber sleeper is not based on the concrete one.
   if (!check.given("base") && kind.name == "timber") kind.base = scene::Sleeper::Base::timber;
   check_pad(kind, check);
-  if (!check.sound({"width", "pad_length"}) || !kind.width || !kind.pad_length || *kind.pad_length <= *kind.width) return;
-  check.complain("pad_length", fmt::format("is {}, must be at most width ({})", *kind.pad_length, *kind.width));
+  if (!check.sound({"width", "pad_length"})) return;
+  const double width = kind.width.value_or(0.25), pad_length = kind.pad_length.value_or(0.16);  // as the tables say
+  if (pad_length <= width) return;
+  const bool blame_width = check.given("width") && !check.given("pad_length");
+  check.complain(blame_width ? "width" : "pad_length", blame_width ? fmt::format("is {}, must be at least pad_length ({})", width, pad_length)
+                                                                   : fmt::format("is {}, must be at most width ({})", pad_length, width));
 }
 
 namespace {

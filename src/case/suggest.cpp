@@ -57,7 +57,17 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   if (candidates.empty()) return "";
   const auto near = nearest_name(word, candidates);
   if (!near.empty()) return "did you mean '" + near + "'?";
-  return "known are: " + joined(candidates);
+  // As many as fit into a message.
+  constexpr std::size_t longest = 300;
+  std::vector<std::string> shown;
+  std::size_t letters = 0;
+  for (const auto& candidate : candidates) {
+    letters += candidate.size() + 2;
+    if (letters > longest && !shown.empty()) break;
+    shown.push_back(candidate);
+  }
+  const std::size_t others = candidates.size() - shown.size();
+  return "known are: " + joined(shown) + (others == 0 ? "" : " and " + std::to_string(others) + " more");
 }
 
 std::string joined(const std::vector<std::string>& words, const std::string& between) {

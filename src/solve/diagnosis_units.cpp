@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "case/usual_sizes.hpp"
+
 namespace railwave {
 namespace {
 
-/// Waves of solids are between those of soft rubber and of diamond, m/s.
-constexpr double slowest_wave = 5, fastest_wave = 25000;
 /// Yield stress over Young's modulus: lead's is some 1e-3.
 constexpr double lowest_yield = 1e-5;
-/// Mean size of a part's elements, m.
-constexpr double finest_mesh = 1e-6, coarsest_mesh = 0.5;
+/// Nearly incompressible: waves are fast for that alone.
+constexpr double high_poissons_ratio = 0.49;
 
 struct PartOf {
   const Model& model;
@@ -37,6 +37,10 @@ Found waves(const PartOf& part) {
   const scene::Material& material = part.material();
   const double speed = material.dilatational_speed();
   if (speed >= slowest_wave && speed <= fastest_wave) return {};
+  if (material.poissons_ratio > high_poissons_ratio && speed > fastest_wave && material.shear_speed() < 0.6 * fastest_wave)
+    return {fault_of(FaultKind::material, part, speed, fastest_wave,
+                     {"material", fmt::format("material {} of part {} has waves of {:.3g} m/s, for it is nearly incompressible: see materials.{} poissons_ratio, {}; "
+                                              "0.49 and below does", material.name, part.name(), speed, material.name, material.poissons_ratio), 90})};
   return {fault_of(FaultKind::material, part, speed, speed > fastest_wave ? fastest_wave : slowest_wave,
                    {"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus (Pa); a table in "
                                             "mm and tonnes must be converted", material.name, part.name(), speed, material.name), 90})};

@@ -67,12 +67,12 @@ void check_results_room(const ResultsSize& size, const scene::Scene& scene, doub
   if (size.history_bytes + least_share * size.field_bytes <= available) return;
   const bool fields = least_share * size.field_bytes > size.history_bytes;
   throw InputError(fmt::format(
-      "{}: [output] {} makes {:.3g} {} of {} each to [time] end = {:.4g} s: {} before compression, but {} has {} free; give a longer {}, {}, end it earlier, see "
-      "whether the step is as long as it should be, or name a file on a larger disk", scene.path,
+      "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, end the run (time.end = {:.4g} s) earlier, "
+      "see whether the step is as long as it should be, or name a file on a larger disk", scene.path,
       fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples, fields ? "outputs of fields" : "samples of histories",
-      fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples), scene.time.end,
+      fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples),
       bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available),
-      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets"));
+      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets", scene.time.end));
 }
 
 double free_bytes_at(const std::string& path) {

@@ -5,19 +5,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 
+from . import style
+from .faces import exterior
 from .results import BadFile
 
-FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
 AZIMUTH, ELEVATION = np.radians(55), np.radians(24)  # seen from outside the track, ahead and above
 NEAR = 0.25  # m around the shortest step
-
-
-def exterior(elements):
-    """Corners of the faces that belong to one element only, and their elements."""
-    faces = elements[:, FACES].reshape(-1, 4)
-    _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-    outside = first[count == 1]
-    return faces[outside], outside // 6
 
 
 def lines_of(file, name):
@@ -93,27 +86,27 @@ def draw_model(path):
     figure = plt.figure(figsize=(10, 8))
     grid = figure.add_gridspec(2, 2, height_ratios=[1, 1], hspace=0.05, wspace=0.02, left=0.02, right=0.98, top=0.93, bottom=0.1)
     whole, near, far = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, 1]), figure.add_subplot(grid[1, 0])
-    figure.suptitle(f"{surface.title}\nshortest stable step {1e9 * surface.least:.3g} ns, {surface.short} elements within a tenth of it", fontsize=10)
+    figure.suptitle(f"{surface.title}\nshortest stable step {1e9 * surface.least:.3g} ns, {surface.short} elements within a tenth of it", fontsize=style.TITLE)
 
     family = families(surface.part_names)
     kinds = sorted(set(family), key=family.index)
-    palette = plt.get_cmap("tab10")(np.arange(len(kinds)) % 10)
+    palette = plt.get_cmap(style.LIST)(np.arange(len(kinds)) % 10)
     surface.draw(whole, palette[[kinds.index(family[p]) for p in surface.part]], edges=0.1)
     handles = [plt.Line2D([], [], marker="s", linestyle="", color=colour) for colour in palette]
-    for name, there, style in (("springs and dashpots", surface.lines, {"color": "crimson"}), ("beams", surface.beams, {"color": "black", "linewidth": 1.5})):
+    for name, there, looks in (("springs and dashpots", surface.lines, {"color": "crimson"}), ("beams", surface.beams, {"color": "black", "linewidth": 1.5})):
         if len(there):
-            handles.append(plt.Line2D([], [], **style))
+            handles.append(plt.Line2D([], [], **looks))
             kinds.append(name)
-    whole.legend(handles, kinds, fontsize=8, loc="upper left", frameon=False)
+    whole.legend(handles, kinds, fontsize=style.SMALL, loc="upper left", frameon=False)
 
     scale = plt.Normalize(0, np.log10(max(surface.step.max() / surface.least, 1.01)))
-    colours = plt.get_cmap("viridis")(scale(np.log10(surface.step / surface.least)))
+    colours = plt.get_cmap(style.SIZE_MAP)(scale(np.log10(surface.step / surface.least)))
     surface.draw(far, colours, lines=False)
     surface.draw(near, colours, lines=False, edges=0.15, box=(surface.place, NEAR))
     spot = surface.place @ surface.axes
     for axes in (far, near):
         axes.plot(*spot, marker="o", markersize=9, markerfacecolor="none", markeredgecolor="red")
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, "viridis"), cax=figure.add_axes([0.25, 0.075, 0.5, 0.018]), orientation="horizontal")
-    bar.ax.tick_params(labelsize=8)
-    bar.set_label("stable step over the shortest (in the ring), powers of ten", fontsize=8)
+    bar = figure.colorbar(plt.cm.ScalarMappable(scale, style.SIZE_MAP), cax=figure.add_axes([0.25, 0.075, 0.5, 0.018]), orientation="horizontal")
+    bar.ax.tick_params(labelsize=style.SMALL)
+    bar.set_label("stable step over the shortest (in the ring), powers of ten", fontsize=style.SMALL)
     return figure

@@ -5,7 +5,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from .model import AZIMUTH, ELEVATION, exterior
+from . import style
+from .faces import exterior
+from .model import AZIMUTH, ELEVATION
 from .results import BadFile
 
 KINDS = ("axial", "radial", "circumferential")
@@ -63,7 +65,7 @@ def draw_faces(axes, corners, towards, up, values, limit):
     normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     order = np.argsort(corners.mean(axis=1) @ towards)
     order = order[normal[order] @ towards > 0]
-    colours = plt.get_cmap("RdBu_r")(0.5 + 0.5 * values[order] / limit) if limit > 0 else None
+    colours = plt.get_cmap(style.SIGNED_MAP)(0.5 + 0.5 * values[order] / limit) if limit > 0 else None
     polygons = corners[order] @ np.stack([right, up], axis=1)
     axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=colours, linewidths=0.3))
     low, high = polygons.reshape(-1, 2).min(axis=0), polygons.reshape(-1, 2).max(axis=0)
@@ -95,7 +97,7 @@ def draw_mode(axes, shapes, mode):
     axes.autoscale_view()
     axes.set_aspect("equal")
     axes.axis("off")
-    axes.set_title(f"{mode['number']}: {mode['frequency']:.0f} Hz\n{name_of(mode)}", fontsize=9)
+    axes.set_title(f"{mode['number']}: {mode['frequency']:.0f} Hz\n{name_of(mode)}", fontsize=style.TEXT)
 
 
 def draw_modes(path, numbers=None, most=12, columns=4):
@@ -113,5 +115,5 @@ def draw_modes(path, numbers=None, most=12, columns=4):
         draw_mode(axes, shapes, mode)
     named = any(mode["kind"] >= 0 for mode in modes)
     colours = "displacement along what names the mode (nodal circles, nodal diameters): red and blue are opposite" if named else "red: largest displacement"
-    figure.suptitle(f"{shapes.title}\n{colours}" if shapes.title else colours, fontsize=9)
+    figure.suptitle(f"{shapes.title}\n{colours}" if shapes.title else colours, fontsize=style.TEXT)
     return figure

@@ -4,10 +4,8 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator, Triangulation, UniformTriRefiner
 
-PRESSURE_COLOURS = "YlOrRd"
-PARTING_COLOURS = "PuOr"
-SHEAR_COLOUR, SLIP_COLOUR, BOUND_COLOUR = "#10407f", "#c2185b", "#b3261e"
-STICK_COLOUR = "#0a7a4a"
+from . import style
+
 ARROW_CELLS = 1.4  # length of the largest arrow, in distances of arrows
 ARROWS_ACROSS = 24  # at most, over the patch's larger side
 
@@ -46,7 +44,7 @@ def pressure_levels(peak):
 
 def draw_pressure(axes, fine, levels):
     """Colours by pressure, and the edge of contact."""
-    colours = axes.tricontourf(fine.mesh, np.sqrt(np.maximum(fine.square_of_pressure, 0)), levels=levels, cmap=PRESSURE_COLOURS)
+    colours = axes.tricontourf(fine.mesh, np.sqrt(np.maximum(fine.square_of_pressure, 0)), levels=levels, cmap=style.PRESSURE_MAP)
     draw_edge(axes, fine)
     return colours
 
@@ -61,7 +59,7 @@ def parting_levels(fastest):
 
 def draw_parting(axes, patch, fine, levels):
     """Colours by the velocity at which the surfaces part (positive) or approach."""
-    colours = axes.tricontourf(*fine.refine(patch.parting), levels=levels, cmap=PARTING_COLOURS)
+    colours = axes.tricontourf(*fine.refine(patch.parting), levels=levels, cmap=style.PARTING_MAP)
     draw_edge(axes, fine)
     return colours
 
@@ -75,7 +73,7 @@ def draw_stick_boundary(axes, patch, fine, slips):
     for node in np.flatnonzero(~patch.touching):
         sticking[node] = sticking[inside[np.argmin(np.hypot(patch.x[inside] - patch.x[node], patch.y[inside] - patch.y[node]))]]
     mesh, fine_sticking = fine.inside(sticking)
-    axes.tricontour(mesh, fine_sticking, levels=[0.5], colors=STICK_COLOUR, linewidths=1.4, linestyles="--")
+    axes.tricontour(mesh, fine_sticking, levels=[0.5], colors=style.STICK, linewidths=1.4, linestyles="--")
 
 
 def draw_letters(axes, patch, slips):
@@ -89,7 +87,7 @@ def draw_letters(axes, patch, slips):
         middle = np.hypot(patch.x[mine] - patch.x[mine].mean(), patch.y[mine] - patch.y[mine].mean())
         node = mine[np.argmax(distance - 1e-3 * middle)]
         axes.text(
-            patch.x[node], patch.y[node], letter, ha="center", va="center", fontsize=11, fontweight="bold", color=STICK_COLOUR, zorder=6,
+            patch.x[node], patch.y[node], letter, ha="center", va="center", fontsize=style.TITLE, fontweight="bold", color=style.STICK, zorder=6,
             bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75},
         )  # fmt: skip
 
@@ -121,7 +119,7 @@ def draw_arrows(axes, patch, u, v, colour, largest=None, key=None):
     if key:
         name, unit = key
         length = nice(largest)
-        axes.quiverkey(arrows, 0.8, 1.04, length, f"{name} {length:g} {unit}", labelpos="W", coordinates="axes", fontproperties={"size": 9})
+        axes.quiverkey(arrows, 0.8, 1.04, length, f"{name} {length:g} {unit}", labelpos="W", coordinates="axes", fontproperties={"size": style.TEXT})
 
 
 def set_window(axes, half, x_label=True, y_label=True):
@@ -144,11 +142,11 @@ def draw_cut(axes, cut, half, top, legend=True):
     """Traction bound and shear along a cut, with the letters of its adhesion and slip regions."""
     shear = np.hypot(cut["shear_along"], cut["shear_across"])
     if cut["traction_bound"].any():
-        axes.plot(cut["distance"], cut["traction_bound"], color=BOUND_COLOUR, label="friction times pressure")
-        axes.plot(cut["distance"], shear, color=SHEAR_COLOUR, label="shear, size")
-        axes.plot(cut["distance"], cut["shear_along"], color=SHEAR_COLOUR, linewidth=0.8, linestyle=":", label="longitudinal shear")
+        axes.plot(cut["distance"], cut["traction_bound"], color=style.BOUND, label="friction times pressure")
+        axes.plot(cut["distance"], shear, color=style.SHEAR, label="shear, size")
+        axes.plot(cut["distance"], cut["shear_along"], color=style.SHEAR, linewidth=0.8, linestyle=":", label="longitudinal shear")
     else:
-        axes.plot(cut["distance"], cut["pressure"], color=BOUND_COLOUR, label="pressure (no friction)")
+        axes.plot(cut["distance"], cut["pressure"], color=style.BOUND, label="pressure (no friction)")
     inside, slips = cut["pressure"] > 0, cut["slips_by_force"] > 0.5
     for letter, region in (("A", inside & ~slips), ("S", inside & slips)):
         for part in np.split(np.flatnonzero(region), np.flatnonzero(np.diff(np.flatnonzero(region)) > 1) + 1):
@@ -156,12 +154,12 @@ def draw_cut(axes, cut, half, top, legend=True):
                 continue
             first, last = cut["distance"][part[0]], cut["distance"][part[-1]]
             if letter == "A":
-                axes.axvspan(first, last, color=STICK_COLOUR, alpha=0.10, linewidth=0)
+                axes.axvspan(first, last, color=style.STICK, alpha=0.10, linewidth=0)
             if last - first > 0.06 * 2 * half:
-                axes.text(0.5 * (first + last), 0.93 * top, letter, ha="center", va="center", fontsize=10, fontweight="bold", color=STICK_COLOUR)
+                axes.text(0.5 * (first + last), 0.93 * top, letter, ha="center", va="center", fontsize=style.TITLE, fontweight="bold", color=style.STICK)
     axes.axhline(0, color="black", linewidth=0.6)
     axes.set_xlim(-half, half)
     lowest = min(0.0, cut["shear_along"].min()) if len(cut["distance"]) else 0.0
     axes.set_ylim(1.1 * lowest, top)
     if legend:
-        axes.legend(fontsize=8, loc="upper right")
+        axes.legend(fontsize=style.SMALL, loc="best")

@@ -4,7 +4,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
 
-from .panels import (SHEAR_COLOUR, SLIP_COLOUR, STICK_COLOUR, Fine, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
+from . import style
+from .panels import (Fine, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
                      draw_stick_boundary, parting_levels, pressure_levels, set_window, top_of)
 
 
@@ -40,7 +41,7 @@ def _places(ratio):
 
 
 def _parting_levels(patches):
-    return parting_levels(max(np.abs(p.parting).max() for p in patches) or 1e-12)
+    return parting_levels(max([1e-6] + [np.abs(p.parting).max() for p in patches]))  # slower ones are rounding
 
 
 def draw_patch(title, contact, patch):
@@ -48,24 +49,25 @@ def draw_patch(title, contact, patch):
     half, fine, cut = patch.half_size(), Fine(patch), patch.cut()
     figure, (line, stress, slip) = _places(half[1] / half[0])
     which = f"contact {contact.name}" + (f", patch {patch.number}" if patch.number > 1 else "")
-    figure.suptitle(f"{title}\n{which}, stresses on {contact.surface}, t = {1e3 * patch.time:.4f} ms\n{_forces(patch)}\n{_creepages(patch)}", fontsize=9)
+    figure.suptitle(f"{title}\n{which}, stresses on {contact.surface}, t = {1e3 * patch.time:.4f} ms\n{_forces(patch)}\n{_creepages(patch)}", fontsize=style.TEXT)
 
     draw_cut(line, cut, half[0], top_of(cut))
-    line.set_ylabel("MPa")
-    line.set_title("along the centre line; A adhesion, S slip (eq. 3.6)", fontsize=9)
+    line.set_ylabel("stress, MPa")
+    line.set_xlabel("rolling direction, mm")
+    line.set_title("along the centre line; A adhesion, S slip (eq. 3.6)", fontsize=style.TEXT)
 
     colours = draw_pressure(stress, fine, pressure_levels(patch.pressure.max()))
     figure.colorbar(colours, ax=stress, label="pressure, MPa", shrink=0.9)
     draw_stick_boundary(stress, patch, fine, patch.slips)
-    draw_arrows(stress, patch, patch.shear_x, patch.shear_y, SHEAR_COLOUR, key=("shear", "MPa"))
+    draw_arrows(stress, patch, patch.shear_x, patch.shear_y, style.SHEAR, key=("shear", "MPa"))
     set_window(stress, half)
-    handles = [Line2D([], [], color="black", linewidth=0.9, label="edge"), Line2D([], [], color=STICK_COLOUR, linestyle="--", label="stick | slip")]
-    stress.legend(handles=handles, fontsize=7, loc="upper left")
+    handles = [Line2D([], [], color="black", linewidth=0.9, label="edge"), Line2D([], [], color=style.STICK, linestyle="--", label="stick | slip")]
+    stress.legend(handles=handles, fontsize=style.TINY, loc="upper left")
 
     colours = draw_parting(slip, patch, fine, _parting_levels([patch]))
     figure.colorbar(colours, ax=slip, label="surfaces part (+), approach (-), m/s", shrink=0.9)
     draw_stick_boundary(slip, patch, fine, patch.slips_by_velocity)
-    draw_arrows(slip, patch, patch.slip_x, patch.slip_y, SLIP_COLOUR, key=("micro-slip", "m/s"))
+    draw_arrows(slip, patch, patch.slip_x, patch.slip_y, style.SLIP, key=("micro-slip", "m/s"))
     draw_letters(slip, patch, patch.slips_by_velocity)
     set_window(slip, half)
     return figure
@@ -95,27 +97,27 @@ def draw_row(title, contact, count=6, indices=None):
     width, n = 2.1, len(patches)
     height = width * half[1] / half[0]
     figure, grid = plt.subplots(3, n, figsize=(n * width + 2.0, 1.5 + 2 * height + 1.9), squeeze=False, constrained_layout=True, gridspec_kw={"height_ratios": [1.5, height, height]})
-    figure.suptitle(f"{title}\ncontact {contact.name}, stresses on {contact.surface}; above: friction times pressure (red), shear (blue); A adhesion, S slip (eq. 3.6)", fontsize=9)
+    figure.suptitle(f"{title}\ncontact {contact.name}, stresses on {contact.surface}; above: friction times pressure (red), shear (blue); A adhesion, S slip (eq. 3.6)", fontsize=style.TEXT)
     for column, (patch, cut) in enumerate(zip(patches, cuts)):
         fine, first = Fine(patch), column == 0
         line, stress, slip = grid[:, column]
         draw_cut(line, cut, half[0], top, legend=False)
-        line.set_title(f"t = {1e3 * patch.time:.3f} ms\n{patch.normal_force:.1f} kN; {patch.creep_force:+.1f}, {patch.lateral_force:+.1f} kN", fontsize=8)
+        line.set_title(f"t = {1e3 * patch.time:.3f} ms\n{patch.normal_force:.1f} kN; {patch.creep_force:+.1f}, {patch.lateral_force:+.1f} kN", fontsize=style.SMALL)
         pressure_colours = draw_pressure(stress, fine, levels)
         draw_stick_boundary(stress, patch, fine, patch.slips)
-        draw_arrows(stress, patch, patch.shear_x, patch.shear_y, SHEAR_COLOUR, largest=shear)
+        draw_arrows(stress, patch, patch.shear_x, patch.shear_y, style.SHEAR, largest=shear)
         set_window(stress, half, False, first)
         parting_colours = draw_parting(slip, patch, fine, parting)
-        draw_arrows(slip, patch, patch.slip_x, patch.slip_y, SLIP_COLOUR, largest=speed, key=("", "m/s") if column == n - 1 else None)
+        draw_arrows(slip, patch, patch.slip_x, patch.slip_y, style.SLIP, largest=speed, key=("", "m/s") if column == n - 1 else None)
         draw_stick_boundary(slip, patch, fine, patch.slips_by_velocity)
         draw_letters(slip, patch, patch.slips_by_velocity)
         set_window(slip, half, True, first)
         for axes in (line, stress, slip):
-            axes.tick_params(labelsize=7, labelleft=first)
-            axes.xaxis.label.set_size(8)
-    grid[0, 0].set_ylabel("MPa")
+            axes.tick_params(labelsize=style.TINY, labelleft=first)
+            axes.xaxis.label.set_size(style.SMALL)
+    grid[0, 0].set_ylabel("stress, MPa")
     figure.colorbar(pressure_colours, ax=grid[1, :], label="pressure, MPa")
-    figure.colorbar(parting_colours, ax=grid[2, :], label="parting, m/s")
+    figure.colorbar(parting_colours, ax=grid[2, :], label="surfaces part (+),\napproach (-), m/s")
     return figure
 
 
@@ -132,18 +134,18 @@ def draw_evolution(title, contact, count=8):
     figure, grid = plt.subplots(
         rows, columns, figsize=(columns * width + 1.2, rows * (0.85 * width * half[1] / half[0] + 0.75) + 0.6), squeeze=False, constrained_layout=True
     )
-    figure.suptitle(f"{title}\ncontact {contact.name}, stresses on {contact.surface}; arrows: shear stress, each picture with a scale of its own", fontsize=10)
+    figure.suptitle(f"{title}\ncontact {contact.name}, stresses on {contact.surface}; arrows: shear stress, each picture with a scale of its own", fontsize=style.TITLE)
     for axes in grid.flat[len(patches) :]:
         axes.set_visible(False)
     for axes, patch in zip(grid.flat, patches):
         fine = Fine(patch)
         colours = draw_pressure(axes, fine, levels)
         draw_stick_boundary(axes, patch, fine, patch.slips)
-        draw_arrows(axes, patch, patch.shear_x, patch.shear_y, SHEAR_COLOUR)
+        draw_arrows(axes, patch, patch.shear_x, patch.shear_y, style.SHEAR)
         set_window(axes, half)
-        axes.tick_params(labelsize=7)
-        axes.xaxis.label.set_size(8)
-        axes.yaxis.label.set_size(8)
-        axes.set_title(f"t = {1e3 * patch.time:.4f} ms: {patch.normal_force:.1f} kN, {patch.creep_force:+.1f} kN", fontsize=8)
+        axes.tick_params(labelsize=style.TINY)
+        axes.xaxis.label.set_size(style.SMALL)
+        axes.yaxis.label.set_size(style.SMALL)
+        axes.set_title(f"t = {1e3 * patch.time:.4f} ms: {patch.normal_force:.1f} kN, {patch.creep_force:+.1f} kN", fontsize=style.SMALL)
     figure.colorbar(colours, ax=grid, label="pressure, MPa", shrink=0.9)
     return figure

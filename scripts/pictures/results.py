@@ -9,6 +9,24 @@ class BadFile(Exception):
     """The file cannot be used; the text says why, and what to do."""
 
 
+class ContactSide:
+    """One side of a contact as if it were a group of /fields."""
+
+    ELSEWHERE = {"connectivity": "facets", "elements": "facets"}
+
+    def __init__(self, group, side):
+        self._side, self._time, self.name = group[side], group["time"], group[side].name
+
+    def __getitem__(self, name):
+        return self._time if name == "time" else self._side[self.ELSEWHERE.get(name, name)]
+
+    def __contains__(self, name):
+        return name == "time" or self.ELSEWHERE.get(name, name) in self._side
+
+    def items(self):
+        return self._side.items()
+
+
 class Results:
     def __init__(self, path):
         self.path = path
@@ -52,6 +70,14 @@ class Results:
         # A kill in the middle of a write may leave the arrays with different lengths.
         n = min([len(time)] + [len(e) for e in energies.values()] + [len(f) for pair in contacts.values() for f in pair])
         return time[:n], {k: e[:n] for k, e in energies.items()}, {k: (a[:n], b[:n]) for k, (a, b) in contacts.items()}
+
+    def fields(self):
+        """Groups of /fields by name: parts, element sets and surfaces that the run wrote."""
+        return dict(self._file["fields"].items()) if "fields" in self._file else {}
+
+    def contact_sides(self):
+        """Both sides of each contact, as "contact NAME slave" and "contact NAME master", with the names of /fields."""
+        return {f"contact {name} {side}": ContactSide(group, side) for name, group in self._get("contact").items() for side in ("slave", "master") if side in group}
 
     def friction(self, name):
         """Coefficient of friction of a contact."""

@@ -1,12 +1,19 @@
 """Pictures of computed against exact."""
 
-import matplotlib
-
-matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from pictures import style
+from pictures.output import check_places, put_figure
+
+style.apply()
 
 
-def save(outcome, path, title):
+def check(path, overwrite):
+    """Before the run: whether its picture may be written."""
+    if path.parent.is_dir():
+        check_places("verify_contact", [path], overwrite)
+
+
+def save(outcome, path, title, overwrite=False):
     count = len(outcome.curves)
     if count == 0:
         return
@@ -16,17 +23,17 @@ def save(outcome, path, title):
     for place in axes.flat[count:]:
         place.set_visible(False)
     for place, (name, abscissa, ordinate, curves) in zip(axes.flat, outcome.curves):
-        for label, x, y, style in curves:
-            place.plot(x, y, style, label=label, markersize=4, linewidth=1.2)
-        place.set_title(name, fontsize=9)
-        place.set_xlabel(abscissa, fontsize=8)
-        place.set_ylabel(ordinate, fontsize=8)
-        place.tick_params(labelsize=7)
+        for label, x, y, line in curves:
+            place.plot(x, y, line, label=label, markersize=4, linewidth=1.2)
+        place.set_title(name, fontsize=style.TEXT)
+        place.set_xlabel(abscissa, fontsize=style.SMALL)
+        place.set_ylabel(ordinate, fontsize=style.SMALL)
+        place.tick_params(labelsize=style.TINY)
         place.grid(alpha=0.3)
-        place.legend(fontsize=7)
-    figure.suptitle(title, fontsize=10)
+        place.legend(fontsize=style.TINY)
+    figure.suptitle(title, fontsize=style.TITLE)
     figure.tight_layout()
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=90)
+    put_figure(figure, str(path), style.RESOLUTION, overwrite)
     plt.close(figure)
     print(path)

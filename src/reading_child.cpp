@@ -15,7 +15,9 @@
 #include <iostream>
 #include <stdexcept>
 
+#include "case/error.hpp"
 #include "case/memory.hpp"
+#include "out_of_memory.hpp"
 #include "output/call_limit.hpp"
 #include "signals.hpp"
 
@@ -106,12 +108,30 @@ pid_t fork_reader(const std::string& command, const std::vector<std::string>& fi
   return child;
 }
 
+/// What a damaged file leads to need not know of the file.
+std::string with_files(const std::string& text, const std::vector<std::string>& files) {
+  for (const std::string& file : files)
+    if (text.find(file) != std::string::npos) return text;
+  return fmt::format("{} (results file {})", text, fmt::join(files, ", "));
+}
+
+int work_naming_files(const std::vector<std::string>& files, const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(with_files(error.what(), files));
+  } catch (const std::exception& error) {
+    if (is_out_of_memory(error)) throw;
+    throw std::runtime_error(with_files(error.what(), files));
+  }
+}
+
 }  // namespace
 
 int in_reading_child(const std::string& command, const std::vector<std::string>& files,
                      const std::function<int()>& work) {
   const pid_t child = fork_reader(command, files);
-  return child == 0 ? work() : wait_for(child, command, files);
+  return child == 0 ? work_naming_files(files, work) : wait_for(child, command, files);
 }
 
 std::optional<int> after_look_in_child(const std::string& command, const std::vector<std::string>& files,

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "case/memory.hpp"
@@ -12,8 +14,7 @@ namespace {
 void expect_claimed_memory(const Shape& shape, std::size_t size, const std::string& name) {
   double values = 1;
   for (const hsize_t extent : shape) values *= static_cast<double>(extent);
-  expect_memory(values * static_cast<double>(size), name + ": has " + bytes_text(values * static_cast<double>(size)) + " in one piece, which need",
-                "see whether the file is whole");
+  expect_memory(values * static_cast<double>(size), fmt::format("{}: has {:.0f} values, which need", name, values), "see whether the file is whole");
 }
 
 }  // namespace

@@ -36,14 +36,13 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
   if (fs::exists(path) && !is_of(format, path))
     throw InputError(fmt::format("{} is there already and is no file that '{}' wrote: name another, or remove it", path,
                                  format.command));
-  const std::string title = results.title();  // before anything is made: a damaged file may end this process
   try {
     hdf5::File file = hdf5::File::create(path);
     const hdf5::Group root = file.root();
     root.set_attribute("format", format.name);
     root.set_attribute("format_version", format.version);
     root.set_attribute("results_file", results.path());
-    root.set_attribute("title", title);
+    root.set_attribute("title", results.title());
     fill(root);
     file.close();
   } catch (const std::bad_alloc&) {

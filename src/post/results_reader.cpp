@@ -66,6 +66,7 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
       throw InputError(fmt::format("{} is an HDF5 file, but no results file of Railwave", path));
     if (root.number_attribute("format_version") > known_version)
       throw InputError(fmt::format("{} was written by a newer program ({}), in a format that this one does not know", path, root.text_attribute("program")));
+    if (root.has_attribute("title")) title_ = root.text_attribute("title");  // now, before a command has written half of its files
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -78,9 +79,6 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
   }
 }
 
-std::string ResultsReader::title() const {
-  return damage_told([&] { return file_.root().text_attribute("title"); });
-}
 bool ResultsReader::completed() const {
   return damage_told([&] { return file_.root().number_attribute("completed") != 0; });
 }

@@ -33,7 +33,7 @@ class ResultsReader {
     }
   }
 
-  std::string title() const;
+  const std::string& title() const { return title_; }
   bool completed() const;
   std::string reason() const;  ///< why not completed
 
@@ -56,7 +56,7 @@ class ResultsReader {
   ContactState contact_state(const std::string& contact, std::size_t index) const;
 
  private:
-  std::string path_;
+  std::string path_, title_;
   hdf5::File file_;
 };
 

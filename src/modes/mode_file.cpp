@@ -61,7 +61,7 @@ void write_mode_file(const Model& model, const ModeList& list, const std::string
     for (const Mode& mode : list.modes)
       for (int n : set.nodes)
         for (int i = 0; i < 3; ++i) displacement.push_back(mode.shape[3 * n + i]);
-    group.write("displacement", displacement, {list.modes.size(), set.nodes.size(), 3});
+    group.write("displacement", displacement, {list.modes.size(), set.nodes.size(), 3}, "1");
     if (const auto body = RoundBody::of_part(model, static_cast<int>(p)))
       for (int i = 0; i < 3; ++i) group.set_attribute(std::string("axis_") + "xyz"[i], body -> axis()[i]);
   }

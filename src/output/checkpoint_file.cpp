@@ -73,8 +73,8 @@ void CheckpointFile::write(const RunState& state, const std::string& run) const 
     bytes.insert(bytes.end(), one.bytes.begin(), one.bytes.end());
   }
   root.set_attribute("names", names);
-  root.write("sizes", sizes, {sizes.size()}, hdf5::Check::by_seal);
-  root.write("values", bytes, {bytes.size()}, hdf5::Check::by_seal);
+  root.write("sizes", sizes, {sizes.size()}, {}, hdf5::Check::by_seal);
+  root.write("values", bytes, {bytes.size()}, {}, hdf5::Check::by_seal);
   file.close([this] {
     seal(path_ + ".new");
     std::error_code none_before;

@@ -83,14 +83,15 @@ class Group {
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;  ///< of everything in this group, by alphabet
 
-  /// Dataset that grows along its first dimension; `row` is the shape of one entry.
+  /// Dataset that grows along its first dimension; `row` is the shape of one entry. Its attribute `unit` is that of output_fields.hpp.
   template <class T>
   Dataset create_growing(const std::string& name, const Shape& row, const Storage& storage) const;
 
   /// In a file opened by File::extend() these take what is there; throw if that is of another shape.
   /// Dataset of fixed shape, written at once.
+  /// @param unit its attribute `unit`; empty: that of output_fields.hpp, none where that does not know it
   template <class T>
-  void write(const std::string& name, const std::vector<T>& values, const Shape& shape, Check check = Check::by_chunk) const;
+  void write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit = {}, Check check = Check::by_chunk) const;
 
   /// Entries of the growing dataset with the fewest in this group and those below; none: there is none.
   std::optional<hsize_t> least_entries() const;

@@ -5,6 +5,7 @@
 #include "case/memory.hpp"
 #include "output/call_limit.hpp"
 #include "output/hdf5_parts.hpp"
+#include "output/output_fields.hpp"
 #include "output/room.hpp"
 
 namespace railwave::hdf5 {
@@ -28,6 +29,15 @@ Shape chunk_of(Shape shape) {
   shape[0] = std::clamp<hsize_t>(largest_chunk / row, 1, shape[0]);
   if (shape.size() > 1 && row > largest_chunk) shape[1] = std::max<hsize_t>(1, largest_chunk / (row / shape[1]));
   return shape;
+}
+
+/// Gives a dataset that was just made its unit.
+void set_unit(hid_t dataset, const std::string& unit, const std::string& what) {
+  if (unit.empty()) return;
+  const Handle space = space_of({}), type = text_type();
+  const Handle attribute(check(H5Acreate2(dataset, "unit", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
+  const char* text = unit.c_str();
+  check(H5Awrite(attribute.get(), type.get(), &text), what);
 }
 
 }  // namespace
@@ -105,11 +115,13 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
   }
   add_checks(properties.get(), storage.compressed, what);
   const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
-  return {Handle(check(id, what), H5Dclose), name_ + name};
+  Handle made(check(id, what), H5Dclose);
+  set_unit(id, unit_of(name_ + name), what);
+  return {std::move(made), name_ + name};
 }
 
 template <class T>
-void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape, Check by) const {
+void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit, Check by) const {
   const std::string what = "writing " + name_ + name;
   if (values.size() != count_of(shape)) throw std::logic_error(what + ": the number of values is not that of the shape");
   if (extends_ && has(name)) {
@@ -125,6 +137,7 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
   }
   const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   const Handle dataset(check(id, what), H5Dclose);
+  set_unit(id, unit.empty() ? unit_of(name_ + name) : unit, what);
   if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
 }
 
@@ -179,7 +192,7 @@ void Group::check_last() const {
 
 #define RAILWAVE_FOR_TYPE(T)                                                                          \
   template Dataset Group::create_growing<T>(const std::string&, const Shape&, const Storage&) const;  \
-  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, Check) const;
+  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, const std::string&, Check) const;
 
 RAILWAVE_FOR_TYPE(double)
 RAILWAVE_FOR_TYPE(int)

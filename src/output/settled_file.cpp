@@ -74,7 +74,7 @@ void write_state(const std::string& path, const std::string& key, const std::str
   root.set_attribute("contacts", static_cast<long>(state.contacts.size()));
   root.set_attribute("element_groups", static_cast<long>(state.plastic.size()));
   each_array(state, [&](const std::string& name, const auto& values) {
-    if (!values.empty()) root.write(name, values, {values.size()}, hdf5::Check::by_seal);
+    if (!values.empty()) root.write(name, values, {values.size()}, {}, hdf5::Check::by_seal);
   });
   file.close([&] { seal(path + ".new"); });
 }

@@ -133,7 +133,7 @@ void fill(const hdf5::Group& root, const Measured& measured, const std::string& 
   const auto column = [&](const char* name, const char* unit, const auto& value_of) {
     std::vector<double> values;
     for (const BandDecay& one : measured.rates) values.push_back(value_of(one));
-    root.write(name, values, {values.size()});
+    root.write(name, values, {values.size()}, unit);
     root.set_attribute(name, unit);
   };
   column("band", "Hz", [](const BandDecay& one) { return one.band.nominal; });
@@ -144,9 +144,9 @@ void fill(const hdf5::Group& root, const Measured& measured, const std::string& 
   std::vector<double> distances, levels;
   for (const Probe& probe : measured.probes) distances.push_back(probe.distance);
   for (const BandDecay& one : measured.rates) levels.insert(levels.end(), one.level.begin(), one.level.end());
-  root.write("distance", distances, {distances.size()});
+  root.write("distance", distances, {distances.size()}, "m");
   root.set_attribute("distance", "m");
-  root.write("level", levels, {measured.rates.size(), distances.size()});
+  root.write("level", levels, {measured.rates.size(), distances.size()}, "dB");
   root.set_attribute("level", "dB");
 }
 

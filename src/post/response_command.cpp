@@ -95,7 +95,7 @@ template <class Of>
 void write(const hdf5::Group& group, const char* name, const char* unit, std::size_t count, const Of& value) {
   std::vector<double> values(count);
   for (std::size_t k = 0; k < count; ++k) values[k] = value(k);
-  group.write(name, values, {count});
+  group.write(name, values, {count}, unit);
   group.set_attribute(name, unit);
 }
 

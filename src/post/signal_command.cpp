@@ -63,7 +63,7 @@ void fill(const hdf5::Group& root, const SignalInput& input, const SignalReport&
   for (const auto& [name, value] : report.figures) root.set_attribute(name, value);
   for (const auto& [name, table] : report.tables) table.write(root.create_group(name));
   for (const auto& array : report.arrays) {
-    root.write(array.name, array.values, array.shape);
+    root.write(array.name, array.values, array.shape, array.unit);
     root.set_attribute(array.name + "_unit", array.unit);
   }
 }

@@ -71,7 +71,7 @@ std::string Table::csv() const {
 
 void Table::write(const hdf5::Group& group) const {
   for (std::size_t c = 0; c < columns_.size(); ++c) {
-    group.write(columns_[c].name, values_[c], {values_[c].size()});
+    group.write(columns_[c].name, values_[c], {values_[c].size()}, links(columns_[c]) ? "1" : columns_[c].unit);
     group.set_attribute(columns_[c].name, columns_[c].unit);
   }
 }

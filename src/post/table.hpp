@@ -32,7 +32,7 @@ class Table {
   /// All of it as CSV, with the units in the heading: "time [s],power [m2]". Columns that link are left out.
   std::string csv() const;
 
-  /// A dataset for each column, and the units as the group's attributes of the same names.
+  /// A dataset for each column, its unit as its attribute `unit` and as the group's attribute of the column's name.
   void write(const hdf5::Group& group) const;
 
  private:

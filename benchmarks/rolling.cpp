@@ -48,8 +48,8 @@ void tell(Records& records, const std::string& what, double elements, long steps
 }
 
 Timing time_run(Model& model, const Options& options, Watcher& watcher) {
-  model.scene.output.history_interval = static_cast<double>(options.output_every) * model.step_size;
-  model.scene.output.field_interval = 0;
+  model.output_times.history = static_cast<double>(options.output_every) * model.step_size;
+  model.output_times.fields = model.scene.time.end;
   const auto run_on = [&](long steps) {
     model.step_count = model.step + steps;
     const RunSummary summary = run(model, {&watcher});

@@ -250,14 +250,12 @@ void build_stable_step(Model& model) {
                                  choice == scene::StepEstimate::global
                                      ? ""
                                      : ", or see whether [solver] step_estimate = \"global\" allows more"));
-  // Whole steps, so that the run ends at the time asked for.
   // Nobody waits for so many; far below where they can't be counted.
   constexpr double most_steps = 1e15;
   if (const double steps = time.end / largest_step(model); !(steps <= most_steps))
     throw InputError(fmt::format("{}: [time] end = {:.4g} s takes {:.3g} steps of {:.3g} s, at most {:.0g} are run; the step is set by {}, times time.step_scale = {:.3g}: mend that, or end it earlier{}", model.scene.path, time.end,
                                  steps, largest_step(model), most_steps, what_sets_step(model), time.step_scale, time.step > 0 ? ", or give a longer step" : ""));
-  model.step_count = std::max(1L, static_cast<long>(std::ceil(time.end / largest_step(model) - 1e-9)));
-  model.step_size = time.end / static_cast<double>(model.step_count);
+  plan_steps(model, 1);
 }
 
 }  // namespace railwave

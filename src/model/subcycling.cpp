@@ -65,10 +65,7 @@ void build_subcycling(Model& model) {
     subcycling.listed_end.push_back(static_cast<int>(
         std::count_if(listed.data(), listed.data() + listed.extent(0), [&](const ListedNode& n) { return level_of(n) <= l; })));
 
-  // Whole rounds, so that the run ends in phase at the time asked for.
-  const long rounds = (model.step_count + subcycling.round() - 1) / subcycling.round();
-  model.step_count = rounds * subcycling.round();
-  model.step_size = model.scene.time.end / static_cast<double>(model.step_count);
+  plan_steps(model, subcycling.round());
 }
 
 std::vector<std::string> describe_subcycling(const Model& model) {

@@ -60,6 +60,14 @@ bool StepControl::plan() {
   const double left = model_.scene.time.end - model_.time;
   const long planned = model_.step_count - model_.step;
   const long steps = std::max(1L, static_cast<long>(std::ceil(left / largest_step(model_) - 1e-9)));
+  // At the beginning the outputs can still be laid evenly.
+  if (model_.step == 0) {
+    const long before = model_.step_count;
+    plan_steps(model_, 1);
+    begin_time_ = 0;
+    begin_step_ = 0;
+    return model_.step_count != before;
+  }
   if (steps <= planned && static_cast<double>(planned) <= (1 + worthwhile_gain) * static_cast<double>(steps)) return false;
   begin_time_ = model_.time;
   begin_step_ = model_.step;

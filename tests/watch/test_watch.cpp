@@ -52,7 +52,7 @@ Outcome outcome_of(const Seed& seed, long limit = steps) {
   }
   if (seed.spoil) seed.spoil(model);
   model.step_count = limit;
-  model.scene.output.history_interval = model.scene.output.field_interval = 1e9 * model.step_size;
+  model.output_times.history = model.output_times.fields = 1e9 * model.step_size;
   Outcome outcome;
   run(model, {&outcome.witness});
   const RunSummary& summary = outcome.witness.summary;

@@ -1,0 +1,107 @@
+#include "model/output_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "model/model.hpp"
+#include "model/stable_step.hpp"
+
+namespace railwave {
+namespace {
+
+/// How many more steps than needed may be taken so that they make whole intervals.
+constexpr double most_more = 1.1;
+
+/// Share by which a quotient may miss a whole number and still is one: far above rounding.
+constexpr double rounding = 1e-9;
+
+/// An interval of which a whole number makes the run.
+struct Division {
+  long count = 1;        ///< of intervals
+  double interval = 0;   ///< s
+  bool as_asked = false; ///< and not shortened
+};
+
+Division divide(double end, double interval) {
+  constexpr double countable = 1e15;
+  const double quotient = std::fmin(end / interval, countable);
+  const double nearest = std::fmax(1.0, std::round(quotient));
+  if (std::fabs(quotient - nearest) <= rounding * nearest) return {static_cast<long>(nearest), interval, true};
+  const long count = std::max(1L, static_cast<long>(std::ceil(quotient)));
+  return {count, end / static_cast<double>(count), false};
+}
+
+/// Steps in the whole number of rounds nearest to an interval, at least one round.
+long whole_rounds(double interval, double step, long round) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(round) * step))) * round;
+}
+
+/// The least multiple of `unit` that is at least `least`.
+long up_to_multiple(double least, long unit) {
+  return std::max(1L, static_cast<long>(std::ceil(least / static_cast<double>(unit) - rounding))) * unit;
+}
+
+/// Least common multiple; 0 where it is beyond `most`.
+long common_multiple(long a, long b, double most) {
+  const double multiple = static_cast<double>(a / std::gcd(a, b)) * static_cast<double>(b);
+  return multiple <= most ? a / std::gcd(a, b) * b : 0;
+}
+
+}  // namespace
+
+StepPlan lay_steps(double end, double largest, double history, double fields, long round, bool fixed) {
+  const double needed = end / largest;
+  const long fewest = up_to_multiple(needed, round);
+  const Division samples = history > 0 ? divide(end, history) : Division{}, outputs = fields > 0 ? divide(end, fields) : Division{1, end, true};
+  StepPlan plan{fewest, end / static_cast<double>(fewest), {history > 0 ? samples.interval : 0, outputs.interval}};
+  if (fixed) return plan;
+
+  const double most = std::fmax(static_cast<double>(fewest), most_more * needed);
+  // Divisions of the run whose ends must be ends of rounds: both outputs', or those of the histories alone.
+  for (const long division : {common_multiple(samples.count, outputs.count, most), samples.count}) {
+    if (division == 0 || static_cast<double>(division) * static_cast<double>(round) > most) continue;
+    const long count = up_to_multiple(needed, division * round);
+    if (static_cast<double>(count) > most) continue;
+    plan.count = count;
+    // By the interval as it was asked for, so that a later end has the same steps.
+    const Division& by = history > 0 && samples.as_asked ? samples : outputs;
+    plan.size = by.as_asked && count % by.count == 0 ? by.interval / static_cast<double>(count / by.count) : end / static_cast<double>(count);
+    return plan;
+  }
+  if (history > 0) {
+    const long every = whole_rounds(samples.interval, largest, round);
+    if (const long count = up_to_multiple(needed, every); static_cast<double>(count) <= most) {
+      plan.count = count;
+      plan.size = end / static_cast<double>(count);
+      plan.times.history = static_cast<double>(every) * plan.size;
+    }
+  }
+  return plan;
+}
+
+void plan_steps(Model& model, long round) {
+  const scene::Scene& scene = model.scene;
+  const StepPlan plan = lay_steps(scene.time.end, largest_step(model), scene.output.history_interval, scene.output.field_interval, round, scene.time.step > 0);
+  model.step_count = plan.count;
+  model.step_size = plan.size;
+  model.output_times = plan.times;
+}
+
+std::vector<std::string> describe_output_times(const Model& model) {
+  const long round = model.subcycling.round();
+  const auto line = [&](const char* what, double interval, double asked, bool ends_only) {
+    const long every = whole_rounds(interval, model.step_size, round);
+    if (ends_only || every >= model.step_count) return fmt::format("{} at the beginning and the end", what);
+    const double apart = static_cast<double>(every) * model.step_size;
+    return fmt::format("{} every {:.6g} s ({} step{}){}", what, apart, every, every == 1 ? "" : "s",
+                       asked > 0 && std::fabs(apart - asked) > 1e-6 * asked ? fmt::format(", asked for: {:.6g} s", asked) : "");
+  };
+  const scene::Output& output = model.scene.output;
+  return {line("samples of histories", model.output_times.history, output.history_interval, false),
+          line("outputs of fields", model.output_times.fields, output.field_interval, !(output.field_interval > 0))};
+}
+
+}  // namespace railwave

@@ -229,13 +229,14 @@ struct PatchState {
   NodeArrays nodes;
   Array<S*> stress;           ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
   Array<double* [2]> energy;  ///< J, by patch: elastic, stored by hourglass control
+  Array<const int*> listed = {};  ///< patches to compute; empty: all. Results are in the list's order then
 
   using Staged = StagedNodes<S, false, false>;
 
   static std::size_t scratch_size(const PatchArrays& patches) { return Staged::scratch_size(patches.node_stride); }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
-    const int p = team.league_rank();
+    const int at = team.league_rank(), p = listed.extent(0) > 0 ? listed(at) : at;
     const Staged staged(team, patches.node_stride);
     staged.bring(team, patches, p, nodes);
     team.team_barrier();
@@ -244,19 +245,20 @@ struct PatchState {
     double elastic = 0, stored = 0;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, batches),
-        [&](const int b, double& sum) { sum += batch_state(p, b, elements, staged, 0); }, elastic);
+        [&](const int b, double& sum) { sum += batch_state(p, at, b, elements, staged, 0); }, elastic);
     if constexpr (Hourglass::stores)
       Kokkos::parallel_reduce(
           Kokkos::TeamThreadRange(team, batches),
-          [&](const int b, double& sum) { sum += batch_state(p, b, elements, staged, 1); }, stored);
+          [&](const int b, double& sum) { sum += batch_state(p, at, b, elements, staged, 1); }, stored);
     Kokkos::single(Kokkos::PerTeam(team), [&]() {
-      energy(p, 0) = elastic;
-      energy(p, 1) = stored;
+      energy(at, 0) = elastic;
+      energy(at, 1) = stored;
     });
   }
 
+  /// @param at where the patch's results go
   /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
-  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int b, const int elements, const Staged& staged,
+  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int at, const int b, const int elements, const Staged& staged,
                                             const int which) const {
     const int batch = p * (patch_size / lane_count<S>) + b;
     const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
@@ -289,7 +291,7 @@ struct PatchState {
     hencky_strain(e, h);
     kirchhoff_stress<S>(material.elastic(constants), h, tau);
     if (stress.extent(0) != 0)
-      for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(batch, 6, c), T(tau[c] * to_cauchy));
+      for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(at * (patch_size / lane_count<S>) + b, 6, c), T(tau[c] * to_cauchy));
     value = volume * to_cauchy * elastic_energy_density<S>(h, tau);
     return sum_of_elements(value, b, elements, [](int) { return 1.0; });
   }

@@ -9,6 +9,8 @@
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
 #include "model/doubts.hpp"
+#include "model/output_times.hpp"
+#include "model/place_element_sets.hpp"
 #include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/stages.hpp"
@@ -55,17 +57,24 @@ void describe_step(const Model& model, std::ostream& out) {
   out << "Step\n";
   for (const std::string& line : describe_stable_step(model)) out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count, model.scene.time.end);
+  for (const std::string& line : describe_output_times(model)) out << "  " << line << '\n';
   for (const std::string& line : describe_subcycling(model)) out << "  subcycling: " << line << '\n';
 }
 
 void describe_places(const Model& model, std::ostream& out) {
   const auto placed = placed_sets(model.scene, model.assembly);
-  if (placed.empty()) return;
+  const auto elements = placed_element_sets(model.scene, model.assembly);
+  if (placed.empty() && elements.empty()) return;
   out << "Sets by position, hammers and probes\n";
   for (const PlacedSet& one : placed) {
     const Vec3& at = model.assembly.nodes[one.nearest];
     out << fmt::format("  {}.{}: {} node{}, the nearest at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part, one.set->name, one.count,
                        one.count == 1 ? "" : "s", at[0], at[1], at[2], 1e3 * one.distance);
+    if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
+  }
+  for (const PlacedElements& one : elements) {
+    out << fmt::format("  {}.{}: {} element{}, {} with its centre at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part, one.set->name, one.count,
+                       one.count == 1 ? "" : "s", one.warning.empty() ? "in one" : "the nearest", one.centre[0], one.centre[1], one.centre[2], 1e3 * one.distance);
     if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
   }
 }

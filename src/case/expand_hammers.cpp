@@ -37,36 +37,61 @@ class Expansion {
 
   void add(const scene::Probe& probe) {
     const std::string subject = "[probes." + probe.name + "]";
+    const auto asks = [&](std::initializer_list<const char*> names) {
+      return std::any_of(names.begin(), names.end(), [&](const char* name) {
+        return std::find(probe.quantities.begin(), probe.quantities.end(), name) != probe.quantities.end();
+      });
+    };
+    const bool motion = asks({"displacement", "velocity", "acceleration"}), inside = asks({"stress", "strain", "plastic_strain"});
     for (int k = 0; k < probe.count; ++k) {
       scene::Vec3 position = probe.position;
       for (int i = 0; i < 3; ++i) position[i] += k * probe.spacing[i];
       const std::string name = probe.count == 1 ? probe.name : fmt::format("{}_{}", probe.name, k + 1);
-      if (!add_set(probe, name, position, subject)) return;
+      if (motion && !add_set(probe, name, position, subject)) return;
+      if (inside && !add_element_set(probe, name, position, subject, motion)) return;
     }
   }
 
  private:
   template <class Entry>
   bool add_set(const Entry& entry, const std::string& name, const scene::Vec3& position, const std::string& subject) {
-    const auto taken = std::find_if(scene_.node_sets.begin(), scene_.node_sets.end(), [&](const scene::NodeSet& set) {
-      return set.part == entry.part && set.name == name;
-    });
-    if (taken != scene_.node_sets.end()) {
-      complaints_.add({entry.line},
-                      fmt::format("{}: makes the node set '{}.{}', which is there already (line {}); rename one",
-                                  subject, entry.part, name, taken->line));
-      return false;
-    }
-    scene::NodeSet set;
+    if (is_taken(scene_.node_sets, "node", entry, name, subject)) return false;
+    scene_.node_sets.push_back(placed<scene::NodeSet>(entry, name, position));
+    return add_history(entry.part + "." + name);
+  }
+
+  /// @param with_nodes the probe has just made a node set of that name, which its elements share
+  bool add_element_set(const scene::Probe& probe, const std::string& name, const scene::Vec3& position, const std::string& subject, bool with_nodes) {
+    if (is_taken(scene_.element_sets, "element", probe, name, subject)) return false;
+    if (!with_nodes && is_taken(scene_.node_sets, "node", probe, name, subject)) return false;
+    scene_.element_sets.push_back(placed<scene::ElementSet>(probe, name, position));
+    return add_history(probe.part + "." + name);
+  }
+
+  template <class Set, class Entry>
+  bool is_taken(const std::vector<Set>& sets, const char* kind, const Entry& entry, const std::string& name, const std::string& subject) {
+    const auto taken = std::find_if(sets.begin(), sets.end(), [&](const Set& set) { return set.part == entry.part && set.name == name; });
+    if (taken == sets.end()) return false;
+    complaints_.add({entry.line},
+                    fmt::format("{}: makes the {} set '{}.{}', which is there already (line {}); rename one",
+                                subject, kind, entry.part, name, taken->line));
+    return true;
+  }
+
+  template <class Set, class Entry>
+  static Set placed(const Entry& entry, const std::string& name, const scene::Vec3& position) {
+    Set set;
     set.name = name;
     set.line = entry.line;
     set.part = entry.part;
     set.surface = entry.surface;
     set.position = position;
     set.radius = entry.radius;
-    scene_.node_sets.push_back(set);
+    return set;
+  }
+
+  bool add_history(const std::string& history) {
     auto& histories = scene_.output.history_sets;
-    const std::string history = set.part + "." + name;
     if (std::find(histories.begin(), histories.end(), history) == histories.end()) histories.push_back(history);
     return true;
   }

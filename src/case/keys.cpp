@@ -7,7 +7,7 @@ namespace railwave::case_file {
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = {
       title_keys(),        material_section(),   mesh_section(),    seam_section(),    part_section(),  point_section(),
-      node_set_section(),  sleeper_section(),    track_section(),   beam_section(),  connector_section(),
+      node_set_section(),  element_set_section(), sleeper_section(),    track_section(),   beam_section(),  connector_section(),
       constraint_section(), contact_section(),   curve_section(),   load_section(),
       hammer_section(),    probe_section(),
       gravity_section(),   motion_section(),     prescribed_section(), non_reflecting_section(), tie_section(), settle_section(), time_section(),

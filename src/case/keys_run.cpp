@@ -102,17 +102,22 @@ Section output_section() {
   auto section = single_section("output", &Scene::output, "What is written, and how often.");
   section.keys = {
       key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs"),
-      key("history_interval", &Output::history_interval, "between samples of the histories; 0 is every step")
+      key("history_interval", &Output::history_interval,
+          "between samples of the histories, evenly spaced to the last; 0 is every step. The step is shortened, by a tenth at most, so that whole "
+          "steps make an interval; where the run is no whole number of intervals, these are shortened so that it is. An interval of few steps, "
+          "a given `time.step` and a step that is renewed have samples at the nearest steps. Times in the results are true in any case")
           .in("s")
           .within(at_least(0)),
       key("field_interval", &Output::field_interval,
-          "between outputs of the fields; 0 is only the beginning and the end")
+          "between outputs of the fields, likewise; 0 is only the beginning and the end")
           .in("s")
           .within(at_least(0)),
       key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
       key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress", "plastic_strain"}),
-      key("history_sets", &Output::history_sets, "whose mean displacement, velocity and acceleration are written")
-          .names(node_set | point),
+      key("history_sets", &Output::history_sets,
+          "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by mass; of an element set "
+          "stress and strain, and plastic strain where the material yields, mean by volume")
+          .names(node_set | element_set | point),
       key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")
           .in("s")
           .within(above(0))

@@ -85,7 +85,7 @@ end = 1e-3
 `running_surface` goes all along the wheel or rail; `zone` is the solution zone; `middle` is where a half wheelset ends, a whole one's sets
 are also there by halves, as `left_tread` and `right_tread`; `centre_section` is the wheel's plane x = 0
 below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names. `[node_sets.NAME]` makes
-more of them, of the nodes in a box or near a place. A surface is a set of its nodes too.
+more of them, of the nodes in a box or near a place, `[element_sets.NAME]` of the elements there. A surface is a set of its nodes too.
 
 ## A track
 

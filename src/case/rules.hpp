@@ -28,6 +28,7 @@ void check_part(void* entry, EntryCheck& check);
 void check_sleeper(void* entry, EntryCheck& check);  // rules_track.cpp
 void check_track(void* entry, EntryCheck& check);
 void check_node_set(void* entry, EntryCheck& check);  // rules_hammers.cpp
+void check_element_set(void* entry, EntryCheck& check);
 void check_hammer(void* entry, EntryCheck& check);
 void check_probe(void* entry, EntryCheck& check);
 void check_beam(void* entry, EntryCheck& check);

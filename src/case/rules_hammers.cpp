@@ -2,8 +2,10 @@
 
 namespace railwave::case_file {
 
-void check_node_set(void* entry, EntryCheck& check) {
-  const auto& set = *static_cast<scene::NodeSet*>(entry);
+namespace {
+
+template <class Set>
+void check_place(const Set& set, EntryCheck& check) {
   if (!check.sound({"box", "position"})) return;
   if (set.box && set.position) check.complain("position", "has no effect beside box; leave one of them out");
   if (!set.box && !set.position)
@@ -11,6 +13,11 @@ void check_node_set(void* entry, EntryCheck& check) {
         "box", "is missing; must be a box [[x, y, z], [x, y, z]], lowest corner first in m, unless position is given");
   if (set.box && check.given("radius")) check.complain("radius", "belongs to position; leave it out of a set by box");
 }
+
+}  // namespace
+
+void check_node_set(void* entry, EntryCheck& check) { check_place(*static_cast<scene::NodeSet*>(entry), check); }
+void check_element_set(void* entry, EntryCheck& check) { check_place(*static_cast<scene::ElementSet*>(entry), check); }
 
 void check_hammer(void* entry, EntryCheck& check) {
   const auto& hammer = *static_cast<scene::Hammer*>(entry);
@@ -24,6 +31,8 @@ void check_hammer(void* entry, EntryCheck& check) {
 
 void check_probe(void* entry, EntryCheck& check) {
   const auto& probe = *static_cast<scene::Probe*>(entry);
+  if (probe.quantities.empty() && check.sound({"quantities"}))
+    check.complain("quantities", "is empty, so nothing would be recorded; name for instance [\"stress\"], or leave it out");
   if (!check.sound({"count", "spacing"})) return;
   const bool no_spacing = probe.spacing == scene::Vec3{0, 0, 0};
   if (probe.count > 1 && no_spacing)

@@ -102,6 +102,15 @@ struct NodeSet : Place {
   double radius = 0;               ///< m, about the position; the nearest node is in the set however far it is
 };
 
+/// Elements of a part picked by where they are, as `part.NAME`: those whose centre is in a box, or near a position.
+struct ElementSet : Place {
+  std::string part;
+  std::string surface;             ///< of the part: only elements with a face in it; empty: any element
+  std::optional<Box> box;          ///< m, of the scene, before close_gap
+  std::optional<Vec3> position;    ///< m; instead of a box: the element that it lies in, and those around
+  double radius = 0;               ///< m, about the position
+};
+
 /// A blow on a surface: becomes a node set `part.NAME`, a load and a history set of that name.
 struct Hammer : Place {
   std::string part;
@@ -115,7 +124,8 @@ struct Hammer : Place {
   std::string curve;               ///< measured shape instead of the half sine; empty: none
 };
 
-/// Nodes whose motion is written: becomes a node set and a history set `part.NAME`, or a row of them, `part.NAME_1` and so on.
+/// A place whose history is written: becomes a node set where its motion is asked for, an element set where stress or strain is, and
+/// a history set `part.NAME`; or a row of them, `part.NAME_1` and so on.
 struct Probe : Place {
   std::string part;
   std::string surface;             ///< of the part; empty: any node
@@ -123,6 +133,7 @@ struct Probe : Place {
   double radius = 0;               ///< m; 0: the nearest node
   int count = 1;
   Vec3 spacing{0, 0, 0};           ///< m, from one to the next
+  std::vector<std::string> quantities{"displacement", "velocity", "acceleration"};  ///< of these and stress, strain, plastic_strain
 };
 
 enum class CurveType { constant, cosine_ramp, table, half_sine };
@@ -308,7 +319,7 @@ struct Output {
   double field_interval = 0;       ///< s; 0: only at the beginning and the end
   std::vector<std::string> field_sets;   ///< `part` or `part.element_set` or `part.surface`: element and node fields on these
   std::vector<std::string> fields;       ///< displacement, velocity, acceleration, stress, plastic_strain
-  std::vector<std::string> history_sets; ///< `part.node_set` or point masses: mean displacement, velocity, acceleration
+  std::vector<std::string> history_sets; ///< `part.node_set` or point masses: mean motion; `part.element_set`: mean stress and strain
   double progress_interval = 5;    ///< wall seconds between progress lines
 };
 
@@ -377,6 +388,7 @@ struct Scene {
   std::vector<Seam> seams;
   std::vector<Part> parts;
   std::vector<NodeSet> node_sets;
+  std::vector<ElementSet> element_sets;
   std::vector<Hammer> hammers;
   std::vector<Probe> probes;
   std::vector<Sleeper> sleepers;

@@ -17,6 +17,7 @@
 #include "mesh/vectors.hpp"
 #include "model/assemble_notes.hpp"
 #include "model/beams.hpp"
+#include "model/place_element_sets.hpp"
 #include "model/place_sets.hpp"
 
 namespace railwave {
@@ -250,6 +251,7 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
     assembly.nodes.push_back(point.position);
   }
   add_node_sets(scene, assembly);
+  add_element_sets(scene, assembly);
   turn_parts(scene, assembly);
   for (const scene::Contact& contact : scene.contacts)
     if (contact.close_gap) {

@@ -15,6 +15,7 @@ void build_loads(Model& model);        ///< loads.cpp: loads, connectors, node s
 void build_prescribed_motions(Model& model);  ///< prescribed_motion.cpp
 void build_ties(Model& model);         ///< ties.cpp: places of slave nodes on their masters' faces
 void build_non_reflecting(Model& model);  ///< non_reflecting.cpp: dashpots of the ends
+void build_element_histories(Model& model);  ///< element_histories.cpp: elements whose stress or strain is written
 void build_contacts(Model& model);     ///< contact_pairs.cpp
 void refuse_contradictions(const Model& model);  ///< contradictions.cpp: InputError for entries that cannot all hold
 void resolve_rolling(Model& model);    ///< rolling.cpp: angular velocities of initial motions that roll

@@ -7,6 +7,7 @@
 #include "mesh/hexahedron.hpp"
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
+#include "model/history_sets.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -317,8 +318,8 @@ void build_loads(Model& model) {
   build_connectors(collector);
   build_beam_forces(collector);
   const int moving = static_cast<int>(collector.sets.size());
-  for (const std::string& name : model.scene.output.history_sets)
-    model.history_sets.push_back(collector.set({"history_sets", 0}, "output", name));
+  for (const HistorySet& set : resolve_history_sets(model.scene, model.assembly))
+    if (set.motion()) model.history_sets.push_back(collector.set({"history_sets", 0}, "output", set.name));
   build_sets(collector, moving);
   build_torques(collector);
   build_extra(collector);

@@ -7,6 +7,7 @@
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
+#include "model/element_histories.hpp"
 #include "model/model_room.hpp"
 #include "model/non_reflecting.hpp"
 
@@ -36,6 +37,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   resolve_rolling(model);
   build_node_arrays(model);
   build_carried_nodes(model);
+  build_element_histories(model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   const Activity estimating("estimating the stable step");
@@ -118,7 +120,7 @@ std::size_t device_bytes(const Model& model) {
                             x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
                             x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
                             model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums) +
-                      beam_bytes(model) + model.reduction_space->bytes();
+                      beam_bytes(model) + element_history_bytes(model) + model.reduction_space->bytes();
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,

@@ -19,6 +19,7 @@
 #include "kernels/tie.hpp"
 #include "model/assembly.hpp"
 #include "model/connector_cells.hpp"
+#include "model/output_times.hpp"
 #include "model/patches.hpp"
 #include "model/subcycling.hpp"
 
@@ -182,6 +183,7 @@ struct StableStep {
 
 class GlobalEstimate;
 struct BeamStage;
+struct ElementHistories;
 
 /// Everything on the device, and the host data that describe it.
 struct Model {
@@ -193,6 +195,7 @@ struct Model {
   std::shared_ptr<GlobalEstimate> global_estimate;  ///< null unless the case asks for it
   double step_size = 0;                ///< s, of the present step: the scale factor's share of the stable one, in whole steps
   long step_count = 0;                 ///< steps from 0 to the end, if the step stays
+  OutputTimes output_times;
 
   NodeArrays nodes;
   CarriedNodes carried;
@@ -209,7 +212,8 @@ struct Model {
   NodeSets sets;
   std::vector<int> first_of_set;       ///< host copy of sets.first
   std::shared_ptr<ReductionSpace> reduction_space = std::make_shared<ReductionSpace>();  ///< of the account, the watch, the static start
-  std::vector<int> history_sets;       ///< set numbers of scene.output.history_sets
+  std::vector<int> history_sets;       ///< set numbers of those of scene.output.history_sets whose motion is written
+  std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
   std::vector<LoadArrays> loads;
   ConnectorStage connectors;
   TorqueArrays torques;

@@ -127,6 +127,7 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   scene.initial_motions.clear();
   scene.hammers.clear();
   scene.probes.clear();
+  scene.element_sets.clear();
   scene.settle = {};
   scene.output.history_sets.clear();
   scene.output.field_sets.clear();

@@ -10,6 +10,10 @@ namespace {
 
 constexpr hdf5::Storage blocks{1024, false};
 
+constexpr const char* motion_names[] = {"displacement", "velocity", "acceleration"};
+
+void write_place(const hdf5::Group& group, const char* name, const Vec3& place) { group.write<double>(name, {place.begin(), place.end()}, {3}); }
+
 template <class Numbers>
 void push(std::vector<double>& values, const Numbers& vector) { values.insert(values.end(), vector.begin(), vector.end()); }
 
@@ -24,7 +28,8 @@ void HistorySection::Column<T>::write(hsize_t rows) {
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                                const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams,
                                const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
-                               const std::vector<std::string>& askers) {
+                               const std::vector<std::string>& askers, const std::vector<std::array<bool, 3>>& motions,
+                               const std::vector<HistorySet>& elements) {
   const hdf5::Group history = root.create_group("history");
   times_.dataset = history.create_growing<double>("time", {}, blocks);
   steps_.dataset = history.create_growing<long>("step", {}, blocks);
@@ -48,8 +53,22 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
     const hdf5::Group group = set_groups.create_group(name);
     if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty()) group.set_attribute("asked_by", askers[set]);
     if (const std::size_t set = sets_.size(); set < positions.size())
-      group.write<double>("position", {positions[set].begin(), positions[set].end()}, {3});
-    sets_.push_back({{vector_in(group, "displacement"), {}}, {vector_in(group, "velocity"), {}}, {vector_in(group, "acceleration"), {}}});
+      write_place(group, "position", positions[set]);
+    MotionColumns& columns = sets_.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      if (motions.empty() || motions[sets_.size() - 1][k]) columns.quantity[k] = Column<double>{vector_in(group, motion_names[k]), {}};
+  }
+  for (const HistorySet& set : elements) {
+    const hdf5::Group group = set_groups.has(set.name) ? set_groups.group(set.name) : set_groups.create_group(set.name);
+    if (!set.asked_by.empty()) group.set_attribute("asked_by", set.asked_by);
+    if (!set.motion()) write_place(group, "position", set.element_centre);
+    write_place(group, "element_centre", set.element_centre);
+    if (set.of_probe()) write_place(group, "asked_position", set.asked_position);
+    group.write("elements", set.elements, {set.elements.size()});
+    ElementColumns& columns = elements_.emplace_back();
+    if (set.stress) columns.stress = Column<double>{group.create_growing<double>("stress", {6}, blocks), {}};
+    if (set.strain) columns.strain = Column<double>{group.create_growing<double>("strain", {6}, blocks), {}};
+    if (set.plastic_strain) columns.plastic_strain = Column<double>{group.create_growing<double>("plastic_strain", {}, blocks), {}};
   }
   if (!loads.empty()) {
     const hdf5::Group load_groups = history.create_group("load");
@@ -72,7 +91,7 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
 }
 
 void HistorySection::add(const HistorySample& sample) {
-  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size() ||
+  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size() || sample.elements.size() != elements_.size() ||
       (!loads_.empty() && sample.loads.size() != loads_.size()))
     throw std::logic_error("a history sample has other contacts, sets or beams, or loads, than the results file was made for");
   times_.values.push_back(sample.time);
@@ -86,9 +105,14 @@ void HistorySection::add(const HistorySample& sample) {
     contacts_[i].nodes_slipping.values.push_back(sample.contacts[i].nodes_slipping);
   }
   for (std::size_t i = 0; i < sets_.size(); ++i) {
-    push(sets_[i].displacement.values, sample.sets[i].displacement);
-    push(sets_[i].velocity.values, sample.sets[i].velocity);
-    push(sets_[i].acceleration.values, sample.sets[i].acceleration);
+    const Vec3* values[] = {&sample.sets[i].displacement, &sample.sets[i].velocity, &sample.sets[i].acceleration};
+    for (int k = 0; k < 3; ++k)
+      if (sets_[i].quantity[k]) push(sets_[i].quantity[k]->values, *values[k]);
+  }
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    if (elements_[i].stress) push(elements_[i].stress->values, sample.elements[i].stress);
+    if (elements_[i].strain) push(elements_[i].strain->values, sample.elements[i].strain);
+    if (elements_[i].plastic_strain) elements_[i].plastic_strain->values.push_back(sample.elements[i].plastic_strain);
   }
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     push(beams_[i].force.values, sample.beams[i].force);
@@ -110,11 +134,12 @@ void HistorySection::write() {
     contact.nodes_in_contact.write(rows);
     contact.nodes_slipping.write(rows);
   }
-  for (auto& set : sets_) {
-    set.displacement.write(rows);
-    set.velocity.write(rows);
-    set.acceleration.write(rows);
-  }
+  for (auto& set : sets_)
+    for (auto& quantity : set.quantity)
+      if (quantity) quantity->write(rows);
+  for (auto& set : elements_)
+    for (auto* column : {&set.stress, &set.strain, &set.plastic_strain})
+      if (*column) (*column)->write(rows);
   for (auto& beam : beams_) {
     beam.force.write(rows);
     beam.moment.write(rows);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,10 +24,12 @@ struct LoadNames {
 class HistorySection {
  public:
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
-  /// that is known; loads; what in the case asked for each set, if known.
+  /// that is known; loads; what in the case asked for each set, if known; which of displacement, velocity and acceleration is written of each set,
+  /// all unless told; sets whose stress, strain or plastic strain is written, which may have the names of others.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
                  const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {},
-                 const std::vector<LoadNames>& loads = {}, const std::vector<std::string>& askers = {});
+                 const std::vector<LoadNames>& loads = {}, const std::vector<std::string>& askers = {},
+                 const std::vector<std::array<bool, 3>>& motions = {}, const std::vector<HistorySet>& elements = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
@@ -43,7 +47,10 @@ class HistorySection {
     Column<long> nodes_in_contact, nodes_slipping;
   };
   struct MotionColumns {
-    Column<double> displacement, velocity, acceleration;
+    std::optional<Column<double>> quantity[3];  ///< displacement, velocity, acceleration
+  };
+  struct ElementColumns {
+    std::optional<Column<double>> stress, strain, plastic_strain;
   };
 
   struct BeamColumns {
@@ -60,6 +67,7 @@ class HistorySection {
   std::vector<Column<double>> energies_;
   std::vector<ContactColumns> contacts_;
   std::vector<MotionColumns> sets_;
+  std::vector<ElementColumns> elements_;
   std::vector<BeamColumns> beams_;
   std::vector<LoadColumn> loads_;
 };

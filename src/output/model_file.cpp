@@ -65,6 +65,19 @@ class ModelFileWriter {
       const bool whole = name.find('.') == std::string::npos;
       if (!whole && !nodes.empty() && model_.assembly.surfaces.count(name) == 0) write_piece(sets, "/node_sets", name, nodes, 1);
     }
+    write_element_sets();
+  }
+
+  /// Those that the case picks by place; a mesh's own cover most of it.
+  void write_element_sets() {
+    if (model_.scene.element_sets.empty()) return;
+    const hdf5::Group sets = file_.root().create_group("element_sets");
+    for (const scene::ElementSet& set : model_.scene.element_sets) {
+      const std::string name = set.part + "." + set.name;
+      std::vector<int> corners;
+      for (int e : model_.assembly.element_sets.at(name)) corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
+      write_piece(sets, "/element_sets", name, corners, 8);
+    }
   }
 
   void write_piece(const hdf5::Group& group, const std::string& path, const std::string& name, const std::vector<int>& corners, int count) {

@@ -57,16 +57,6 @@ LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
   return {load.name, load.target, torque, named(scene.hammers, load.name) != nullptr, direction};
 }
 
-std::string asked_by(const scene::Scene& scene, const std::string& set) {
-  const auto dot = set.find('.');
-  if (dot == std::string::npos) return {};
-  const std::string part = set.substr(0, dot), name = set.substr(dot + 1);
-  if (const auto* hammer = named(scene.hammers, name); hammer && hammer->part == part) return "hammer " + name;
-  const auto* probe = named(scene.probes, name);
-  if (!probe && name.find('_') != std::string::npos) probe = named(scene.probes, name.substr(0, name.rfind('_')));
-  return probe && probe->part == part ? "probe " + probe->name : std::string();
-}
-
 /// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
 Vec3 undeformed_position(const Model& model, int set) {
   const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
@@ -99,10 +89,16 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.node_count = static_cast<long>(assembly.nodes.size());
   description_.element_count = static_cast<long>(assembly.elements.size());
   for (const auto& contact : scene.contacts) description_.contacts.push_back({contact.name, contact.slave, contact.master});
-  description_.history_sets = scene.output.history_sets;
+  for (const HistorySet& set : resolve_history_sets(scene, assembly)) {
+    if (set.motion()) {
+      description_.history_sets.push_back(set.name);
+      description_.history_askers.push_back(set.asked_by);
+      description_.history_motions.push_back({set.displacement, set.velocity, set.acceleration});
+    }
+    if (set.inside()) description_.element_histories.push_back(set);
+  }
   for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
   for (const auto& chain : assembly.beam_chains) description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
-  for (const auto& set : scene.output.history_sets) description_.history_askers.push_back(asked_by(scene, set));
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);

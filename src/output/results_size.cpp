@@ -11,14 +11,13 @@
 #include "case/memory.hpp"
 #include "model/model.hpp"
 #include "output/energy_terms.hpp"
+#include "output/output_fields.hpp"
 
 namespace railwave {
 namespace {
 
 /// Values of each node of a contact surface at each output, see contact_section.cpp.
 constexpr double values_of_contact_node = 23;
-
-double values_of_entry(const std::string& field) { return field == "stress" ? 6 : field == "plastic_strain" ? 1 : 3; }
 
 double values_of_output(const RunDescription& description, const Assembly& assembly) {
   double values = 0;
@@ -27,7 +26,7 @@ double values_of_output(const RunDescription& description, const Assembly& assem
     for (const std::string& field : description.fields) {
       const bool of_element = field == "stress" || field == "plastic_strain";
       if (of_element && set.is_beam()) continue;
-      values += values_of_entry(field) * static_cast<double>(of_element ? set.elements.size() : set.nodes.size());
+      values += components_of(field) * static_cast<double>(of_element ? set.elements.size() : set.nodes.size());
     }
   }
   for (const ContactNames& contact : description.contacts)
@@ -41,6 +40,7 @@ double values_of_sample(const RunDescription& description) {
   double values = 2 + static_cast<double>(std::size(energy_terms)) + 11.0 * static_cast<double>(description.contacts.size()) +
                   9.0 * static_cast<double>(description.history_sets.size()) + 3.0 * static_cast<double>(description.loads.size());
   for (const auto& beam : description.beams) values += 6.0 * beam.second;
+  for (const HistorySet& set : description.element_histories) values += 6.0 * set.stress + 6.0 * set.strain + 1.0 * set.plastic_strain;
   return values;
 }
 
@@ -54,8 +54,8 @@ ResultsSize results_size(const RunDescription& description, const Model& model) 
   const auto steps = static_cast<double>(model.step_count);
   const double end = model.scene.time.end;
   ResultsSize size;
-  size.field_outputs = output.field_interval > 0 ? times_of(output.field_interval, end, steps) : 2;
-  size.samples = times_of(output.history_interval, end, steps);
+  size.field_outputs = output.field_interval > 0 ? times_of(model.output_times.fields, end, steps) : 2;
+  size.samples = times_of(model.output_times.history, end, steps);
   size.field_bytes = 8 * size.field_outputs * values_of_output(description, model.assembly);
   size.history_bytes = 8 * size.samples * values_of_sample(description);
   return size;

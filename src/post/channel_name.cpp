@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
+#include "output/output_fields.hpp"
 #include "post/set_names.hpp"
 
 namespace railwave {
@@ -16,15 +17,16 @@ namespace {
 
 struct Quantity {
   const char* name;
-  const char* unit;
   bool vector;
 };
 
-constexpr Quantity of_sets[] = {{"displacement", "m", true}, {"velocity", "m/s", true}, {"acceleration", "m/s2", true}};
-constexpr Quantity of_contacts[] = {{"normal_force", "N", true}, {"tangential_force", "N", true}, {"master_force", "N", true}, {"nodes_in_contact", "1", false},
-                                    {"nodes_slipping", "1", false}};
-constexpr Quantity of_beams[] = {{"force", "N", true}, {"moment", "N m", true}};
-constexpr Quantity of_loads[] = {{"force", "N", true}};
+constexpr Quantity of_sets[] = {{"displacement", true}, {"velocity", true}, {"acceleration", true}};
+constexpr Quantity of_element_sets[] = {{"stress", false}, {"strain", false}, {"plastic_strain", false}};
+constexpr Quantity of_contacts[] = {{"normal_force", true}, {"tangential_force", true}, {"master_force", true}, {"nodes_in_contact", false},
+                                    {"nodes_slipping", false}};
+constexpr Quantity of_beams[] = {{"force", true}, {"moment", true}};
+constexpr Quantity of_loads[] = {{"force", true}};
+constexpr const char* components[] = {"xx", "yy", "zz", "xy", "yz", "zx", "mises"};
 constexpr const char* directions = "x, y, z, size (the vector's length) or a vector such as 1,0,0.05";
 
 /// What is asked for, and in which file, for complaints.
@@ -62,6 +64,18 @@ void set_direction(ChannelPlace& place, const std::string& text, const Asked& as
   if (!good || !std::isfinite(direction.norm()) || !(direction.norm() > 0))
     asked.refuse(text.empty() ? fmt::format("it needs a direction at its end: {}", directions) : fmt::format("'{}' is no direction; it may be {}", text, directions));
   place.direction = direction.normalized();
+}
+
+/// What of a tensor is meant by the text behind a quantity.
+void set_component(ChannelPlace& place, const std::string& text, const Asked& asked) {
+  const std::size_t count = place.quantity == "stress" ? 7 : 6;
+  const auto found = std::find(components, components + count, text);
+  if (found == components + count) {
+    const std::string allowed = joined(std::vector<std::string>(components, components + count));
+    asked.refuse(text.empty() ? fmt::format("it needs a component at its end: {}", allowed) : fmt::format("'{}' is no component; it may be {}", text, allowed));
+  }
+  place.component = static_cast<int>(found - components);
+  place.direction_text = text;
 }
 
 const Quantity* find(const Quantity* begin, const Quantity* end, const std::string& name) {
@@ -110,15 +124,16 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
   std::size_t at = std::string::npos, after = 0;
   ChannelPlace place;
   place.group = "set";
-  place.vector = true;
-  for (const Quantity& quantity : of_sets) {
-    const std::string word = fmt::format(".{}", quantity.name);
+  auto quantities = names_of(of_sets);
+  for (const std::string& inside : names_of(of_element_sets)) quantities.push_back(inside);
+  for (const std::string& quantity : quantities) {
+    const std::string word = '.' + quantity;
     const std::size_t found = text.rfind(word);
     if (found == std::string::npos || found == 0 || (found + word.size() < text.size() && text[found + word.size()] != '.')) continue;
     if (at != std::string::npos && found < at) continue;
     at = found;
     after = std::min(text.size(), found + word.size() + 1);
-    place.quantity = quantity.name;
+    place.quantity = quantity;
   }
   if (at == std::string::npos) {
     const auto all = names.all();
@@ -129,11 +144,15 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
       if (const std::string near = nearest_name(word, all); !near.empty()) asked.refuse(fmt::format("there is none of that name; did you mean '{}'?", near));
     asked.refuse("there is none of that name; there are " + names.summary());
   }
-  set_direction(place, text.substr(after), asked);
+  place.vector = find(std::begin(of_sets), std::end(of_sets), place.quantity) != nullptr;
+  place.tensor = !place.vector && place.quantity != "plastic_strain";
+  if (place.vector) set_direction(place, text.substr(after), asked);
+  else if (place.tensor) set_component(place, text.substr(after), asked);
+  else if (after < text.size()) asked.refuse(fmt::format("{} is a number, which has no direction '{}'", place.quantity, text.substr(after)));
 
   const auto entries = split(text.substr(0, at), '+');
   std::vector<std::vector<ChannelPlace>> channels;
-  auto sets = names.sets;
+  auto sets = place.vector ? names.sets : names.element_sets;
   std::sort(sets.begin(), sets.end(), in_number_order);
   for (const std::string& entry : entries) {
     std::size_t count = 0;
@@ -144,8 +163,10 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
         ++count;
       }
     if (count == 0)
-      asked.refuse(names.sets.empty() ? "the run wrote the history of no set; the case names them in output.history_sets"
-                                      : fmt::format("there is no history of a set '{}'; {}", entry, suggestion(entry, names.sets)));
+      asked.refuse(!sets.empty()    ? fmt::format("there is no history of a set '{}'{}; {}", entry, place.vector ? "" : " with its " + place.quantity, suggestion(entry, sets))
+                   : place.vector ? "the run wrote the history of no set; the case names them in output.history_sets"
+                                  : "the run wrote the stress or strain of no set; the case asks for it by [probes] with quantities, or by element sets in "
+                                    "output.history_sets");
   }
   if (entries.size() == 1) return channels;
   std::vector<ChannelPlace> all;
@@ -159,16 +180,11 @@ std::string ChannelPlace::name() const {
   if (group == "energy") return "energy." + quantity;
   std::string text = (group == "set" ? "" : group + '.') + owner + '.' + quantity;
   if (group == "beam") text += fmt::format(".{}", element);
-  return vector ? text + '.' + direction_text : text;
+  return vector || tensor ? text + '.' + direction_text : text;
 }
 
 std::string ChannelPlace::unit() const {
-  const auto from = [&](const Quantity* begin, const Quantity* end) { return std::string(find(begin, end, quantity)->unit); };
-  if (group == "set") return from(std::begin(of_sets), std::end(of_sets));
-  if (group == "contact") return from(std::begin(of_contacts), std::end(of_contacts));
-  if (group == "load") return from(std::begin(of_loads), std::end(of_loads));
-  if (group == "beam") return from(std::begin(of_beams), std::end(of_beams));
-  return "J";
+  return unit_of(owner.empty() ? "/history/" + group + '/' + quantity : "/history/" + group + '/' + owner + '/' + quantity);
 }
 
 std::vector<std::string> ChannelNames::all() const {
@@ -178,6 +194,7 @@ std::vector<std::string> ChannelNames::all() const {
       for (const std::string& quantity : quantities) result.push_back(prefix + owner + '.' + quantity + suffix);
   };
   add(sets, "", names_of(of_sets), "");
+  add(element_sets, "", names_of(of_element_sets), "");
   add(contacts, "contact.", names_of(of_contacts), "");
   add(beams, "beam.", names_of(of_beams), ".0");
   add(loads, "load.", names_of(of_loads), "");
@@ -197,6 +214,7 @@ std::string ChannelNames::summary() const {
     text += fmt::format("{}{} of {}{}", text.empty() ? "" : "; ", form, joined(owners), more > 0 ? fmt::format(" and {} more", more) : "");
   };
   add(sets, "SET.", names_of(of_sets));
+  add(element_sets, "SET.", names_of(of_element_sets));
   add(contacts, "contact.NAME.", names_of(of_contacts));
   add(beams, "beam.NAME.", names_of(of_beams));
   add(loads, "load.NAME.", names_of(of_loads));
@@ -208,7 +226,8 @@ std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, co
   const Asked asked{text, file};
   const auto begins = [&](const std::string& word) { return text.compare(0, word.size(), word) == 0; };
   // A part may be called "contact": its sets come first.
-  const bool set = std::any_of(names.sets.begin(), names.sets.end(), [&](const std::string& name) { return begins(name + '.'); });
+  const auto any = [&](const std::vector<std::string>& sets) { return std::any_of(sets.begin(), sets.end(), [&](const std::string& name) { return begins(name + '.'); }); };
+  const bool set = any(names.sets) || any(names.element_sets);
   if (!set && begins("contact.")) return {{owned("contact", text.substr(8), names.contacts, of_contacts, asked)}};
   if (!set && begins("beam.")) return {{owned("beam", text.substr(5), names.beams, of_beams, asked)}};
   if (!set && begins("load.")) return {{owned("load", text.substr(5), names.loads, of_loads, asked)}};

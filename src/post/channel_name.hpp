@@ -14,16 +14,19 @@ struct ChannelPlace {
   std::string quantity;   ///< the dataset
   int element = 0;        ///< of a beam
   bool vector = false;    ///< three numbers a sample, of which `direction` takes one
+  bool tensor = false;    ///< six numbers a sample, of which `component` takes one
+  int component = 0;      ///< 0 to 5: xx, yy, zz, xy, yz, zx; `von_mises`: sqrt(3/2) times the size of the deviator
+  static constexpr int von_mises = 6;
   std::optional<Eigen::Vector3d> direction;  ///< unit; absent: the length of the vector
-  std::string direction_text;
+  std::string direction_text;  ///< or the component's name
 
   std::string name() const;  ///< as the command line calls it
   std::string unit() const;
 };
 
-/// What a file has: names of its sets, contacts, beams, energies and loads (those with a force).
+/// What a file has: names of its sets with motion, contacts, beams, energies and loads (those with a force), and of sets with stress or strain.
 struct ChannelNames {
-  std::vector<std::string> sets, contacts, beams, energies, loads;
+  std::vector<std::string> sets, contacts, beams, energies, loads, element_sets = {};
 
   /// Every channel without its direction.
   std::vector<std::string> all() const;

@@ -71,12 +71,16 @@ HammerTest::HammerTest(const std::vector<std::string>& files, const std::string&
   for (const std::string& file : files) results_.emplace_back(file);
   results_.front().damage_told([&] {
     const hdf5::Group history = results_.front().history();
-    if (history.has("set")) sets_ = history.group("set").names();
+    if (!history.has("set")) return;
+    for (const std::string& set : history.group("set").names()) {
+      const hdf5::Group group = history.group("set").group(set);
+      if (group.has("displacement") && group.has("velocity") && group.has("acceleration")) sets_.push_back(set);
+    }
   });
   std::sort(sets_.begin(), sets_.end(), in_number_order);
   if (sets_.empty())
     throw InputError(fmt::format(
-        "{} has the history of no set; add a section [probes.NAME] to the case, or name sets in output.history_sets",
+        "{} has the displacement, velocity and acceleration of no set; add a section [probes.NAME] to the case, or name sets of nodes in output.history_sets",
         files.front()));
   results_.front().damage_told([&] { choose_input(load), check_texts(); });
   for (const ResultsReader& results : results_) {

@@ -22,15 +22,39 @@ ChannelNames names_in(const hdf5::Group& history) {
   std::vector<std::string> loads;
   for (const std::string& load : names("load"))
     if (history.group("load").group(load).has("force")) loads.push_back(load);
-  return {names("set"), names("contact"), names("beam"), names("energy"), loads};
+  std::vector<std::string> moving, inside;
+  for (const std::string& set : names("set")) {
+    const hdf5::Group group = history.group("set").group(set);
+    const auto any = [&](std::initializer_list<const char*> quantities) {
+      return std::any_of(quantities.begin(), quantities.end(), [&](const char* quantity) { return group.has(quantity); });
+    };
+    if (any({"displacement", "velocity", "acceleration"})) moving.push_back(set);
+    if (any({"stress", "strain", "plastic_strain"})) inside.push_back(set);
+  }
+  return {moving, names("contact"), names("beam"), names("energy"), loads, inside};
 }
 
 hdf5::Group group_of(const hdf5::Group& history, const ChannelPlace& place) {
   return place.owner.empty() ? history.group(place.group) : history.group(place.group).group(place.owner);
 }
 
+/// Von Mises' equivalent of a stress xx, yy, zz, xy, yz, zx.
+double von_mises(const double* s) {
+  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
+  return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
+}
+
+/// One component of all samples of a tensor.
+std::vector<double> component(const std::vector<double>& raw, const ChannelPlace& place) {
+  std::vector<double> values(raw.size() / 6);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = place.component == ChannelPlace::von_mises ? von_mises(&raw[6 * i]) : raw[6 * i + static_cast<std::size_t>(place.component)];
+  return values;
+}
+
 /// All samples of one place.
 std::vector<double> read(const hdf5::Group& history, const ChannelPlace& place) {
+  if (!group_of(history, place).has(place.quantity))
+    throw InputError(fmt::format("channel '{}': the run did not write the {} of {}; name it among the probe's quantities", place.name(), place.quantity, place.owner));
   const hdf5::Dataset dataset = group_of(history, place).dataset(place.quantity);
   const hdf5::Shape shape = dataset.shape();
   std::vector<double> raw;
@@ -39,6 +63,7 @@ std::vector<double> read(const hdf5::Group& history, const ChannelPlace& place) 
     return {counts.begin(), counts.end()};
   }
   raw = dataset.read<double>();
+  if (place.tensor) return component(raw, place);
   if (!place.vector) return raw;
   const std::size_t row = shape.size() == 3 ? 3 * static_cast<std::size_t>(shape[1]) : 3;
   if (3 * static_cast<std::size_t>(place.element) + 3 > row)
@@ -64,7 +89,9 @@ HistoryChannel read_mean(const hdf5::Group& history, const std::vector<ChannelPl
     for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] += values[i] / static_cast<double>(places.size());
     const hdf5::Group group = group_of(history, place);
     placed = placed && place.group == "set" && group.has("position");
-    if (placed) position += read_vector(group, "position") / static_cast<double>(places.size());
+    // Stress holds at the element's centre, motion at the nodes.
+    const char* where = !place.vector && group.has("element_centre") ? "element_centre" : "position";
+    if (placed) position += read_vector(group, where) / static_cast<double>(places.size());
     owners += (owners.empty() ? "" : "+") + place.owner;
   }
   if (placed) channel.position = position;

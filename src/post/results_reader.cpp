@@ -129,6 +129,8 @@ std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set,
     if (std::find(known.begin(), known.end(), set) == known.end())
       throw InputError(fmt::format("results file {} has no history of set '{}'; {}", path_, set, suggestion(set, known)));
     const std::vector<double> sampled = history.dataset("time").read<double>();
+    if (!history.group("set").group(set).has("velocity"))
+      throw InputError(fmt::format("results file {} has the history of '{}' without its velocity; name a set of nodes, or a probe whose quantities include velocity", path_, set));
     const std::vector<double> velocity = history.group("set").group(set).dataset("velocity").read<double>();
     const std::size_t count = std::min(sampled.size(), velocity.size() / 3);
     if (count == 0) throw std::runtime_error("its history is empty");

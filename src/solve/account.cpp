@@ -5,6 +5,7 @@
 
 #include "kernels/reductions.hpp"
 #include "kernels/watch_terms.hpp"
+#include "model/element_histories.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
@@ -380,6 +381,7 @@ void add_what_histories_tell(const Model& model, HistorySample& sample) {
     if (tied) sample.sets[s] = mean_motion_with_ties(model, model.history_sets[s]);
     else queue_mean_motion(model, model.history_sets[s], sample.sets[s], sums);
   }
+  queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, sample.loads, sums);
   sums.fetch();
   if (model.beams) sample.beams = beam_resultants(model);

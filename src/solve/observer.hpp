@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
+#include "model/history_sets.hpp"
 #include "solve/fault.hpp"
 
 namespace railwave {
@@ -61,7 +62,8 @@ struct HistorySample {
   long step = 0;
   EnergyAccount energy;
   std::vector<ContactTotals> contacts;   ///< one for each contact of the scene
-  std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets
+  std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets whose motion is written
+  std::vector<ElementMeans> elements;    ///< one for each of these whose stress, strain or plastic strain is written
   std::vector<BeamResultants> beams;     ///< one for each of the scene's beams
   std::vector<LoadTotals> loads;         ///< one for each of the scene's loads
 };

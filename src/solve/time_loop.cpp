@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include "model/doubts.hpp"
+#include "model/place_element_sets.hpp"
 #include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
 #include "solve/account.hpp"
@@ -31,9 +32,8 @@ class Schedule {
  public:
   explicit Schedule(const Model& model)
       : model_(model),
-        history_(model.scene.output.history_interval, model.step_size, model.subcycling.round()),
-        fields_(model.scene.output.field_interval > 0 ? model.scene.output.field_interval : model.scene.time.end, model.step_size,
-                model.subcycling.round()) {}
+        history_(model.output_times.history, model.step_size, model.subcycling.round()),
+        fields_(model.output_times.fields, model.step_size, model.subcycling.round()) {}
 
   bool last() const { return model_.step == model_.step_count; }
   bool history() const { return history_.due(model_.step) || last(); }
@@ -253,6 +253,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (const std::string& doubt : scene_doubts(model)) summary.warnings.push_back(doubt);
+  for (const PlacedElements& placed : placed_element_sets(model.scene, model.assembly))
+    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)
     if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty()) summary.swings.push_back(told);
   summary.completed = summary.reason.empty();

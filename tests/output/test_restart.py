@@ -64,12 +64,19 @@ angular_velocity = [0, 30, 10]
 acceleration = [0, 0, -1e5]
 [time]
 end = {end}
+[probes.inside]
+part = "lower"
+position = [0.022, 0.022, 0.02]
+quantities = ["acceleration", "stress", "strain", "plastic_strain"]
+[element_sets.core]
+part = "lower"
+box = [[0.01, 0.01, 0], [0.05, 0.04, 0.02]]
 [output]
 history_interval = 1e-5
 field_interval = {field_interval}
 field_sets = ["upper", "lower.z_max"]
 fields = ["displacement", "velocity", "stress", "plastic_strain"]
-history_sets = ["upper.z_max"]
+history_sets = ["upper.z_max", "lower.core"]
 progress_interval = 0.5
 """
 

@@ -1,0 +1,110 @@
+#include "model/history_sets.hpp"
+
+#include <algorithm>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/place_element_sets.hpp"
+
+namespace railwave {
+namespace {
+
+template <class Entry>
+const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+/// The probe that made a set `part.NAME` or `part.NAME_3`, with that one's position.
+struct AskedProbe {
+  const scene::Probe* probe = nullptr;
+  Vec3 position{};
+};
+
+AskedProbe probe_of(const scene::Scene& scene, const std::string& part, const std::string& name) {
+  const auto made_sets = [&](const auto& sets, const scene::Probe& probe) -> const std::optional<Vec3>* {
+    for (const auto& set : sets)
+      if (set.part == part && set.name == name && set.line == probe.line && set.position) return &set.position;
+    return nullptr;
+  };
+  for (const scene::Probe& probe : scene.probes) {
+    if (probe.part != part) continue;
+    if (probe.name != name && (probe.count == 1 || name.rfind(probe.name + "_", 0) != 0)) continue;
+    for (const auto* position : {made_sets(scene.element_sets, probe), made_sets(scene.node_sets, probe)})
+      if (position) return {&probe, **position};
+  }
+  return {};
+}
+
+bool yields(const scene::Scene& scene, const Assembly& assembly, const std::vector<int>& elements) {
+  return std::any_of(assembly.parts.begin(), assembly.parts.end(), [&](const Assembly::PartRange& part) {
+    return scene.materials[part.material].yield_stress &&
+           std::any_of(elements.begin(), elements.end(), [&](int e) { return e >= part.first_element && e < part.first_element + part.element_count; });
+  });
+}
+
+HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const std::string& name) {
+  HistorySet set;
+  set.name = name;
+  const auto dot = name.find('.');
+  const std::string part = name.substr(0, dot), own = dot == std::string::npos ? "" : name.substr(dot + 1);
+  const auto nodes = assembly.node_sets.find(name);
+  const auto elements = assembly.element_sets.find(name);
+  const bool has_nodes = nodes != assembly.node_sets.end() && !nodes->second.empty();
+  const bool has_elements = !own.empty() && elements != assembly.element_sets.end() && !elements->second.empty();
+  if (!has_nodes && !has_elements) {
+    std::vector<std::string> known;
+    for (const auto* sets : {&assembly.node_sets, &assembly.element_sets})
+      for (const auto& one : *sets)
+        if (one.first.find('.') != std::string::npos || named(scene.points, one.first)) known.push_back(one.first);
+    std::sort(known.begin(), known.end());
+    known.erase(std::unique(known.begin(), known.end()), known.end());
+    throw InputError(unknown_set(scene, {"history_sets", 0}, "output", name, known));
+  }
+  set.displacement = set.velocity = set.acceleration = has_nodes;
+  set.stress = set.strain = has_elements;
+  set.plastic_strain = has_elements && yields(scene, assembly, elements->second);
+  if (const auto* hammer = named(scene.hammers, own); hammer && hammer->part == part) set.asked_by = "hammer " + own;
+  if (const AskedProbe asked = probe_of(scene, part, own); asked.probe) {
+    const auto& wanted = asked.probe->quantities;
+    const auto has = [&](const char* quantity) { return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end(); };
+    set.asked_by = "probe " + asked.probe->name;
+    set.asked_position = asked.position;
+    set.displacement = has_nodes && has("displacement");
+    set.velocity = has_nodes && has("velocity");
+    set.acceleration = has_nodes && has("acceleration");
+    set.stress = has_elements && has("stress");
+    set.strain = has_elements && has("strain");
+    set.plastic_strain = has_elements && has("plastic_strain");
+  }
+  if (!set.inside()) return set;
+  set.elements = elements->second;
+  std::sort(set.elements.begin(), set.elements.end());
+  set.elements.erase(std::unique(set.elements.begin(), set.elements.end()), set.elements.end());
+  const auto share = volume_shares(assembly, set.elements);
+  for (std::size_t k = 0; k < share.size(); ++k)
+    for (int i = 0; i < 3; ++i) set.element_centre[i] += share[k] * element_centre(assembly, set.elements[k])[i];
+  return set;
+}
+
+}  // namespace
+
+std::vector<double> volume_shares(const Assembly& assembly, const std::vector<int>& elements) {
+  std::vector<double> share;
+  double all = 0;
+  for (int e : elements) {
+    share.push_back(hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])));
+    all += share.back();
+  }
+  for (double& one : share) one /= all;
+  return share;
+}
+
+std::vector<HistorySet> resolve_history_sets(const scene::Scene& scene, const Assembly& assembly) {
+  std::vector<HistorySet> sets;
+  for (const std::string& name : scene.output.history_sets) sets.push_back(resolve(scene, assembly, name));
+  return sets;
+}
+
+}  // namespace railwave

@@ -18,6 +18,7 @@ FORMATS = ("png", "pdf", "svg")
 MOVIES = ("gif", "png", "mp4")
 BEGINNINGS = {".png": b"\x89PNG\r\n\x1a\n", ".gif": b"GIF8", ".pdf": b"%PDF-", ".svg": b"<?xml", ".mp4": b""}
 FEW_COLOURS_BELOW = 200  # points an inch: a smaller PNG, for a screen, gets a palette, which makes it a third as large
+OFTEN = 128  # colours of a palette that are exact
 LARGEST = 1 << 28  # bytes of a file in which the mark is looked for
 
 
@@ -94,7 +95,7 @@ def put_figure(figure, path, resolution, overwrite=False, inputs=()):
             with Image.open(whole) as image:
                 image = image.convert("RGB")
                 if resolution < FEW_COLOURS_BELOW:
-                    image = image.quantize(255, method=Image.Quantize.MAXCOVERAGE)
+                    image = _one_palette([image])[0]
                 image.save(name, optimize=True, dpi=(resolution, resolution), pnginfo=_png_mark())
         elif ending == ".pdf":
             figure.savefig(name, dpi=resolution, format="pdf", metadata={"Creator": MARK, "CreationDate": None})
@@ -115,11 +116,20 @@ def _png_mark():
 def _one_palette(frames):
     """All frames in the same 256 colours, so that a colour means the same in each: of a few frames, rare ones too."""
     few = [frames[i] for i in sorted({round(k * (len(frames) - 1) / 5) for k in range(6)})]
-    there = np.unique(np.concatenate([np.unique(np.asarray(frame).reshape(-1, 3) & 0xFC, axis=0) for frame in few]), axis=0)
-    colours = Image.fromarray(there[None].astype(np.uint8), "RGB").quantize(254, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
-    entries = colours.getpalette()[: 3 * 254]
+    pixels = np.concatenate([np.asarray(frame).reshape(-1, 3) for frame in few]).astype(np.uint32)
+    there, count = np.unique(pixels @ np.array([65536, 256, 1], dtype=np.uint32), return_counts=True)
+    there = there[np.argsort(-count, kind="stable")]
+    colours = np.stack([there >> 16, there >> 8 & 255, there & 255], axis=1)
+    colours = colours[(colours.min(axis=1) < 244) | (colours.min(axis=1) == 255)]
+    # The most frequent ones exactly: even areas. Of the rest, shades and edges of lines, as many that are spread over them. None
+    # but white is nearly white, or the ground would be grey.
+    entries = colours[:OFTEN].flatten().tolist()
+    rest = np.unique(colours[OFTEN:] & 0xFC, axis=0)
+    if len(rest):
+        strip = Image.fromarray(rest[None].astype(np.uint8), "RGB").quantize(256 - OFTEN, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        entries += strip.getpalette()[: 3 * (256 - OFTEN)]
     palette = Image.new("P", (1, 1))
-    palette.putpalette(entries + [0] * (3 * 254 - len(entries)) + [255, 255, 255, 0, 0, 0])
+    palette.putpalette((entries + entries[:3] * 256)[: 3 * 256])
     return [frame.quantize(palette=palette, dither=Image.Dither.NONE) for frame in frames]
 
 

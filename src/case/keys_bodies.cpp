@@ -47,11 +47,11 @@ Section part_section() {
           "[node_sets] see it unturned; angular velocities of [initial_motion] and axes of torques on it turn along")
           .in("rad")
           .within(between(-0.2, 0.2)),
-      key("hourglass", &Part::hourglass, "how hourglass modes are resisted: by velocity or by displacement")
+      key("hourglass", &Part::hourglass, "how hourglass modes are resisted: by velocity, which takes their energy, or by displacement, which stores it and gives it back; docs/hourglass.md")
           .one_of({"viscous", "stiffness"}),
       key("hourglass_coefficient", &Part::hourglass_coefficient, "how strongly; 0 leaves the modes free")
           .within(between(0, 1))
-          .otherwise("0.1 viscous, 0.05 stiffness"),
+          .otherwise("0.05; 0.1 viscous"),
       key("mass_damping", &Part::mass_damping,
           "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows rigid motion "
           "too: not for bodies that roll or travel")

@@ -37,7 +37,7 @@ Section hammer_section() {
                                "unless one is given) shared among the set's nodes by "
                                "their mass, and an entry of `output.history_sets`, so that `railwave frf` knows force "
                                "and motion where it strikes. Give what is struck, a part or a track, "
-                               "`hourglass = \"stiffness\"`: viscous control damps the waves.");
+                               "`hourglass = \"stiffness\"`, the default: viscous control damps the waves.");
   section.keys = {
       key("part", &Hammer::part, "what is struck; parts of tracks count").names(whole_part).needed(),
       key("surface", &Hammer::surface, "of the part: only its nodes are struck").otherwise("any node"),

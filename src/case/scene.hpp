@@ -75,8 +75,8 @@ struct Part : Place {
   Vec3 position{0, 0, 0};          ///< translation of the mesh, m
   bool mirror = false;             ///< y of the mesh is turned round
   double angle_of_attack = 0;      ///< rad, about z through the mesh's origin, after mirroring
-  HourglassType hourglass = HourglassType::viscous;
-  double hourglass_coefficient = 0.1;
+  HourglassType hourglass = HourglassType::stiffness;  ///< chosen by scripts/hourglass_table: docs/hourglass.md
+  double hourglass_coefficient = 0.05;
 
   /// With the coefficient that goes with a type unless one is given.
   void take_hourglass(HourglassType type) {
@@ -353,7 +353,7 @@ struct Track : Place {
   Vec3 position{0, 0, 0};
   bool mirror = false;                        ///< all its parts are mirrored
   bool both_rails = false;                    ///< whole sleepers and the other rail
-  HourglassType hourglass = HourglassType::viscous;  ///< of rails and sleepers
+  HourglassType hourglass = HourglassType::stiffness;  ///< of rails and sleepers
   double rail_distance = 0.755;               ///< m, from the track's centre plane to the middle of the rail's foot
   std::string sleeper = "concrete";
   double pitch = 0.6;                         ///< m

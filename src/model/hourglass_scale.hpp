@@ -13,7 +13,7 @@ inline double hourglass_factor(scene::HourglassType type, double coefficient, co
                                                : coefficient * material.dilatational_modulus() / 16;
 }
 
-/// Coefficient of the stiffness hourglass control that a part has while it settles; of one whose own control is viscous:
+/// Coefficient of the stiffness hourglass control that a part has while it settles; of one whose own control is viscous, the default's:
 inline constexpr double settling_coefficient = 0.05;
 inline double settling_hourglass_coefficient(const scene::Part& part) {
   return part.hourglass == scene::HourglassType::viscous ? settling_coefficient : part.hourglass_coefficient;

@@ -127,6 +127,20 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
   }
 }
 
+/// What scripts/hourglass_table shows to make a part's share smaller (docs/hourglass.md). A higher coefficient does not: viscous control takes no less
+/// with it, and stiffness control stores more.
+Cause hourglass_share(const scene::Part& part) {
+  const std::string& name = part.name;
+  const scene::Part usual;
+  if (part.hourglass == scene::HourglassType::viscous)
+    return {"viscous hourglass control", fmt::format("viscous control takes the energy of part {}'s hourglass modes whatever its coefficient: set parts.{}.hourglass = "
+                                                     "\"stiffness\", the default, and leave hourglass_coefficient out", name, name), 30};
+  const std::string coarse = fmt::format("part {} is bent, or loaded at points, over few elements, and its hourglass control stores what these bear: refine it there", name);
+  if (part.hourglass_coefficient > 1.001 * usual.hourglass_coefficient)
+    return {"coarse mesh", fmt::format("{}, or lower parts.{}.hourglass_coefficient ({:.3g}) to {:g}", coarse, name, part.hourglass_coefficient, usual.hourglass_coefficient), 30};
+  return {"coarse mesh", coarse, 30};
+}
+
 void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
     const scene::Part& part = model.scene.parts[p];
@@ -134,12 +148,11 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
     const int seen = evidence.last.distortion.place;
     const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
     const bool distorted = here && evidence.last.distortion.value > 0.5 * model.scene.watch.hourglass_distortion;
-    if (part.hourglass_coefficient < 0.01 && (distorted || fault.kind == FaultKind::hourglass_distortion))
-      causes.push_back(Cause{"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about 0.1",
-                                                            part.name, part.name, part.hourglass_coefficient), 68});
-    if (fault.kind == FaultKind::hourglass_share && part.name == fault.part)
-      causes.push_back(Cause{"coarse mesh", fmt::format("part {} is bent or loaded at points over few elements: refine it there, or raise parts.{}.hourglass_coefficient",
-                                                   part.name, part.name), 30});
+    const double usual = part.hourglass == scene::HourglassType::viscous ? 0.1 : 0.05;
+    if (part.hourglass_coefficient < 0.1 * usual && (distorted || fault.kind == FaultKind::hourglass_distortion))
+      causes.push_back(Cause{"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about {:g}",
+                                                            part.name, part.name, part.hourglass_coefficient, usual), 68});
+    if (fault.kind == FaultKind::hourglass_share && part.name == fault.part) causes.push_back(hourglass_share(part));
   }
 }
 

@@ -437,8 +437,8 @@ TEST_CASE("what a case does not say keeps scene.hpp's defaults", "[case]") {
   CHECK(scene.title.empty());
   CHECK(scene.meshes[0].box.divisions == scene::BoxMesh{}.divisions);
   CHECK(scene.parts[0].element_set.empty());
-  CHECK(scene.parts[0].hourglass == scene::HourglassType::viscous);
-  CHECK(scene.parts[0].hourglass_coefficient == 0.1);
+  CHECK(scene.parts[0].hourglass == scene::HourglassType::stiffness);
+  CHECK(scene.parts[0].hourglass_coefficient == 0.05);
   CHECK(scene.gravity == Vec3{0, 0, 0});
   CHECK_FALSE(scene.settle.active);
   CHECK(scene.time.step_scale == 0.9);
@@ -455,6 +455,7 @@ TEST_CASE("the hourglass coefficient's default depends on the type", "[case]") {
   TemporaryCase file(small_case);
   CHECK(read_case(file.path(), {"parts.cube.hourglass=\"stiffness\""}).parts[0].hourglass_coefficient == 0.05);
   CHECK(read_case(file.path(), {"parts.cube.hourglass=viscous"}).parts[0].hourglass_coefficient == 0.1);
+  CHECK(read_case(file.path()).parts[0].hourglass_coefficient == 0.05);
 }
 
 TEST_CASE("settling is on with its section, unless that says no", "[case]") {

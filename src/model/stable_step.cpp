@@ -20,9 +20,9 @@ namespace {
 
 /// Share of the stable step that is never passed: right on it the highest mode grows, if slowly, and estimates round.
 constexpr double below_the_limit = 0.995;
-/// Share of the stable step that is taken where contact springs shorten it. Closed for good they are stable up to the limit; but near it nodes that
-/// touch and part again and again, at other places of their way than a continuous motion would, gain energy: struck bars of matching meshes 12 % at
-/// 0.9 of the limit, and below 1 % at 0.81 (scripts/hourglass_table, tests/verify/test_impact.cpp).
+/// Share of the stable step that is taken where contact springs shorten it and bodies strike undamped. Closed for good the springs are stable up to the
+/// limit; but near it nodes that touch and part again and again gain energy: struck bars of matching meshes 12 % at 0.9 of the limit, below 1 % at 0.81
+/// (docs/hourglass.md).
 constexpr double springs_that_open = 0.9;
 
 /// Stable step of an element of the undamped stable step dt_0 whose part is damped. With velocities half a step behind,
@@ -165,6 +165,15 @@ double stable_together(const Model& model, double by_elements, double by_eigenva
   return std::fmax(by_eigenvalues, GlobalEstimate(model).of_elements(model, by_elements).step);
 }
 
+/// Whether bodies begin apart, not settled on one another, and neither their hourglass control nor their contact takes what they vibrate with.
+bool strikes_undamped(const Model& model) {
+  if (model.scene.settle.active) return false;
+  const bool viscous = std::all_of(model.scene.parts.begin(), model.scene.parts.end(),
+                                   [](const scene::Part& part) { return part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0; });
+  return !viscous && std::any_of(model.contacts.begin(), model.contacts.end(),
+                                 [](const ContactPair& pair) { return pair.has_springs() && !(pair.law.damping > 0); });
+}
+
 void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
   const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
@@ -185,7 +194,7 @@ void estimate_by_elements(Model& model) {
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
   stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues);
-  if (stable.contact > 0 && stable.contact < stable.elements) stable.by_elements *= springs_that_open;
+  if (stable.contact > 0 && stable.contact < stable.elements && strikes_undamped(model)) stable.by_elements *= springs_that_open;
   // Beams' elements have masses of their own like those of solids, so that the highest frequency of any is an upper bound.
   if (model.beams) {
     stable.beam = model.beams->step;

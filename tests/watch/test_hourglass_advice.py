@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The default hourglass control takes under 2 % in the scenes of scripts/hourglass_table, and what the watch advises about a large share of hourglass
+"""The default hourglass control holds under 2 % of the energy in scenes of scripts/hourglass_table, and what the watch advises about a large share of hourglass
 energy makes that share smaller: each advice is followed."""
 
 import os
@@ -11,7 +11,7 @@ import unittest
 
 try:
     import h5py
-    import numpy  # noqa: F401
+    import numpy as np
 except ImportError:
     sys.exit(77)
 
@@ -21,7 +21,7 @@ import hourglass.scenes as scenes  # noqa: E402
 
 CASES = os.path.join(SOURCE, "benchmarks", "cases", "hourglass")
 SAID = r"hourglass energy of a part, .*?; likely cause: (.*?)(?: \(worst .*)?\n"
-NAMED = {"refine": "meshes.beam.divisions=[40,4,4]"}
+FINER = "meshes.beam.divisions=[40,4,4]"
 
 
 def control(parts, **values):
@@ -45,26 +45,37 @@ def share(said):
     return float(re.search(r"hourglass_share (\S+) \(", said).group(1))
 
 
-def lost(energy):
-    """In hourglass control, of the energy given."""
+def taken(energy):
+    """By hourglass control, of the energy given: mean of the last twentieth of the run."""
     given = energy["kinetic"][0] + energy["external_work"].max()
-    return (energy["hourglass"] - energy["hourglass_stored"])[-1] / given
+    return energy["hourglass"][-max(1, len(energy["hourglass"]) // 20):].mean() / given
 
 
 class Default(unittest.TestCase):
     def test_it_takes_under_two_per_cent(self):
-        for name in ("drop, 10 mm", "drop, 5 mm", "bars", "beam swings, 2 thick", "beam bent, 2 thick"):
+        for name in ("drop, 10 mm", "drop, 5 mm", "bars", "hammer", "beam swings, 4 thick"):
             scene = scenes.SCENES[name]
             with self.subTest(name):
-                _, energy = run(os.path.basename(scene.case), [override for override in scene.overrides if not override.startswith("output")])
-                self.assertLess(lost(energy), 0.02)
-                self.assertGreaterEqual(lost(energy), -1e-9)
+                said, energy = run(os.path.basename(scene.case), scene.overrides)
+                self.assertLess(taken(energy), 0.02)
+                self.assertIn("viscous hourglass control: element kernels read no velocities", said)  # so what it holds is stored, not lost
+                self.assertLess(abs(energy["balance_error"]).max(), 0.02 * (energy["kinetic"][0] + energy["external_work"].max()))
+
+    def test_a_beam_two_elements_thick_swings_on(self):
+        for control_of, least, most in (("stiffness", 0.99, 1.01), ("viscous", 0, 0.95)):
+            with tempfile.TemporaryDirectory(prefix="railwave-") as folder:
+                command = [PROGRAM, "run", os.path.join(CASES, "beam.toml"), "--set", f"parts.beam.hourglass={control_of}", "--set", f"output.file={folder}/results.h5"]
+                subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
+                with h5py.File(f"{folder}/results.h5", "r") as file:
+                    time, tip = file["history/time"][:], file["history/set/beam.x_max/displacement"][:, 2]
+            first, last = (np.ptp(tip[(time > start) & (time <= start + 2.5e-3)]) for start in (2.1e-3, time[-1] - 2.5e-3))
+            self.assertGreater(last / first, least)
+            self.assertLess(last / first, most)
 
     def test_a_dropped_box_keeps_what_viscous_control_took(self):
         _, viscous = run("drop.toml", control(("upper", "lower"), hourglass="viscous"))
         _, default = run("drop.toml", [])
-        self.assertGreater(lost(viscous), 0.1)
-        self.assertLess(default["hourglass"][-1] / default["kinetic"][0], 0.02)
+        self.assertGreater(taken(viscous), 0.1)
         self.assertGreater(default["kinetic"][-1], viscous["kinetic"][-1])
 
 
@@ -86,7 +97,7 @@ class Advice(unittest.TestCase):
 
     def test_of_a_coefficient_of_ones_own_goes_with_it(self):
         _, advice = self.advised("drop.toml", control(("upper", "lower"), hourglass="viscous", hourglass_coefficient=0.3))
-        self.assertIn("without the hourglass_coefficient", advice)
+        self.assertIn("leave hourglass_coefficient out", advice)
 
     def test_of_stiff_control_is_a_lower_coefficient_or_a_finer_mesh(self):
         stiff = control(("beam",), hourglass="stiffness", hourglass_coefficient=0.25)
@@ -95,15 +106,8 @@ class Advice(unittest.TestCase):
         lower = float(re.search(r"lower parts\.beam\.hourglass_coefficient \(0\.25\) to (\S+)", advice).group(1))
         lowered, _ = run("beam.toml", control(("beam",), hourglass="stiffness", hourglass_coefficient=lower))
         self.assertLess(share(lowered), 0.5 * before)
-        refined, _ = run("beam.toml", [*stiff, NAMED["refine"]])
+        refined, _ = run("beam.toml", [*stiff, FINER])
         self.assertLess(share(refined), 0.5 * before)
-
-    def test_of_much_viscosity_is_less(self):
-        parts = ("upper", "lower")
-        before, advice = self.advised("drop.toml", control(parts, hourglass="combined", hourglass_viscosity=0.3))
-        less = float(re.search(r"lower parts\.\w+\.hourglass_viscosity \(0\.3\) to (\S+),", advice).group(1))
-        after, _ = run("drop.toml", control(parts, hourglass="combined", hourglass_viscosity=less))
-        self.assertLess(share(after), before)
 
 
 if __name__ == "__main__":

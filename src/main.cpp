@@ -8,10 +8,12 @@
 #include "case/error.hpp"
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
+#include "case/results_place.hpp"
 #include "check.hpp"
 #include "hammer_options.hpp"
 #include "model/assemble_notes.hpp"
 #include "modes/modes_command.hpp"
+#include "next_steps.hpp"
 #include "option_checks.hpp"
 #include "out_of_memory.hpp"
 #include "output/model_file.hpp"
@@ -19,6 +21,7 @@
 #include "output/restart.hpp"
 #include "output/results_file.hpp"
 #include "output/results_writer.hpp"
+#include "output/run_places.hpp"
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
 #include "reading_child.hpp"
@@ -47,9 +50,9 @@ struct Arguments {
   ResponseRequest response;
   DecayRequest decay;
   ModesRequest modes;
-  std::string mesh_file = "mesh.h5";
+  std::optional<std::string> mesh_file;  ///< none: mesh.h5 in the case's own folder
   bool markdown = false, schema = false;
-  bool restart = false, keep_state = false;
+  bool restart = false, keep_state = false, overwrite = false;
   double wall_time = 0;  ///< s; 0: no limit
 };
 
@@ -65,19 +68,22 @@ int run_case(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
   PatienceTimer patience;
   const scene::Scene scene = read_told(arguments);
-  if (arguments.restart) {
+  const RunFiles files{arguments.restart, arguments.overwrite};
+  check_run_places(scene, files);
+  if (arguments.restart) {  // before anything is held that the child would let go
     const std::string& file = scene.output.file;
     if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); })) return *code;
   }
+  const HeldPlaces places(scene, files);
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
   tell("note", notes, std::cout);
+  check_run_places(scene, files);  // again, now that meshes have read what they include
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
   results.check_room(model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
-  check_checkpoint_place(checkpoint.path(), scene.output.file);
   results.keep_checkpoints(checkpoint, arguments.keep_state);
   RunKeeping keeping;
   keeping.checkpoints = &results;
@@ -98,6 +104,7 @@ int run_case(const Arguments& arguments) {
     keeping.time_left = std::max(1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   patience.stop();
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
+  tell_next_steps(scene, summary.completed, std::cout);
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
   return was_signalled() ? interrupted : run_ended_early;
@@ -106,6 +113,7 @@ int run_case(const Arguments& arguments) {
 int check_case(const Arguments& arguments) {
   const PatienceTimer patience;
   const scene::Scene scene = read_told(arguments);
+  check_run_places(scene, {});
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
@@ -114,20 +122,24 @@ int check_case(const Arguments& arguments) {
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
   results.check_room(model);
   describe_run(model, std::cout);
+  tell_what_gets_lost(scene, std::cout);
   return done;
 }
 
 int write_mesh(const Arguments& arguments) {
   const PatienceTimer patience;
   const scene::Scene scene = read_told(arguments);
+  const std::string path = arguments.mesh_file.value_or(default_results_folder(scene.path) + "/mesh.h5");
+  check_model_places(scene, path, arguments.overwrite);
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
   tell("note", notes, std::cout);
-  const Activity writing("writing " + arguments.mesh_file);
-  write_model_file(model, arguments.mesh_file);
-  std::cout << arguments.mesh_file << " and " << xdmf_path(arguments.mesh_file) << ": " << model.element_count() << " elements of "
+  const Activity writing("writing " + path);
+  make_own_folder(scene, path);
+  write_model_file(model, path);
+  std::cout << path << " and " << xdmf_path(path) << ": " << model.element_count() << " elements of "
             << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots";
   int beams = 0;
   for (const auto& chain : model.assembly.beam_chains) beams += static_cast<int>(chain.nodes.size()) - 1;
@@ -149,12 +161,17 @@ int print_reference(const Arguments& arguments) {
   return done;
 }
 
+void add_overwrite_option(CLI::App* command, bool& overwrite) {
+  command->add_flag("--overwrite", overwrite, "replace files that are there even if railwave has not written them; never what the command reads");
+}
+
 void add_contact_options(CLI::App* command, ContactRequest& request) {
   command->add_option("results", request.results, "results file")->required();
   command->add_option("--csv", request.csv, "also write the table as CSV, in SI units: a row per output time and patch");
   command->add_option("--nodes", request.nodes, "also write a CSV of the nodes of each patch: stresses, micro-slip, stick and slip");
   command->add_option("--cuts", request.cuts, "also write a CSV of cuts along and across through the centre of each patch");
   command->add_option("--hdf5", request.hdf5, "also write all of this, and the stresses of the facets, as HDF5: a file of its own");
+  add_overwrite_option(command, request.overwrite);
   command->add_option("--from", request.from, "leave out output times before, s");
   command->add_option("--to", request.to, "leave out output times after, s");
   command->add_option("--rolling-direction", request.rolling_direction, "x,y,z, from which longitudinal is made; default 1,0,0")->delimiter(',');
@@ -169,6 +186,7 @@ void add_modes_options(CLI::App* command, ModesRequest& request) {
   command->add_option("--up-to", request.up_to, "highest frequency, Hz; default 5000");
   command->add_option("--csv", request.csv, "also write the table as CSV, in SI units");
   command->add_option("--out", request.shapes, "also write the shapes as HDF5; its XDMF companion, which ParaView opens, lies beside it");
+  add_overwrite_option(command, request.overwrite);
 }
 
 int dispatch(int argc, char** argv) {
@@ -185,7 +203,9 @@ int dispatch(int argc, char** argv) {
   };
   CLI::App* run_command = app.add_subcommand("run", "run a case and write its results");
   add_case(run_command);
-  run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
+  CLI::Option* restart = run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
+  add_overwrite_option(run_command, arguments.overwrite);
+  run_command->get_option("--overwrite")->excludes(restart);
   run_command->add_flag("--keep-state", arguments.keep_state, "keep the checkpoint at the run's end: --restart with a later time.end goes on from it");
   run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
   run_command->callback([&] { code = run_case(arguments); });
@@ -194,7 +214,8 @@ int dispatch(int argc, char** argv) {
   check_command->callback([&] { code = check_case(arguments); });
   CLI::App* mesh = app.add_subcommand("mesh", "write a case's model for ParaView: parts, sets, stable steps, connectors");
   add_case(mesh);
-  mesh->add_option("--out", arguments.mesh_file, "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default mesh.h5");
+  mesh->add_option("--out", arguments.mesh_file, "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default results/NAME/mesh.h5, NAME being the case file's");
+  add_overwrite_option(mesh, arguments.overwrite);
   mesh->callback([&] { code = write_mesh(arguments); });
   CLI::App* modes = app.add_subcommand("modes", "frequencies and shapes of a case's free vibrations");
   add_case(modes);

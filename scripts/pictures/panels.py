@@ -82,7 +82,7 @@ def draw_letters(axes, patch, slips):
         if region.sum() < 3:
             continue
         mine, others = np.flatnonzero(region), np.flatnonzero(~region)
-        distance = np.hypot(patch.x[mine][:, None] - patch.x[others], patch.y[mine][:, None] - patch.y[others]).min(axis=1)
+        distance = np.hypot(patch.x[mine][:, None] - patch.x[others], patch.y[mine][:, None] - patch.y[others]).min(axis=1, initial=1e3)
         # Of nodes as deep as each other, that in the middle.
         middle = np.hypot(patch.x[mine] - patch.x[mine].mean(), patch.y[mine] - patch.y[mine].mean())
         node = mine[np.argmax(distance - 1e-3 * middle)]

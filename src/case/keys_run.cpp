@@ -68,7 +68,7 @@ Section checkpoint_section() {
           .within(at_least(0))
           .mostly(at_least(0)),
       key("file", &Checkpoint::file, "checkpoint file (HDF5), relative to the folder in which the program runs; the one before it is kept as `FILE.previous`")
-          .otherwise("beside the results: results.checkpoint.h5"),
+          .otherwise("beside the results: NAME.checkpoint.h5"),
   };
   return section;
 }
@@ -101,7 +101,8 @@ Section output_section() {
   using scene::Output;
   auto section = single_section("output", &Scene::output, "What is written, and how often.");
   section.keys = {
-      key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs"),
+      key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs; its folder must be there")
+          .otherwise("results/NAME/NAME.h5, NAME being the case file's name without .toml; the folder is made"),
       key("history_interval", &Output::history_interval,
           "between samples of the histories, evenly spaced to the last; 0 is every step. The step is shortened, by a tenth at most, so that whole "
           "steps make an interval; where the run is no whole number of intervals, these are shortened so that it is. An interval of few steps, "

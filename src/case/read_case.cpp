@@ -12,6 +12,7 @@
 #include "case/plausible_scene.hpp"
 #include "case/read_curves.hpp"
 #include "case/read_entry.hpp"
+#include "case/results_place.hpp"
 #include "case/static_text.hpp"
 #include "case/suggest.hpp"
 
@@ -127,6 +128,7 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   Complaints remarks(path);
   Reading reading{
       complaints, remarks, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
+  scene.output.file = default_results_file(path);
   read_sections(document.root, scene, reading);
   // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
   if (complaints.empty()) expand_tracks(scene, complaints);

@@ -1,17 +1,47 @@
 #include "mesh/text_file.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <utility>
 
 #include "case/error.hpp"
 #include "case/memory.hpp"
 
 namespace railwave {
+
+namespace {
+
+struct FilesRead {
+  std::mutex mutex;
+  std::set<std::pair<std::uint64_t, std::uint64_t>> files;  ///< device, inode
+};
+
+FilesRead& files_read() {
+  static FilesRead all;
+  return all;
+}
+
+void note_read(const std::string& path) {
+  struct stat facts;
+  if (stat(path.c_str(), &facts) != 0) return;
+  const std::lock_guard<std::mutex> guard(files_read().mutex);
+  files_read().files.insert({facts.st_dev, facts.st_ino});
+}
+
+}  // namespace
+
+bool was_read(std::uint64_t device, std::uint64_t inode) {
+  const std::lock_guard<std::mutex> guard(files_read().mutex);
+  return files_read().files.count({device, inode}) != 0;
+}
 
 std::string read_whole_file(const std::string& path) {
   std::error_code error;
@@ -27,6 +57,7 @@ std::string read_whole_file(const std::string& path) {
   constexpr double bytes_of_byte = 6;
   expect_memory(bytes_of_byte * static_cast<double>(size), fmt::format("{}: has {}; reading it needs", path, bytes_text(static_cast<double>(size))),
                 "see whether this is the file you mean, or split or coarsen it");
+  note_read(path);
   std::string bytes(size, '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(size));
   // A file that another program is shortening meanwhile gives fewer bytes than it promised.

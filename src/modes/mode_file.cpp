@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "output/hdf5.hpp"
+#include "output/output_place.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {
@@ -42,7 +43,7 @@ void write_modes(const hdf5::Group& group, const std::vector<Mode>& modes) {
 
 void write_mode_file(const Model& model, const ModeList& list, const std::string& path) {
   check_results_place(path);
-  auto file = hdf5::File::create(path);
+  auto file = hdf5::File::create(path, kinds::modes());
   const hdf5::Group root = file.root();
   root.set_attribute("title", model.scene.title);
   std::vector<std::string> names;
@@ -67,8 +68,8 @@ void write_mode_file(const Model& model, const ModeList& list, const std::string
   }
   file.close();
   const std::string companion = xdmf_path(path);
-  std::filesystem::remove(companion);
-  XdmfFile xdmf(companion, std::filesystem::path(path).filename().string(), {"displacement"});
+  remove_own(companion, kinds::modes_xdmf());
+  XdmfFile xdmf(companion, std::filesystem::path(path).filename().string(), {"displacement"}, kinds::modes_xdmf());
   for (std::size_t k = 0; k < list.modes.size(); ++k) xdmf.add(static_cast<double>(k + 1), k, sets, {});
 }
 

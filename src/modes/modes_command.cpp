@@ -10,6 +10,7 @@
 #include "modes/mode_file.hpp"
 #include "modes/mode_scene.hpp"
 #include "output/atomic_file.hpp"
+#include "output/run_places.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {
@@ -38,10 +39,23 @@ void print(const Model& model, const std::vector<Mode>& modes, bool several, std
   }
 }
 
+constexpr const char* heading =
+    "mode,frequency,rigid,modal_mass,part,part_share,kind,nodal_circles,nodal_diameters,order_share,axial_share,"
+    "radial_share,circumferential_share";
+
+FileKind mode_table() { return {FileKind::Form::table, "a table of 'railwave modes --csv'", heading, ""}; }
+
+void check_files(const scene::Scene& scene, const ModesRequest& request) {
+  OutputPlaces places(request.overwrite);
+  name_inputs(scene, places);
+  if (request.csv) places.writes(*request.csv, mode_table(), "--csv", "the table");
+  if (request.shapes)
+    places.writes_with_companion(*request.shapes, kinds::modes(), kinds::modes_xdmf(), "--out", "the file of the shapes");
+  places.check();
+}
+
 std::string csv_of(const Model& model, const std::vector<Mode>& modes) {
-  std::string text =
-      "mode,frequency,rigid,modal_mass,part,part_share,kind,nodal_circles,nodal_diameters,order_share,axial_share,"
-      "radial_share,circumferential_share\n";
+  std::string text = fmt::format("{}\n", heading);
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Mode& mode = modes[k];
     text += fmt::format("{},{:.10g},{},{:.6g},{},{:.4f}", k + 1, mode.frequency, mode.rigid ? 1 : 0, mode.modal_mass,
@@ -62,7 +76,7 @@ std::string csv_of(const Model& model, const std::vector<Mode>& modes) {
 int modes_command(const scene::Scene& scene, const ModesRequest& request, std::ostream& out) {
   if (!(request.up_to > 0 && std::isfinite(request.up_to)))
     throw InputError(fmt::format("--up-to {}: a frequency above 0 is wanted, in Hz, e.g. --up-to 5000", request.up_to));
-  if (request.shapes) check_results_place(*request.shapes);
+  check_files(scene, request);
   const ModeScene wanted = mode_scene(scene, request.parts);
   Model model;
   build_model(wanted.scene, model);
@@ -81,7 +95,9 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
   out << fmt::format("all {} modes below {:g} Hz, counted by inertia{}\n", list.modes.size(), request.up_to,
                      rigid > 0 ? fmt::format("; {} of them rigid motions", rigid) : "");
   try {
-    if (request.csv) write_whole_file(*request.csv, csv_of(model, list.modes));
+    if (request.csv) write_whole_file(*request.csv, csv_of(model, list.modes), mode_table());
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

@@ -14,6 +14,7 @@ struct ModesRequest {
   std::vector<std::string> parts;          ///< and point masses; empty: all
   double up_to = 5000;                     ///< Hz
   std::optional<std::string> csv, shapes;  ///< files to write
+  bool overwrite = false;                  ///< files of others too
 };
 
 /// Prints a table of the modes of a scene, and writes the files asked for; docs/modes.md tells what they hold. Kokkos

@@ -2,17 +2,15 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
-#include "case/error.hpp"
 #include "kernels/patches.hpp"
 #include "model/model.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5.hpp"
+#include "output/output_place.hpp"
 #include "output/seal.hpp"
 
 namespace railwave {
@@ -53,8 +51,10 @@ RunState read(const std::string& path, const std::string& key, const std::string
 
 }  // namespace
 
+CheckpointFile::CheckpointFile(const std::string& path, std::string key) : path_(target_of(path)), key_(std::move(key)) {}
+
 void CheckpointFile::write(const RunState& state, const std::string& run) const {
-  hdf5::File file = hdf5::File::create(path_);
+  hdf5::File file = hdf5::File::create(path_, kinds::checkpoint());
   const hdf5::Group root = file.root();
   root.set_attribute("format", format_name);
   root.set_attribute("key", key_);
@@ -75,9 +75,11 @@ void CheckpointFile::write(const RunState& state, const std::string& run) const 
   root.set_attribute("names", names);
   root.write("sizes", sizes, {sizes.size()}, {}, hdf5::Check::by_seal);
   root.write("values", bytes, {bytes.size()}, {}, hdf5::Check::by_seal);
-  file.close([this] {
-    seal(path_ + ".new");
+  file.close([this](const std::string& written) {
+    seal(written);
     std::error_code none_before;
+    expect_replaceable(path_ + ".previous", kinds::checkpoint());
+    expect_replaceable(path_, kinds::checkpoint());
     std::filesystem::rename(path_, path_ + ".previous", none_before);
   });
 }
@@ -90,6 +92,8 @@ CheckpointFile::Found CheckpointFile::find(const std::string& run) const {
     try {
       found.state = read(name, key_, run);
       found.file = name;
+      // The other one may be damaged beyond recognition.
+      for (const char* ending : {"", ".previous"}) give(path_ + ending);
       return found;
     } catch (const std::bad_alloc&) {
       throw;  // is no fault of the file's
@@ -101,7 +105,7 @@ CheckpointFile::Found CheckpointFile::find(const std::string& run) const {
 }
 
 void CheckpointFile::remove() const {
-  for (const char* ending : {"", ".previous", ".new"}) std::remove((path_ + ending).c_str());
+  for (const char* ending : {"", ".previous"}) remove_own(path_ + ending, kinds::checkpoint());
 }
 
 std::string checkpoint_key(const Model& model, const std::string& program_version) {
@@ -122,16 +126,6 @@ std::string checkpoint_key(const Model& model, const std::string& program_versio
   hash.add(model.assembly.nodes);
   hash.add(model.assembly.elements);
   return hash.text();
-}
-
-void check_checkpoint_place(const std::string& path, const std::string& results_path) {
-  const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal(), folder = whole.parent_path();
-  std::error_code ignored;
-  if (whole == std::filesystem::absolute(results_path).lexically_normal())
-    throw InputError(fmt::format("checkpoint.file: {} is the results file; name another file", path));
-  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0)
-    throw InputError(fmt::format("checkpoint.file: {} goes to {}, which is not there or may not be written; make the folder, or name another file", path,
-                                 folder.string()));
 }
 
 std::string checkpoint_path(const scene::Scene& scene) {

@@ -13,8 +13,9 @@ namespace railwave {
 /// the disk and then given its name, so that a kill at any moment leaves a good one; each carries a checksum over all it holds.
 class CheckpointFile {
  public:
+  /// @param path symbolic links are followed
   /// @param key of what determines the run, see checkpoint_key()
-  CheckpointFile(std::string path, std::string key) : path_(std::move(path)), key_(std::move(key)) {}
+  CheckpointFile(const std::string& path, std::string key);
 
   const std::string& path() const { return path_; }
   const std::string& key() const { return key_; }
@@ -31,7 +32,7 @@ class CheckpointFile {
   /// The newest good state of that run.
   Found find(const std::string& run) const;
 
-  /// Takes both files away.
+  /// Takes both files away; what this program has not written stays.
   void remove() const;
 
  private:
@@ -41,9 +42,6 @@ class CheckpointFile {
 /// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and what is told on
 /// the way, the mesh in the solver's order, the program's version.
 std::string checkpoint_key(const Model& model, const std::string& program_version);
-
-/// Throws InputError unless a checkpoint can be made there: no such folder, not writable, or the results' own place.
-void check_checkpoint_place(const std::string& path, const std::string& results_path);
 
 /// Where a case's checkpoint lies: unless it says so, results.h5 -> results.checkpoint.h5.
 std::string checkpoint_path(const scene::Scene& scene);

@@ -9,6 +9,7 @@
 
 #include "model/fields.hpp"
 #include "output/grid_writer.hpp"
+#include "output/output_place.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {
@@ -48,9 +49,8 @@ std::string write_part(const Model& model, const Fault& fault, const hdf5::Group
 void write_files(const Model& model, const Fault& fault, const std::string& path) {
   const double half_edge = model.scene.watch.box > 0 ? model.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
   check_results_place(path);
-  hdf5::File file = hdf5::File::create(path);
+  hdf5::File file = hdf5::File::create(path, kinds::fault());
   const hdf5::Group root = file.root(), parts = root.create_group("parts");
-  root.set_attribute("format", "Railwave fault");
   root.set_attribute("fault", fault.told());
   root.set_attribute("time", model.time);
   root.set_attribute("step", model.step);
@@ -62,7 +62,7 @@ void write_files(const Model& model, const Fault& fault, const std::string& path
     if (!elements.empty()) grids += write_part(model, fault, parts, escaped(std::filesystem::path(path).filename().string()), part.name, elements);
   }
   file.close();
-  write_grids(xdmf_path(path), grids);
+  write_grids(xdmf_path(path), grids, kinds::fault_xdmf());
 }
 
 }  // namespace
@@ -71,15 +71,19 @@ std::string fault_path(const std::string& results_path) {
   return std::filesystem::path(results_path).replace_extension(".fault.h5").string();
 }
 
+void remove_fault_file(const std::string& path) {
+  remove_own(path, kinds::fault());
+  remove_own(xdmf_path(path), kinds::fault_xdmf());
+}
+
 bool write_fault_file(const Model& model, const Fault& fault, const std::string& path) {
-  const auto remove_files = [&] { for (const std::string& file : {path, xdmf_path(path)}) std::remove(file.c_str()); };
-  remove_files();  // an older run's
+  remove_fault_file(path);  // an older run's
   if (fault.element < 0) return false;
   try {
     write_files(model, fault, path);
     return true;
   } catch (const std::exception& error) {
-    remove_files();
+    remove_fault_file(path);
     std::fputs(fmt::format("railwave: warning: the surroundings of the fault could not be written: {}\n", error.what()).c_str(), stderr);
     return false;
   }

@@ -97,10 +97,11 @@ struct Piece {
 };
 
 /// Writes the XDMF file of such grids, all of them one collection.
-inline void write_grids(const std::string& path, const std::string& grids) {
-  write_whole_file(path, "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"2.0\">\n <Domain>\n"
+inline void write_grids(const std::string& path, const std::string& grids, const FileKind& kind) {
+  write_whole_file(path, "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n" + xdmf_mark(kind) + "<Xdmf Version=\"2.0\">\n <Domain>\n"
                          "  <Grid Name=\"model\" GridType=\"Collection\" CollectionType=\"Spatial\">\n" +
-                             grids + "  </Grid>\n </Domain>\n</Xdmf>\n");
+                             grids + "  </Grid>\n </Domain>\n</Xdmf>\n",
+                   kind);
 }
 
 }  // namespace railwave

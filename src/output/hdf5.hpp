@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "output/file_kind.hpp"
+
 /// The little of HDF5's C interface that Railwave needs, with identifiers that close themselves. Every failing call
 /// throws std::runtime_error saying what was tried and HDF5's own reason.
 namespace railwave::hdf5 {
@@ -124,9 +126,11 @@ class File {
   File() = default;
 
   /// Makes a new file, called PATH.new until it gets its name: nobody ever sees half of it, and a PATH that is there stays until then.
+  /// Where PATH.new is somebody else's it is PATH.new.1, and so on. Symbolic links of PATH are followed. The file has its mark, the
+  /// attribute `format` of its kind, from the start; it does not take a name that has become somebody else's, see expect_replaceable().
   /// What has not got its name goes with this object. Every flush() happens or does not, also when the program is killed amid it or the
   /// disk is full (see hdf5_journal.hpp).
-  static File create(const std::string& path);
+  static File create(const std::string& path, const FileKind& kind);
 
   /// For reading. A flush that a killed program began is finished first.
   static File open(const std::string& path);
@@ -150,7 +154,8 @@ class File {
 
   /// Writes everything, closes, and gives a file that has it not its name when all is on the disk; throws if that fails, unlike the
   /// destructor.
-  void close(const std::function<void()>& before_naming = {});
+  /// @param before_naming is given the name that the file has until then
+  void close(const std::function<void(const std::string&)>& before_naming = {});
 
  private:
   enum class Name { own, unfinished };
@@ -159,6 +164,8 @@ class File {
   Handle id_;
   std::string path_;
   Name name_ = Name::own;
+  std::string beside_;  ///< its name while that is unfinished
+  FileKind kind_;
   bool extends_ = false;
 };
 

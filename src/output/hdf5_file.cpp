@@ -1,3 +1,6 @@
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,6 +14,7 @@
 #include "output/disk.hpp"
 #include "output/hdf5_journal.hpp"
 #include "output/hdf5_parts.hpp"
+#include "output/output_place.hpp"
 #include "output/room.hpp"
 #include "output/unfinished.hpp"
 
@@ -103,6 +107,28 @@ void Handle::close() noexcept {
 
 namespace {
 
+/// Nobody has that name, or a killed run left a file of this kind there that nobody writes now.
+bool is_free(const std::string& name, const FileKind& kind) {
+  struct stat facts;
+  if (lstat(name.c_str(), &facts) != 0) return errno == ENOENT;
+  if (!S_ISREG(facts.st_mode) || !is_of_kind(name, kind)) return false;
+  const disk::Descriptor file(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  return file.get() >= 0 && (flock(file.get(), LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK);
+}
+
+std::string name_beside(const std::string& path, const FileKind& kind) {
+  constexpr int most = 1000;
+  std::string name = path + unfinished;
+  for (int n = 1; n < most && !is_free(name, kind); ++n) name = path + unfinished + '.' + std::to_string(n);
+  return name;
+}
+
+/// A pipe would be waited for, perhaps for ever.
+void expect_file(const std::string& path) {
+  struct stat facts;
+  if (stat(path.c_str(), &facts) == 0 && !S_ISREG(facts.st_mode)) throw std::runtime_error("opening " + path + ": it is " + seems_to_be(path));
+}
+
 void before_a_file() {
   expect_room();
   stay_out_of_exit();
@@ -111,26 +137,32 @@ void before_a_file() {
 
 }  // namespace
 
-File File::create(const std::string& path) {
+File File::create(const std::string& path, const FileKind& kind) {
   before_a_file();
-  const std::string what = "making " + path, beside = path + unfinished;
+  const std::string what = "making " + path, target = target_of(path), beside = name_beside(target, kind);
   const Handle access = access_by_journal(what);
-  File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, path);
+  File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, target);
   file.name_ = Name::unfinished;
   note_unfinished(beside);
   have_checksums(file.id_.get(), what);
+  file.beside_ = beside;
+  file.kind_ = kind;
+  file.root().set_attribute("format", kind.mark);
+  file.flush();
   return file;
 }
 
 File File::open(const std::string& path) {
   const LimitedCall limited;
   before_a_file();
+  expect_file(path);
   finish_journal(path);
   return {Handle(check(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening " + path), H5Fclose), path};
 }
 
 File File::extend(const std::string& path) {
   before_a_file();
+  expect_file(path);
   finish_journal(path);
   const std::string what = "opening " + path;
   const Handle access = access_by_journal(what);
@@ -141,7 +173,8 @@ File File::extend(const std::string& path) {
 }
 
 File::File(File&& other) noexcept
-    : id_(std::move(other.id_)), path_(std::move(other.path_)), name_(std::exchange(other.name_, Name::own)), extends_(other.extends_) {}
+    : id_(std::move(other.id_)), path_(std::move(other.path_)), name_(std::exchange(other.name_, Name::own)), beside_(std::move(other.beside_)), kind_(std::move(other.kind_)),
+      extends_(other.extends_) {}
 
 File& File::operator=(File&& other) noexcept {
   if (this == &other) return *this;
@@ -149,6 +182,8 @@ File& File::operator=(File&& other) noexcept {
   id_ = std::move(other.id_);
   path_ = std::move(other.path_);
   name_ = std::exchange(other.name_, Name::own);
+  beside_ = std::move(other.beside_);
+  kind_ = std::move(other.kind_);
   extends_ = other.extends_;
   return *this;
 }
@@ -158,8 +193,8 @@ File::~File() { abandon(); }
 void File::abandon() noexcept {
   id_.close();
   if (name_ == Name::unfinished) {
-    unlink((path_ + unfinished).c_str());
-    forget_unfinished(path_ + unfinished);
+    unlink(beside_.c_str());
+    forget_unfinished(beside_);
   }
   name_ = Name::own;
 }
@@ -178,9 +213,14 @@ void File::flush() const {
 void File::take_name() {
   if (name_ == Name::own) return;
   name_ = Name::own;  // what is there stays, whatever comes
-  forget_unfinished(path_ + unfinished);
-  if (rename((path_ + unfinished).c_str(), path_.c_str()) != 0)
-    throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " + path_ + unfinished);
+  forget_unfinished(beside_);
+  try {
+    expect_replaceable(path_, kind_);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string(error.what()) + "; what was written is in " + beside_);
+  }
+  if (rename(beside_.c_str(), path_.c_str()) != 0)
+    throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " + beside_);
 }
 
 std::string File::keep_name() const {
@@ -188,14 +228,14 @@ std::string File::keep_name() const {
   return name_ == Name::own ? hdf5::keep_name(id_.get(), path_) : std::string();
 }
 
-void File::close(const std::function<void()>& before_naming) {
+void File::close(const std::function<void(const std::string&)>& before_naming) {
   if (!is_open()) return;
   flush();
   const herr_t closed = H5Fclose(id_.release());
   check(closed, "writing " + path_);
   if (name_ == Name::own) return;
-  disk::bring_to_disk(path_ + unfinished);
-  if (before_naming) before_naming();
+  disk::bring_to_disk(beside_);
+  if (before_naming) before_naming(beside_);
   take_name();
   disk::bring_to_disk(std::filesystem::absolute(path_).parent_path().string());
 }

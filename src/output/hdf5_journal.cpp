@@ -309,7 +309,7 @@ void use_journal(hid_t access) {
 
 void finish_journal(const std::string& path) {
   const auto fail = [&](const char* what) { throw std::runtime_error(path + " " + what + ": " + disk::reason()); };
-  disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   Footer footer{};
   const off_t length = file.get() < 0 ? -1 : disk::length_of(file.get());
   if (length < static_cast<off_t>(sizeof footer) || !disk::read_at(file.get(), &footer, sizeof footer, length - static_cast<off_t>(sizeof footer)) ||

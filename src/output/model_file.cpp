@@ -17,7 +17,7 @@ namespace {
 class ModelFileWriter {
  public:
   ModelFileWriter(const Model& model, const std::string& path)
-      : model_(model), file_(hdf5::File::create(path)), name_(escaped(std::filesystem::path(path).filename().string())) {
+      : model_(model), file_(hdf5::File::create(path, kinds::model())), name_(escaped(std::filesystem::path(path).filename().string())) {
     write_parts();
     write_sets();
     write_connectors();
@@ -160,7 +160,7 @@ class ModelFileWriter {
 void write_model_file(const Model& model, const std::string& path) {
   check_results_place(path);
   const ModelFileWriter writer(model, path);
-  write_grids(xdmf_path(path), writer.grids());
+  write_grids(xdmf_path(path), writer.grids(), kinds::model_xdmf());
 }
 
 }  // namespace railwave

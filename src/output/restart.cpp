@@ -27,7 +27,7 @@ ResultsThere look_into(const std::string& path, bool last_too = false) {
     const bool completed = root.has_attribute("completed") && root.number_attribute("completed") != 0;
     return {root.text_attribute("run"), root.text_attribute("key"), completed ? root.number_attribute("end_time") : -1};
   } catch (const std::runtime_error& error) {
-    throw InputError(fmt::format("--restart: the results {} cannot be added to: {}; run the case without --restart, which replaces them", path, error.what()));
+    throw InputError(fmt::format("--restart: the results {} cannot be added to: {}; run the case with --overwrite instead of --restart, which replaces them", path, error.what()));
   }
 }
 
@@ -43,7 +43,7 @@ Restart find_restart(const std::string& results_path, const CheckpointFile& chec
   const ResultsThere there = look_into(results_path);
   if (there.key != checkpoint.key())
     throw InputError(fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another version of the "
-                                 "program; run the case without --restart, which replaces them, or as it was",
+                                 "program; run the case with --overwrite instead of --restart, which replaces them, or as it was",
                                  results_path));
   if (there.completed_until >= end) {
     restart.complete = true;

@@ -102,7 +102,6 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
-  check_results_place(path_);
 }
 
 void ResultsFile::check_room(const Model& model) const {
@@ -146,7 +145,7 @@ void ResultsFile::end(const Model& model, const RunSummary& summary) {
   // Only now does nobody else touch HDF5.
   const std::string beside = fault_path(path_);
   if (summary.fault) write_fault_file(model, *summary.fault, beside);
-  else for (const std::string& old : {beside, xdmf_path(beside)}) std::remove(old.c_str());
+  else remove_fault_file(beside);
 }
 
 void ResultsFile::keep_checkpoints(CheckpointFile file, bool also_at_end) {

@@ -12,8 +12,8 @@ namespace railwave {
 /// for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call throws it.
 class ResultsFile : public RunObserver, public Checkpoints {
  public:
-  /// Touches no file yet, but throws InputError for output sets that are not in the assembly and for a place where no
-  /// file can be made: to be made before the run's long preparations.
+  /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the run's long
+  /// preparations. Whether files can be made is HeldPlaces' matter.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
   /// Throws InputError when what the run will write can't fit onto the disk.

@@ -17,6 +17,7 @@
 
 #include "case/error.hpp"
 #include "output/disk.hpp"
+#include "output/output_place.hpp"
 #include "output/tell.hpp"
 
 namespace railwave {
@@ -36,7 +37,7 @@ std::string now_in_utc() {
 
 /// HDF5 locks a file that it writes; two runs with one results file would overwrite each other.
 bool another_run_writes(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
   const bool locked = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   close(file);
@@ -96,9 +97,8 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
 }
 
 void ResultsWriter::create_file() {
-  file_ = hdf5::File::create(path_);
+  file_ = hdf5::File::create(path_, kinds::results());
   const hdf5::Group root = file_.root();
-  root.set_attribute("format", "Railwave results");
   root.set_attribute("format_version", 1L);
   root.set_attribute("program", "railwave " + description_.program_version);
   root.set_attribute("title", description_.title);
@@ -187,7 +187,7 @@ void ResultsWriter::flush(std::optional<double> time) {
   file_.flush();
   if (!in_place_) {
     file_.take_name();
-    unlink(xdmf_path(path_).c_str());  // an older run's, which would name arrays that are no longer there
+    remove_own(xdmf_path(path_), kinds::results_xdmf());  // an older run's, which would name arrays that are no longer there
     in_place_ = true;
   }
   last_flush_ = std::chrono::steady_clock::now();

@@ -48,7 +48,7 @@ void seal(const std::string& path) {
 }
 
 void check_seal(const std::string& path) {
-  disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   Seal all{};
   const off_t length = (file.get() < 0 ? -1 : disk::length_of(file.get())) - static_cast<off_t>(sizeof all);
   if (file.get() < 0 || (length >= 0 && !disk::read_at(file.get(), &all, sizeof all, length))) throw std::runtime_error("reading it: " + disk::reason());

@@ -62,7 +62,7 @@ StaticState read_state(const std::string& path, const std::string& key) {
 }
 
 void write_state(const std::string& path, const std::string& key, const std::string& version, const StaticState& state) {
-  hdf5::File file = hdf5::File::create(path);
+  hdf5::File file = hdf5::File::create(path, kinds::settled_state());
   const hdf5::Group root = file.root();
   root.set_attribute("format", format_name);
   root.set_attribute("key", key);
@@ -76,7 +76,7 @@ void write_state(const std::string& path, const std::string& key, const std::str
   each_array(state, [&](const std::string& name, const auto& values) {
     if (!values.empty()) root.write(name, values, {values.size()}, {}, hdf5::Check::by_seal);
   });
-  file.close([&] { seal(path + ".new"); });
+  file.close(seal);
 }
 
 }  // namespace
@@ -103,7 +103,7 @@ SettledStates::Found SettledFiles::find(const Model& model) {
   if (!model.scene.settle.cache || model.scene.static_text.empty()) return found;
   const std::string name = path(model);
   std::error_code ignored;
-  if (!std::filesystem::exists(name, ignored)) return found;
+  if (!std::filesystem::exists(name, ignored)) return found;  // whatever else lies there is told below
   found.file = name;
   try {
     found.state = read_state(name, key(model));

@@ -1,6 +1,7 @@
 #include "output/xdmf.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <stdexcept>
@@ -13,9 +14,10 @@
 namespace railwave {
 namespace {
 
-const std::string header =
+const std::string head =
     "<?xml version=\"1.0\" ?>\n"
-    "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n"
+    "<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n";
+const std::string begin_of_times =
     "<Xdmf Version=\"2.0\">\n"
     " <Domain>\n"
     "  <Grid Name=\"run\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
@@ -119,8 +121,8 @@ void add_side(TimeText& text, const XdmfContactSide& side) {
 
 }  // namespace
 
-XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields)
-    : path_(std::move(path)), results_file_name_(std::move(results_file_name)), fields_(std::move(fields)) {}
+XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind)
+    : path_(std::move(path)), results_file_name_(std::move(results_file_name)), fields_(std::move(fields)), kind_(std::move(kind)) {}
 
 bool XdmfFile::is_there() const { return end_of_times_ == 0 || access(path_.c_str(), F_OK) == 0; }
 
@@ -133,12 +135,18 @@ void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>&
   const std::string grids = text.finished();
 
   if (end_of_times_ == 0) {
-    write_whole_file(path_, header + grids + footer);
+    const std::string header = head + xdmf_mark(kind_) + begin_of_times;
+    write_whole_file(path_, header + grids + footer, kind_);
+    struct stat facts;
+    if (stat(path_.c_str(), &facts) == 0) device_ = facts.st_dev, inode_ = facts.st_ino;
     end_of_times_ = static_cast<long>(header.size() + grids.size());
     return;
   }
   const std::string tail = grids + footer;
-  disk::Descriptor file(open(path_.c_str(), O_WRONLY | O_CLOEXEC));
+  disk::Descriptor file(open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
+  struct stat facts;
+  if (file.get() >= 0 && (fstat(file.get(), &facts) != 0 || facts.st_dev != device_ || facts.st_ino != inode_))
+    throw std::runtime_error("another file has taken the name " + path_ + " while this run wrote it");
   if (file.get() < 0 || !disk::write_at(file.get(), tail.data(), tail.size(), end_of_times_)) {
     const std::string reason = disk::reason(), mend = disk::mend();
     // As it was: the file has held these bytes before.

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "output/file_kind.hpp"
 #include "output/output_sets.hpp"
 
 namespace railwave {
@@ -22,9 +23,10 @@ struct XdmfContactSide {
 class XdmfFile {
  public:
   /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress, plastic_strain.
-  XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields);
+  XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind = kinds::results_xdmf());
 
-  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place.
+  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place, and throw if
+  /// another file has taken its name meanwhile.
   void add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides);
 
   /// Whether nobody has removed it.
@@ -37,6 +39,8 @@ class XdmfFile {
   std::string path_;
   std::string results_file_name_;
   std::vector<std::string> fields_;
+  FileKind kind_;
+  unsigned long device_ = 0, inode_ = 0;  ///< of the file that was made
   long end_of_times_ = 0;  ///< where the next time goes; the closing tags stand there now
 };
 

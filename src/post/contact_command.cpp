@@ -26,7 +26,12 @@ void check(const ContactRequest& request) {
   if (request.rolling_velocity && !(*request.rolling_velocity > 0 && std::isfinite(*request.rolling_velocity)))
     throw InputError(fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
   if (!(request.from <= request.to)) throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
-  for (const auto& file : {request.csv, request.nodes, request.cuts, request.hdf5}) check_is_not(request.results, file);
+  check_wanted_files({request.results},
+                     {{"--csv", request.csv, patch_table_kind()},
+                      {"--nodes", request.nodes, node_table_kind()},
+                      {"--cuts", request.cuts, cut_table_kind()},
+                      {"--hdf5", request.hdf5, contact_file_kind()}},
+                     request.overwrite);
 }
 
 void print_heading(std::ostream& out) {
@@ -122,9 +127,9 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
     for (const auto& [contact, tables] : solved) text += (tables.*table).csv_rows(contact);
     return text;
   };
-  if (request.csv) write_table(*request.csv, csv(&ContactTables::patches));
-  if (request.nodes) write_table(*request.nodes, csv(&ContactTables::nodes));
-  if (request.cuts) write_table(*request.cuts, csv(&ContactTables::cuts));
+  if (request.csv) write_table(*request.csv, csv(&ContactTables::patches), patch_table_kind());
+  if (request.nodes) write_table(*request.nodes, csv(&ContactTables::nodes), node_table_kind());
+  if (request.cuts) write_table(*request.cuts, csv(&ContactTables::cuts), cut_table_kind());
   if (request.hdf5) write_contact_file(*request.hdf5, results, solved);
   return 0;
 }

@@ -14,6 +14,7 @@ namespace railwave {
 struct ContactRequest {
   std::string results;                        ///< results file of a run
   std::optional<std::string> csv, nodes, cuts, hdf5;  ///< files to write
+  bool overwrite = false;  ///< files of others too
   double from = -std::numeric_limits<double>::infinity();  ///< s: output times before are left out
   double to = std::numeric_limits<double>::infinity();
   std::array<double, 3> rolling_direction{1, 0, 0};

@@ -5,8 +5,7 @@
 namespace railwave {
 namespace {
 
-constexpr const char* format = "Railwave contact solution";
-constexpr long format_version = 1;
+constexpr OwnFormat format{"Railwave contact solution", 1, "railwave contact --hdf5"};
 
 void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, ContactTables>>& contacts, const std::vector<std::string>& surfaces) {
   const hdf5::Group group = root.create_group("contact");
@@ -23,10 +22,12 @@ void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, Cont
 
 }  // namespace
 
+FileKind contact_file_kind() { return format.kind(); }
+
 void write_contact_file(const std::string& path, const ResultsReader& results, const std::vector<std::pair<std::string, ContactTables>>& contacts) {
   std::vector<std::string> surfaces;  // read before anything is made: a damaged file may end this process
   for (const auto& [name, tables] : contacts) surfaces.push_back(results.slave_surface(name));
-  write_own_file(path, {format, format_version, "railwave contact --hdf5"}, results, [&](const hdf5::Group& root) { fill(root, contacts, surfaces); });
+  write_own_file(path, format, results, [&](const hdf5::Group& root) { fill(root, contacts, surfaces); });
 }
 
 }  // namespace railwave

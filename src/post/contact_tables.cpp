@@ -48,7 +48,17 @@ int place_in(const std::vector<int>& sorted, int number) {
   return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), number) - sorted.begin());
 }
 
+FileKind kind_of(const std::string& called, const std::vector<Column>& columns) {
+  std::string names = Table(columns).csv_heading();
+  names.pop_back();  // the line's end
+  return {FileKind::Form::table, called, names, ""};
+}
+
 }  // namespace
+
+FileKind patch_table_kind() { return kind_of("a table of 'railwave contact --csv'", patch_columns); }
+FileKind node_table_kind() { return kind_of("a table of 'railwave contact --nodes'", node_columns); }
+FileKind cut_table_kind() { return kind_of("a table of 'railwave contact --cuts'", cut_columns); }
 
 ContactTables::ContactTables() : patches(patch_columns), nodes(node_columns), facets(facet_columns), cuts(cut_columns) {}
 

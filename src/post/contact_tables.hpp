@@ -1,10 +1,16 @@
 #pragma once
 
 #include "post/centre_cut.hpp"
+#include "output/file_kind.hpp"
 #include "post/contact_solution.hpp"
 #include "post/table.hpp"
 
 namespace railwave {
+
+/// By what the tables of `railwave contact` are known again, see FileKind.
+FileKind patch_table_kind();
+FileKind node_table_kind();
+FileKind cut_table_kind();
 
 /// What `railwave contact` writes of one contact: docs/results-file.md tells the columns.
 class ContactTables {

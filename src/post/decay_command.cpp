@@ -113,10 +113,15 @@ void print(std::ostream& out, const Measured& measured) {
         measured.reliable);
 }
 
+constexpr OwnFormat file_format{"Railwave decay rates", 1, "railwave decay --hdf5"};
+constexpr const char* heading = "band,centre,low,high,decay_rate,least";
+
+FileKind rate_table() { return table_kind("a table of 'railwave decay --csv'", heading, "level_"); }
+
 std::string csv(const Measured& measured) {
   fmt::memory_buffer text;
   const auto add = std::back_inserter(text);
-  fmt::format_to(add, "band,centre,low,high,decay_rate,least");
+  fmt::format_to(add, "{}", heading);
   for (const Probe& probe : measured.probes) fmt::format_to(add, ",level_{:.6g}", probe.distance);
   text.push_back('\n');
   for (const BandDecay& one : measured.rates) {
@@ -155,8 +160,7 @@ void fill(const hdf5::Group& root, const Measured& measured, const std::string& 
 int decay_command(const DecayRequest& request, std::ostream& out) {
   if (!(request.from > 0 && request.from < request.to))
     throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
-  for (const std::string& results : request.results)
-    for (const auto& file : {request.csv, request.hdf5}) check_is_not(results, file);
+  check_wanted_files(request.results, {{"--csv", request.csv, rate_table()}, {"--hdf5", request.hdf5, file_format.kind()}}, request.overwrite);
   const HammerTest test(request.results, request.input);
   SignalNotes notes;
   const Measured measured = measure(test, request, notes);
@@ -167,9 +171,9 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
                      probes.back().distance, test.input().load);
   print(out, measured);
   for (const std::string& text : notes.told()) out << "note: " << text << '\n';
-  if (request.csv) write_table(*request.csv, csv(measured));
+  if (request.csv) write_table(*request.csv, csv(measured), rate_table());
   if (request.hdf5)
-    write_own_file(*request.hdf5, {"Railwave decay rates", 1, "railwave decay --hdf5"}, test.first(),
+    write_own_file(*request.hdf5, file_format, test.first(),
                    [&](const hdf5::Group& root) { fill(root, measured, test.input().load); });
   return 0;
 }

@@ -19,6 +19,7 @@ struct DecayRequest {
   std::string window = "none";       ///< or exponential
   double window_end = 0.05;          ///< what the exponential window comes down to
   std::optional<std::string> csv, hdf5;
+  bool overwrite = false;  ///< files of others too
 };
 
 /// Decay rates in third-octave bands by EN 15461, from a row of probes beside one hammer (by reciprocity the same as

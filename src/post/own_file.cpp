@@ -1,8 +1,5 @@
 #include "post/own_file.hpp"
 
-#include <filesystem>
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "case/error.hpp"
@@ -10,41 +7,38 @@
 #include "output/hdf5.hpp"
 
 namespace railwave {
-namespace {
 
-bool is_of(const OwnFormat& format, const std::string& path) {
-  try {
-    const hdf5::File file = hdf5::File::open(path);
-    return file.root().has_attribute("format") && file.root().text_attribute("format") == format.name;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception&) {
-    return false;
+FileKind OwnFormat::kind() const { return {FileKind::Form::hdf5, fmt::format("a file of '{}'", command), name, ""}; }
+
+FileKind table_kind(const std::string& called, const std::string& columns, const std::string& more) {
+  return {FileKind::Form::table, called, columns, more};
+}
+
+void check_wanted_files(const std::vector<std::string>& results, const std::vector<WantedFile>& files, bool overwrite) {
+  OutputPlaces places(overwrite);
+  for (const std::string& path : results) places.reads(path, "the results file");
+  for (const WantedFile& file : files) {
+    if (!file.path) continue;
+    const bool table = file.kind.form == FileKind::Form::table;
+    places.writes(*file.path, file.kind, file.option, table ? "the table" : "the HDF5 file");
+    if (!table) places.uses(*file.path + ".new", file.option, "where the HDF5 file is written first");
   }
+  places.check();
 }
-
-bool is_hdf5(const std::string& path) {
-  std::string mark(8, ' ');
-  return std::ifstream(path, std::ios::binary).read(mark.data(), 8) && mark == "\211HDF\r\n\032\n";
-}
-
-}  // namespace
 
 void write_own_file(const std::string& path, const OwnFormat& format, const ResultsReader& results,
                     const std::function<void(const hdf5::Group&)>& fill) {
-  namespace fs = std::filesystem;
-  if (fs::exists(path) && !is_of(format, path))
-    throw InputError(fmt::format("{} is there already and is no file that '{}' wrote: name another, or remove it", path,
-                                 format.command));
+  const std::string title = results.title();  // before anything is made: a damaged file may end this process
   try {
-    hdf5::File file = hdf5::File::create(path);
+    hdf5::File file = hdf5::File::create(path, format.kind());
     const hdf5::Group root = file.root();
-    root.set_attribute("format", format.name);
     root.set_attribute("format_version", format.version);
     root.set_attribute("results_file", results.path());
-    root.set_attribute("title", results.title());
+    root.set_attribute("title", title);
     fill(root);
     file.close();
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
@@ -52,17 +46,11 @@ void write_own_file(const std::string& path, const OwnFormat& format, const Resu
   }
 }
 
-void check_is_not(const std::string& results, const std::optional<std::string>& file) {
-  std::error_code none;
-  if (file && std::filesystem::equivalent(*file, results, none))
-    throw InputError(fmt::format("{} is the results file itself, which would be lost: name another file", *file));
-}
-
-void write_table(const std::string& path, const std::string& text) {
-  if (is_hdf5(path))
-    throw InputError(fmt::format("{} is an HDF5 file, which would be lost: name another for the table", path));
+void write_table(const std::string& path, const std::string& text, const FileKind& kind) {
   try {
-    write_whole_file(path, text);
+    write_whole_file(path, text, kind);
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {

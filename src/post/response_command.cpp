@@ -21,6 +21,10 @@ const std::vector<std::string> quantities = {"accelerance", "mobility", "recepta
 const std::vector<std::string> units = {"m/s2/N", "m/s/N", "m/N"};
 constexpr OwnFormat file_format{"Railwave frequency responses", 1, "railwave frf --hdf5"};
 
+constexpr const char* heading = "response,kind,frequency,amplitude,decibels,phase,real,imaginary,coherence,force_spectrum";
+
+FileKind response_table() { return table_kind("a table of 'railwave frf --csv'", heading); }
+
 int integrations(const ResponseRequest& request) {
   return static_cast<int>(std::find(quantities.begin(), quantities.end(), request.quantity) - quantities.begin());
 }
@@ -33,8 +37,8 @@ void check(const ResponseRequest& request) {
     throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
   if (request.from && request.to && !(*request.from < *request.to))
     throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
-  for (const std::string& results : request.results)
-    for (const auto& file : {request.csv, request.hdf5}) check_is_not(results, file);
+  check_wanted_files(request.results, {{"--csv", request.csv, response_table()}, {"--hdf5", request.hdf5, file_format.kind()}},
+                     request.overwrite);
 }
 
 /// A response and the lines of it that are told and written.
@@ -78,7 +82,7 @@ void print(std::ostream& out, const Told& told, const std::string& unit) {
 std::string csv(const std::vector<Told>& all) {
   fmt::memory_buffer text;
   const auto add = std::back_inserter(text);
-  fmt::format_to(add, "response,kind,frequency,amplitude,decibels,phase,real,imaginary,coherence,force_spectrum\n");
+  fmt::format_to(add, "{}\n", heading);
   for (const Told& one : all)
     for (std::size_t k = 0; k < one.lines.frequency.size(); ++k) {
       const Complex value = one.lines.value[k];
@@ -159,7 +163,7 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
   }
   for (const Told& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
   for (const std::string& text : notes.told()) out << "note: " << text << '\n';
-  if (request.csv) write_table(*request.csv, csv(all));
+  if (request.csv) write_table(*request.csv, csv(all), response_table());
   if (request.hdf5) write_file(*request.hdf5, test, request, all);
   return 0;
 }

@@ -19,6 +19,7 @@ struct ResponseRequest {
   double prominence = 3;                 ///< dB, of the peaks told
   std::optional<double> from, to;        ///< Hz
   std::optional<std::string> csv, hdf5;
+  bool overwrite = false;  ///< files of others too
 };
 
 /// Frequency responses of a hammer test: prints their peaks and troughs, and writes them line by line where files are

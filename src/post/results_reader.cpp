@@ -23,6 +23,8 @@ const std::vector<std::string> slave_arrays = {"gap", "slip_velocity", "slipping
 void check_readable(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw InputError(fmt::format("{} is a folder, not a results file", path));
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+    throw InputError(fmt::format("{} is a pipe, device or socket, not a results file", path));
   std::FILE* file = std::fopen(path.c_str(), "rb");
   if (!file) throw InputError(fmt::format("cannot open results file {}: {}", path, std::strerror(errno)));
   char mark[8] = {};

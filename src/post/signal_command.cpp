@@ -16,14 +16,31 @@ namespace {
 
 constexpr OwnFormat format{"Railwave signals", 1, "railwave signal --hdf5"};
 
+/// Columns: those of its table that have always the same name. More: further ones are named after channels, which have a dot.
 struct Kind {
   const char* name;
   SignalReport (*report)(const SignalInput&);
+  const char* columns;
+  const char* more;
+
+  FileKind table() const { return table_kind(fmt::format("a table of 'railwave signal {} --csv'", name), columns, more); }
 };
 
 /// In the order of SignalKind.
-constexpr Kind kinds[] = {{"psd", report_psd},     {"wavelet", report_wavelet}, {"bandpass", report_bandpass},
-                          {"cross", report_cross}, {"ellipse", report_ellipse}, {"speed", report_speed}};
+constexpr Kind signal_kinds[] = {
+    {"psd", report_psd, "frequency [Hz]", "."},
+    {"wavelet", report_wavelet, "frequency,period,scale,global_power,global_power_in_cone,red_noise_95", ""},
+    {"bandpass", report_bandpass, "time [s]", "."},
+    {"cross", report_cross, "frequency,density_first,density_second,cross_density,phase,coherence", ""},
+    {"ellipse", report_ellipse, "x,y,z,semi_axis_major,semi_axis_minor,tilt,phase,amplitude_ratio,retrograde,polarisation,coherence,strongest_time", ""},
+    {"speed", report_speed, "x,y,z,distance,lag,similarity", ""}};
+
+const Kind& kind_of(const SignalRequest& request) { return signal_kinds[static_cast<int>(request.kind)]; }
+
+void check_files(const SignalRequest& request) {
+  check_wanted_files({request.results}, {{"--csv", request.csv, kind_of(request).table()}, {"--hdf5", request.hdf5, format.kind()}},
+                     request.overwrite);
+}
 
 void check(const SignalRequest& request, const ResultsReader& results) {
   if (request.channels.empty())
@@ -34,7 +51,6 @@ void check(const SignalRequest& request, const ResultsReader& results) {
                                  request.low, request.high));
   if (!(request.segment >= 0))
     throw InputError(fmt::format("--segment {}: a length above 0 is wanted, in s", request.segment));
-  for (const auto& file : {request.csv, request.hdf5}) check_is_not(request.results, file);
 }
 
 SignalInput read(const SignalRequest& request, const ResultsReader& results) {
@@ -126,16 +142,17 @@ std::string band_text(const SignalRequest& request) {
 }
 
 int signal_command(const SignalRequest& request, std::ostream& out) {
+  check_files(request);
   const ResultsReader results(request.results);
   check(request, results);
   const SignalInput input = read(request, results);
   if (!results.completed()) out << "note: this run did not complete: " << results.reason() << '\n';
   for (const std::string& note : input.entries.front().notes) out << "note: " << note << '\n';
-  const Kind& kind = kinds[static_cast<int>(request.kind)];
+  const Kind& kind = kind_of(request);
   const SignalReport report = kind.report(input);
   out << fmt::format("{} samples every {:.6g} s from {:.6g} s\n", input.length(), input.interval(), input.time(0))
       << report.text;
-  if (request.csv) write_table(*request.csv, report.tables.front().second.csv());
+  if (request.csv) write_table(*request.csv, report.tables.front().second.csv(), kind.table());
   if (request.hdf5)
     write_own_file(*request.hdf5, format, results,
                    [&](const hdf5::Group& root) { fill(root, input, report, kind.name); });

@@ -446,7 +446,7 @@ TEST_CASE("what a case does not say keeps scene.hpp's defaults", "[case]") {
   CHECK(scene.solver.precision == scene::Precision::double_precision);
   CHECK(scene.solver.step_estimate == scene::StepEstimate::element);
   CHECK_FALSE(scene.solver.subcycling);
-  CHECK(scene.output.file == "results.h5");
+  CHECK(scene.output.file == "results/case/case.h5");
   CHECK(scene.output.fields.empty());
   CHECK(scene.contacts.empty());
 }

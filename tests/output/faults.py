@@ -55,6 +55,7 @@ velocity = [2, 1, -12]
 [time]
 end = {end}
 [output]
+file = "results.h5"
 history_interval = 1e-6
 field_interval = 4e-6
 field_sets = ["upper", "lower"]

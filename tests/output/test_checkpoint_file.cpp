@@ -109,7 +109,8 @@ TEST_CASE("what a kill leaves of the next state harms nothing") {
   const Folder folder;
   const CheckpointFile file(folder.file(), "key");
   file.write(state_at(6), "run");
-  std::ofstream(folder.file() + ".new") << "half a file";
+  std::filesystem::copy(folder.file(), folder.file() + ".new");  // one of the same kind: not whole, or without a name yet
+  std::filesystem::resize_file(folder.file() + ".new", std::filesystem::file_size(folder.file()) - 100);
   CHECK(file.find("run").state->step == 6);
   // Between the two renamings only the one before has its name.
   std::filesystem::rename(folder.file(), folder.file() + ".previous");
@@ -118,6 +119,38 @@ TEST_CASE("what a kill leaves of the next state harms nothing") {
   CHECK(file.find("run").state->step == 8);
   file.remove();
   CHECK(std::filesystem::is_empty(folder.path()));
+}
+
+TEST_CASE("what is not of a checkpoint's kind is neither replaced nor removed") {
+  const Folder folder;
+  const CheckpointFile file(folder.file(), "key");
+  for (const char* ending : {"", ".previous", ".new"}) {
+    INFO("a text " << folder.file() << ending);
+    std::ofstream(folder.file() + ending) << "notes";
+    if (std::string(ending) == ".new") CHECK_NOTHROW(file.write(state_at(6), "run"));
+    else CHECK_THROWS_WITH(file.write(state_at(6), "run"), ContainsSubstring("is there already"));
+    file.remove();
+    std::string text;
+    std::getline(std::ifstream(folder.file() + ending), text);
+    CHECK(text == "notes");
+    std::filesystem::remove(folder.file() + ending);
+    CHECK(std::filesystem::is_empty(folder.path));
+  }
+}
+
+TEST_CASE("a checkpoint behind a symbolic link is written where the link leads to") {
+  const Folder folder;
+  const std::string elsewhere = folder.file() + ".elsewhere";
+  std::filesystem::create_symlink(elsewhere, folder.file());
+  const CheckpointFile file(folder.file(), "key");
+  file.write(state_at(6), "run");
+  file.write(state_at(8), "run");
+  CHECK(std::filesystem::is_symlink(folder.file()));
+  CHECK(std::filesystem::exists(elsewhere + ".previous"));
+  CHECK(file.find("run").state->step == 8);
+  file.remove();
+  CHECK(std::filesystem::is_symlink(folder.file()));
+  CHECK_FALSE(std::filesystem::exists(elsewhere));
 }
 
 TEST_CASE("no damage is taken for a state") {
@@ -149,8 +182,9 @@ TEST_CASE("no damage is taken for a state") {
   }
   CHECK(refused(sound + "x"));
   CHECK(refused("a text of somebody else's"));
+  std::filesystem::remove(folder.file());
   {
-    hdf5::File other = hdf5::File::create(folder.file());
+    hdf5::File other = hdf5::File::create(folder.file(), kinds::checkpoint());
     other.root().set_attribute("title", "another program's");
     other.close();
   }

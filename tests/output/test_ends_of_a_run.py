@@ -34,6 +34,7 @@ acceleration = [1, 2, -9.81]
 [time]
 end = {end}
 [output]
+file = "results.h5"
 history_interval = 2e-5
 field_interval = 1e-4
 field_sets = ["block", "block.z_max"]

@@ -28,12 +28,13 @@ class FullDisk(Folder):
 
     def test_results(self):
         """At whatever call the disk is full: the results are readable, and the run can be taken up where a checkpoint was."""
+        self.run_case()
+        older = self.results.read_bytes()
         wanted = self.whole_run()
         resumed = 0
         for call in range(1, 2000, 97):
             for path in self.folder.glob("results*"):
                 path.unlink()
-            older = b"older results"
             self.results.write_bytes(older)
             run = self.start("run", "case.toml", *EVERY_STEP, faults=dict(fail=call, only="results.h5"))
             said, complaint = run.communicate(timeout=120)
@@ -162,10 +163,14 @@ class NoPermission(Folder):
         self.told("read-only folder: checkpoint", 2, complaint)
 
     def test_results_that_can_only_be_read(self):
-        """A new run replaces them (the folder decides that); one that is to be added to is refused, and stays as it is."""
+        """Protected by their mode they are neither replaced nor added to."""
         self.run_as_user("--keep-state", code=0)
         self.results.chmod(0o444)
         before = self.everything()
+        complaint, _ = self.run_as_user(code=2)
+        self.assertIn("may not be written (its mode protects it)", complaint)
+        self.assertEqual(self.everything(), before)
+        self.told("read-only results: a new run", 2, complaint)
         complaint, _ = self.run_as_user("--restart", "--set", "time.end=1e-4", code=1)
         self.assertIn("Permission denied", complaint)
         self.assertIn("you may not write there", complaint)

@@ -17,7 +17,7 @@ from faults import LONG, Folder, arrays_of, limited, sanitized  # noqa: E402
 class Memory(Folder):
     def test_too_large(self):
         """Whatever it is that finds no memory: a message, no abort, and older results stay."""
-        self.results.write_bytes(b"older results")
+        self.run_case()
         before = self.everything()
         text = (self.folder / "case.toml").read_text()
         for size in (60, 120, 200):

@@ -72,6 +72,7 @@ quantities = ["acceleration", "stress", "strain", "plastic_strain"]
 part = "lower"
 box = [[0.01, 0.01, 0], [0.05, 0.04, 0.02]]
 [output]
+file = "results.h5"
 history_interval = 1e-5
 field_interval = {field_interval}
 field_sets = ["upper", "lower.z_max"]
@@ -387,11 +388,100 @@ class WhatCannotBeTakenUp(Folder):
 
     def test_checkpoint_that_cannot_be_written(self):
         """The run goes on and says so."""
+        run = self.start("--set", "checkpoint.interval=0.02", "--set", "time.end=3e-3")
+        while not self.results.exists():
+            self.assertIsNone(run.poll())
+            time.sleep(0.002)
+        notes = self.folder / "results.checkpoint.h5.previous"
+        notes.write_text("notes that came while the run began")
+        said, complaint = run.communicate(timeout=120)
+        self.assertIn("warning: a checkpoint could not be written", complaint)
+        self.assertIn("is there already and is text that begins with 'notes that came", complaint)
+        self.assertIn("completed\n", said)
+        self.assertEqual(notes.read_text(), "notes that came while the run began")
+
+    def test_a_name_in_the_way(self):
+        """A checkpoint is written first under a name that nobody has."""
         (self.folder / "results.checkpoint.h5.new").mkdir()
         (self.folder / "results.checkpoint.h5.new" / "in the way").touch()
-        said = self.run_to_end("--set", "checkpoint.interval=0.02")
-        self.assertIn("warning: a checkpoint could not be written", said)
-        self.assertIn("completed\n", said)
+        said = self.run_to_end("--set", "checkpoint.interval=0.02", "--keep-state")
+        self.assertNotIn("a checkpoint could not be written", said)
+        self.assertTrue(self.checkpoint.exists())
+        self.assertTrue((self.folder / "results.checkpoint.h5.new" / "in the way").exists())
+
+
+class WhatIsNotReplaced(Folder):
+    def setUp(self):
+        super().setUp()
+        self.write(case())
+
+    def everything(self):
+        return {path.name: path.read_bytes() for path in self.folder.iterdir()}
+
+    def test_the_case_again(self):
+        """An interrupted run is gone on with, or given up: not by chance."""
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            with self.subTest(signal=number):
+                self.stop(number)
+                before = self.everything()
+                said = self.run_to_end(code=2)
+                self.assertIn("results.h5 holds a run that has not ended", said)
+                self.assertIn("--restart", said)
+                self.assertIn("--overwrite", said)
+                before.pop("results.h5.lock", None)  # of the killed run
+                before.pop("results.checkpoint.h5.lock", None)
+                after = self.everything()
+                self.assertEqual({name: after[name] for name in before if ".new" not in name}, {name: before[name] for name in before if ".new" not in name})
+                said = self.run_to_end("--overwrite")
+                self.assertNotIn("restart:", said)
+                self.assertFalse(self.checkpoint.exists())
+                with h5py.File(self.results, "r") as file:
+                    self.assertEqual(file.attrs["completed"], 1)
+                    self.assertNotIn("restarts", file.attrs)
+        self.run_to_end()  # a complete run is replaced as ever
+
+    def test_only_the_previous_checkpoint_is_left(self):
+        self.stop()
+        self.checkpoint.rename(self.checkpoint.with_name("results.checkpoint.h5.previous"))
+        self.assertIn("holds a run that has not ended", self.run_to_end(code=2))
+
+    def test_checkpoint_of_another_run(self):
+        self.stop()
+        self.results.rename(self.folder / "kept.h5")
+        before = self.everything()
+        said = self.run_to_end(code=2)
+        self.assertIn("results.checkpoint.h5 is the checkpoint of another run", said)
+        self.assertIn("--overwrite", said)
+        said = self.run_to_end("--set", "output.file=other.h5", "--set", "checkpoint.file=results.checkpoint.h5", code=2)
+        self.assertIn("is the checkpoint of another run", said)
+        self.assertEqual(self.everything(), before)
+        self.run_to_end("--overwrite")
+
+    def test_two_cases_with_one_checkpoint(self):
+        """They lock each other out, whatever names the file goes by."""
+        self.write(case(end=1))
+        first = self.start("--set", "checkpoint.file=state.h5")
+        self.addCleanup(first.communicate)
+        self.addCleanup(first.kill)
+        while not (self.folder / "state.h5.lock").exists():
+            self.assertIsNone(first.poll())
+            time.sleep(0.002)
+        (self.folder / "link.h5").symlink_to("state.h5")
+        for name in ("state.h5", "./state.h5", "link.h5", str(self.folder / "state.h5")):
+            said = self.run_to_end("--set", "output.file=other.h5", "--set", f"checkpoint.file={name}", "--overwrite", code=2)
+            self.assertIn(f"checkpoint.file: another run is writing {name} now", said)
+        said = self.run_to_end("--set", "checkpoint.file=another.h5", code=2)
+        self.assertIn("output.file: another run is writing results.h5 now", said)
+        first.terminate()
+        first.communicate(timeout=60)
+        self.assertEqual(list(self.folder.glob("*.lock")), [])
+        self.assertFalse((self.folder / "other.h5").exists())
+
+    def test_lock_of_a_killed_run(self):
+        self.stop(signal.SIGKILL)
+        self.assertEqual(len(list(self.folder.glob("*.lock"))), 2)
+        self.run_to_end("--restart")
+        self.assertEqual(list(self.folder.glob("*.lock")) + list(self.folder.glob("*.new*")), [])
 
 
 if __name__ == "__main__":

@@ -132,25 +132,59 @@ TEST_CASE("output sets that do not exist are named, all of them") {
 TEST_CASE("an older results file stays until the new run has brought data") {
   const made_up::TemporaryFolder folder;
   const std::string path = folder / "run.h5", xdmf = folder / "run.xdmf";
-  put(path, "older results");
-  put(xdmf, "older companion");
   {
     ResultsWriter writer(path, made_up::description());
-    CHECK(text_of(path) == "older results");
+    made_up::feed(writer, 0);
+    made_up::feed(writer, 1);
+    writer.end(made_up::summary());
+  }
+  const std::string older = text_of(path), older_companion = text_of(xdmf);
+  REQUIRE(count(older_companion, "<Time ") > 1);
+  {
+    ResultsWriter writer(path, made_up::description());
+    CHECK(text_of(path) == older);
   }  // the start failed
-  CHECK(text_of(path) == "older results");
-  CHECK(text_of(xdmf) == "older companion");
+  CHECK(text_of(path) == older);
+  CHECK(text_of(xdmf) == older_companion);
   CHECK_FALSE(fs::exists(path + ".new"));
   {
     ResultsWriter writer(path, made_up::description());
     writer.history(made_up::sample(0));
-    CHECK(text_of(path) == "older results");
+    CHECK(text_of(path) == older);
     writer.fields(made_up::Source(0), 0, 0);
-    CHECK(text_of(path) != "older results");
+    CHECK(text_of(path) != older);
     CHECK(count(text_of(xdmf), "<Time ") == 1);
   }
   CHECK_FALSE(fs::exists(path + ".new"));
   CHECK(hdf5::File::open(path).root().number_attribute("completed") == 0);
+}
+
+TEST_CASE("a file of somebody else that comes while a run begins stays") {
+  const made_up::TemporaryFolder folder;
+  const std::string path = folder / "run.h5", xdmf = folder / "run.xdmf";
+  {
+    ResultsWriter writer(path, made_up::description());
+    put(path, "notes");
+    put(xdmf, "<Xdmf of another program/>");
+    writer.history(made_up::sample(0));
+    CHECK_THROWS_WITH(writer.fields(made_up::Source(0), 0, 0), ContainsSubstring("is there already") && ContainsSubstring("what was written is in " + path + ".new"));
+  }
+  CHECK(text_of(path) == "notes");
+  CHECK(text_of(xdmf) == "<Xdmf of another program/>");
+}
+
+TEST_CASE("an unfinished file of somebody else stays") {
+  const made_up::TemporaryFolder folder;
+  const std::string path = folder / "run.h5";
+  put(path + ".new", "notes");
+  {
+    ResultsWriter writer(path, made_up::description());
+    made_up::feed(writer, 0);
+    writer.end(made_up::summary());
+  }
+  CHECK(text_of(path + ".new") == "notes");
+  CHECK(hdf5::File::open(path).root().number_attribute("completed") == 1);
+  CHECK_FALSE(fs::exists(path + ".new.1"));
 }
 
 TEST_CASE("a place where no results can go is said before the run") {

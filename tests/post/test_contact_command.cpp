@@ -169,7 +169,7 @@ TEST_CASE("nothing that a user computed gets lost") {
   for (auto file : {&ContactRequest::csv, &ContactRequest::nodes, &ContactRequest::cuts, &ContactRequest::hdf5}) {
     ContactRequest request = request_for(folder / "run.h5");
     request.*file = folder / "run.h5";
-    CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("is the results file itself"));
+    CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("is the results file, which this command reads"));
   }
   ContactRequest request = request_for(folder / "run.h5");
   request.hdf5 = folder / "other.h5";
@@ -227,14 +227,14 @@ TEST_CASE("files that cannot be used") {
   CHECK_THAT(complaint_of(folder / "empty.h5"), ContainsSubstring("no HDF5 file"));
 
   {
-    hdf5::File other = hdf5::File::create(folder / "other.h5");
+    hdf5::File other = hdf5::File::create(folder / "other.h5", kinds::model());
     other.root().set_attribute("format", "something else");
     other.close();
   }
   CHECK_THAT(complaint_of(folder / "other.h5"), ContainsSubstring("no results file of Railwave"));
 
   {
-    hdf5::File newer = hdf5::File::create(folder / "newer.h5");
+    hdf5::File newer = hdf5::File::create(folder / "newer.h5", kinds::results());
     newer.root().set_attribute("format", "Railwave results");
     newer.root().set_attribute("format_version", 99L);
     newer.root().set_attribute("program", "railwave 77");
@@ -273,5 +273,5 @@ TEST_CASE("a CSV that cannot be written is said, and leaves nothing behind") {
   std::ostringstream out;
   ContactRequest request = request_for(folder / "run.h5");
   request.csv = folder / "none/run.csv";
-  CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("none/run.csv") && ContainsSubstring("No such file"));
+  CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("none/run.csv") && ContainsSubstring("there is no folder of that name"));
 }

@@ -125,7 +125,7 @@ def check_mistakes(folder):
     refused(["frf", results, "--input", "left", "--response", "row_3:up"], "'up' is no direction; it may be vertical")
     refused(["frf", results, "--input", "left", "--quantity", "inertance"], "must be accelerance, mobility or receptance")
     refused(["frf", results, "--input", "left", "--window", "hann"], "--window hann: must be none or exponential")
-    refused(["frf", results, "--input", "left", "--csv", results], "is the results file itself")
+    refused(["frf", results, "--input", "left", "--csv", results], "is the results file, which this command reads")
     refused(["frf", results, "--input", "left", "--from", "9e9", "--to", "9.1e9"], "there are 0 lines")
     refused(["decay", results, "--input", "left", "--row", "row_3"], "the force and two places beside it along x at least, but has 1")
     refused(["decay", results, "--input", "left", "--from", "0"], "must be above 0 and ascend")

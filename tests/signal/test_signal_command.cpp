@@ -150,6 +150,7 @@ TEST_CASE("phase and coherence over pairs, and the ellipse, backwards at the top
   run.request.low = 15e3;  // all of the burst
   run.request.high = 90e3;
   run.request.hdf5 = run.folder / "ellipse.h5";
+  run.request.csv = run.folder / "ellipse.csv";
   CHECK_THAT(run.text(), ContainsSubstring("retrograde: 16 of 16"));
   CHECK_THAT(run.column("ellipse", "semi_axis_major")[3], WithinRel(0.3, 0.02));
   CHECK_THAT(run.column("ellipse", "semi_axis_minor")[3], WithinRel(0.2, 0.02));
@@ -181,13 +182,13 @@ TEST_CASE("the speed along the row, which needs to know where it is") {
 TEST_CASE("files are not lost, and mistakes are told") {
   Run run(SignalKind::psd, {"rail.p_1.velocity.z"});
   run.request.hdf5 = run.request.results;
-  CHECK_THAT(run.complaint(), ContainsSubstring("is the results file itself"));
+  CHECK_THAT(run.complaint(), ContainsSubstring("is the results file, which this command reads"));
   write_run(run.folder / "other.h5");
   run.request.hdf5 = run.folder / "other.h5";
-  CHECK_THAT(run.complaint(), ContainsSubstring("is there already and is no file that 'railwave signal --hdf5' wrote"));
+  CHECK_THAT(run.complaint(), ContainsSubstring("is there already and is a file 'Railwave results', not a file of 'railwave signal --hdf5'"));
   run.request.hdf5.reset();
   run.request.csv = run.folder / "other.h5";
-  CHECK_THAT(run.complaint(), ContainsSubstring("is an HDF5 file, which would be lost"));
+  CHECK_THAT(run.complaint(), ContainsSubstring("not a table of 'railwave signal psd --csv'"));
   run.request.csv.reset();
   run.request.window = "han";
   CHECK_THAT(run.complaint(), ContainsSubstring("did you mean 'hann'?"));

@@ -59,6 +59,7 @@ curve = "rise"
 [time]
 end = 2e-3
 [output]
+file = "results.h5"
 history_interval = 2e-5
 field_interval = 5e-4
 field_sets = ["upper", "lower"]
@@ -178,16 +179,16 @@ class SeededCases(unittest.TestCase):
         self.assertEqual("\n".join(wrong), "")
 
     def test_no_place_for_the_surroundings_of_a_fault(self):
-        """The run ends as it would, and an older run's files do not stay."""
+        """That is told before the run."""
         folder, ended, _ = self.run_seed({"pressure = 1e6": "pressure = 1e12"})
         self.assertEqual(ended, STOPPED)
         (folder / "results.fault.h5").unlink()
         (folder / "results.fault.h5").mkdir()
         (folder / "results.fault.h5" / "in the way").touch()
         run = subprocess.run([PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
-        self.assertEqual(run.returncode, STOPPED)
-        self.assertIn("warning: the surroundings of the fault could not be written: output.file:", run.stderr)
-        self.assertFalse((folder / "results.fault.xdmf").exists())
+        self.assertEqual(run.returncode, REFUSED)
+        self.assertIn("results.fault.h5 is a folder", run.stderr)
+        self.assertTrue((folder / "results.fault.h5" / "in the way").exists())
         with h5py.File(folder / "results.h5", "r") as results:
             self.assertIn("likely cause", results.attrs["reason"])
 

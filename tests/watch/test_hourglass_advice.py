@@ -72,6 +72,12 @@ class Default(unittest.TestCase):
             self.assertGreater(last / first, least)
             self.assertLess(last / first, most)
 
+    def test_bars_of_matching_meshes_gain_no_energy(self):
+        for divisions in ("[2,2,20]", "[3,3,30]", "[4,4,40]"):
+            with self.subTest(divisions):
+                _, energy = run("bars.toml", [f"meshes.bar.divisions={divisions}"])
+                self.assertLess(abs(energy["balance_error"]).max(), 0.01 * energy["kinetic"][0])
+
     def test_a_dropped_box_keeps_what_viscous_control_took(self):
         _, viscous = run("drop.toml", control(("upper", "lower"), hourglass="viscous"))
         _, default = run("drop.toml", [])

@@ -73,6 +73,8 @@ class FirstSteps(unittest.TestCase):
             place = results["history/set/plate.middle/position"][:]
             np.testing.assert_allclose(place, [0, 0, 0], atol=1e-9)
             self.assertLess(results["history/set/plate.middle/displacement"][:, 2].min(), -1e-6)
+            self.assertGreater(results["history/set/plate.middle/stress"][:, 0].max(), 1e7)  # bent down: the lower side is pulled
+            self.assertEqual(results["history/set/plate.middle/stress"].attrs["unit"], "Pa")
         with open(self.desk.path("results", "drop", "spectrum.csv"), newline="", encoding="utf-8") as file:
             self.assertGreater(len(list(csv.reader(file))), 10)
 

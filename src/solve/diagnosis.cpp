@@ -149,7 +149,7 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
     const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
     const bool distorted = here && evidence.last.distortion.value > 0.5 * model.scene.watch.hourglass_distortion;
     const double usual = part.hourglass == scene::HourglassType::viscous ? 0.1 : 0.05;
-    if (part.hourglass_coefficient < 0.1 * usual && (distorted || fault.kind == FaultKind::hourglass_distortion))
+    if (part.hourglass_coefficient < 0.1 * usual && (distorted || fault.kind == FaultKind::hourglass_distortion || fault.kind == FaultKind::inversion))
       causes.push_back(Cause{"no hourglass control", fmt::format("part {} has no hourglass control to speak of: raise parts.{}.hourglass_coefficient ({:.3g}) to about {:g}",
                                                             part.name, part.name, part.hourglass_coefficient, usual), 68});
     if (fault.kind == FaultKind::hourglass_share && part.name == fault.part) causes.push_back(hourglass_share(part));

@@ -37,6 +37,14 @@ void stay_out_of_exit() {
   static_cast<void>(said);
 }
 
+/// The root's attributes stay in its header, however many: there read_root_attributes() looks for them.
+Handle attributes_in_header(const std::string& what) {
+  constexpr unsigned most = 1000;
+  Handle creation(check(H5Pcreate(H5P_FILE_CREATE), what), H5Pclose);
+  check(H5Pset_attr_phase_change(creation.get(), most, most), what);
+  return creation;
+}
+
 /// What a file is called behind its name until it is whole.
 constexpr const char* unfinished = ".new";
 
@@ -140,8 +148,8 @@ void before_a_file() {
 File File::create(const std::string& path, const FileKind& kind) {
   before_a_file();
   const std::string what = "making " + path, target = target_of(path), beside = name_beside(target, kind);
-  const Handle access = access_by_journal(what);
-  File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()), what), H5Fclose}, target);
+  const Handle access = access_by_journal(what), creation = attributes_in_header(what);
+  File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), what), H5Fclose}, target);
   file.name_ = Name::unfinished;
   note_unfinished(beside);
   have_checksums(file.id_.get(), what);

@@ -39,7 +39,8 @@ class RootReader {
     const int version = head[8];
     // Offsets and lengths of 8 bytes each, as the library makes them unless asked.
     if ((version == 0 || version == 1) && head[13] == 8 && head[14] == 8)
-      read_header(number_at(head, version == 0 ? 64 : 68, 8));
+      read_old_header(number_at(head, version == 0 ? 64 : 68, 8));
+    if ((version == 2 || version == 3) && head[9] == 8 && head[10] == 8) read_header(number_at(head, 36, 8));
     return std::move(found_);
   }
 
@@ -53,24 +54,53 @@ class RootReader {
     return result;
   }
 
-  void read_header(std::uint64_t place) {
+  /// Object header 1, of HDF5 before 1.8.
+  void read_old_header(std::uint64_t place) {
     const auto prefix = bytes(place, 16);
     if (prefix.size() < 16 || prefix[0] != 1) return;
     blocks_.push_back({place + 16, number_at(prefix, 8, 4)});
     for (int count = 0; !blocks_.empty() && count < most_blocks; ++count) {
       const auto [where, size] = blocks_.front();
       blocks_.pop_front();
-      if (size <= longest_header) read_messages(bytes(where, size));
+      if (size <= longest_header) read_messages(bytes(where, size), {2, 4, 8});
     }
   }
 
-  void read_messages(const std::vector<char>& block) {
-    constexpr std::uint64_t attribute = 0x0c, continuation = 0x10, head = 8;
+  /// Object header 2.
+  void read_header(std::uint64_t place) {
+    constexpr std::uint64_t times = 16, phases = 4, checksum = 4;
+    const auto prefix = bytes(place, 34);
+    if (prefix.size() < 34 || std::memcmp(prefix.data(), "OHDR", 4) != 0 || prefix[4] != 2) return;
+    const int flags = static_cast<unsigned char>(prefix[5]);
+    const std::uint64_t at = 6 + (flags & 0x20 ? times : 0) + (flags & 0x10 ? phases : 0);
+    const int size_of_size = 1 << (flags & 3);
+    const Layout layout{1, 3, static_cast<std::uint64_t>(flags & 4 ? 6 : 4)};
+    const std::uint64_t first = number_at(prefix, at, size_of_size);
+    if (first <= longest_header) read_messages(bytes(place + at + static_cast<std::uint64_t>(size_of_size), first), layout);
+    for (int count = 0; !blocks_.empty() && count < most_blocks; ++count) {
+      const auto [where, size] = blocks_.front();
+      blocks_.pop_front();
+      if (size > longest_header || size < 8) continue;
+      const auto block = bytes(where, size - checksum);
+      if (block.size() < 4 || std::memcmp(block.data(), "OCHK", 4) != 0) continue;
+      read_messages({block.begin() + 4, block.end()}, layout);
+    }
+  }
+
+  /// Of a message's head: bytes of its type, which come first and are followed by two of its size; where its flags stand; where it ends.
+  struct Layout {
+    int type_size;
+    std::uint64_t flags, end;
+  };
+
+  void read_messages(const std::vector<char>& block, const Layout& layout) {
+    constexpr std::uint64_t attribute = 0x0c, continuation = 0x10;
     constexpr char shared = 2;
-    for (std::uint64_t at = 0; at + head <= block.size();) {
-      const std::uint64_t type = number_at(block, at, 2), size = number_at(block, at + 2, 2);
-      const char flags = block[at + 4];
-      at += head;
+    for (std::uint64_t at = 0; at + layout.end <= block.size();) {
+      const std::uint64_t type = number_at(block, at, layout.type_size),
+                          size = number_at(block, at + static_cast<std::uint64_t>(layout.type_size), 2);
+      const char flags = block[at + layout.flags];
+      at += layout.end;
       if (size > block.size() - at) return;
       const std::vector<char> message(block.begin() + static_cast<std::ptrdiff_t>(at),
                                       block.begin() + static_cast<std::ptrdiff_t>(at + size));

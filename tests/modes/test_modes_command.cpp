@@ -15,7 +15,7 @@ namespace {
 const std::string two_blocks =
     "[materials.steel]\nyoungs_modulus = 210e9\npoissons_ratio = 0.3\ndensity = 7800\n"
     "[meshes.cube]\ntype = \"box\"\nsize = [0.1, 0.1, 0.1]\ndivisions = [4, 4, 4]\n"
-    "[parts.lower]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
+    "[parts.lower]\nmesh = \"cube\"\nmaterial = \"steel\"\nhourglass = \"viscous\"\n"
     "[parts.upper]\nmesh = \"cube\"\nmaterial = \"steel\"\nposition = [0, 0, 0.2]\nhourglass = \"stiffness\"\n"
     "[connectors.pad]\nfrom = \"lower.z_max\"\nto = \"upper.z_min\"\nstiffness = [1e8, 1e8, 1e8]\ndamping = [1, 1, 1]\n"
     "[constraints.foot]\ntarget = \"lower.z_min\"\nfixed = [\"x\", \"y\", \"z\"]\n"

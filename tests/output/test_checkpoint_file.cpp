@@ -134,7 +134,7 @@ TEST_CASE("what is not of a checkpoint's kind is neither replaced nor removed") 
     std::getline(std::ifstream(folder.file() + ending), text);
     CHECK(text == "notes");
     std::filesystem::remove(folder.file() + ending);
-    CHECK(std::filesystem::is_empty(folder.path));
+    CHECK(std::filesystem::is_empty(folder.path()));
   }
 }
 

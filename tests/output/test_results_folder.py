@@ -104,7 +104,7 @@ class ResultsFolder(Folder):
         complaint, _ = self.run_it("run", "case.toml", "--set", 'output.file=""', code=2)
         self.assertIn("[output] file: is empty", complaint)
         complaint, _ = self.run_it("mesh", "case.toml", "--out", "", code=2)
-        self.assertIn("--out: the file name is empty; name a file", complaint)
+        self.assertIn("--out: is empty, must be the name of a file", complaint)
 
     def test_the_projects_cases_use_it(self):
         for path in [*SOURCE.glob("cases/*.toml"), *SOURCE.glob("cases/verify/*.toml")]:

@@ -1,6 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 
+#include "output/file_kind.hpp"
 #include "output/hdf5.hpp"
 #include "output/unfinished.hpp"
 #include "tests/temporary_folder.hpp"
@@ -32,13 +33,13 @@ TEST_CASE("an HDF5 file is noted until it has its name") {
   const TemporaryFolder folder;
   const auto is_there = [&](const char* name) { return std::filesystem::exists(folder / name); };
   {
-    hdf5::File file = hdf5::File::create(folder / "a.h5");
+    hdf5::File file = hdf5::File::create(folder / "a.h5", kinds::results());
     file.flush();
     CHECK(is_there("a.h5.new"));
     remove_unfinished();
     CHECK_FALSE(is_there("a.h5.new"));
   }
-  hdf5::File file = hdf5::File::create(folder / "b.h5");
+  hdf5::File file = hdf5::File::create(folder / "b.h5", kinds::results());
   file.flush();
   file.take_name();
   remove_unfinished();

@@ -6,6 +6,7 @@
 
 #include "case/error.hpp"
 #include "output/hdf5.hpp"
+#include "output/results_writer.hpp"
 
 namespace railwave {
 namespace {
@@ -35,7 +36,9 @@ ResultsThere look_into(const std::string& path, bool last_too = false) {
 
 void check_can_be_extended(const std::string& results_path) {
   std::error_code ignored;
-  if (std::filesystem::exists(results_path, ignored)) look_into(results_path, true);
+  if (!std::filesystem::exists(results_path, ignored)) return;
+  check_results_place(results_path);  // tells whether another run is writing them
+  look_into(results_path, true);
 }
 
 Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end) {

@@ -99,7 +99,7 @@ class Group {
   std::optional<hsize_t> least_entries() const;
   /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer.
   void cut(hsize_t entries) const;
-  /// Reads the last entry of each growing dataset in this group and those below: throws std::runtime_error where one is damaged.
+  /// Reads this group's attributes and the last entry of each growing dataset in it and in those below: throws std::runtime_error where one is damaged.
   void check_last() const;
 
   void set_attribute(const std::string& name, double value) const;

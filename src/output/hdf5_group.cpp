@@ -175,6 +175,8 @@ void Group::cut(hsize_t entries) const {
 
 void Group::check_last() const {
   const LimitedCall limited;
+  const H5A_operator2_t visit = [](hid_t, const char*, const H5A_info_t*, void*) -> herr_t { return 0; };
+  check(H5Aiterate2(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, nullptr), "reading the attributes of " + name_);
   each_growing([&](hid_t id, Shape extent, const std::string& name) {
     if (count_of(extent) == 0) return;
     Shape start(extent.size(), 0);

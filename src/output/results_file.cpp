@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "case/error.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "output/fault_file.hpp"
@@ -111,13 +112,15 @@ void ResultsFile::check_room(const Model& model) const {
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
   for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
-  writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop);
+  writing([&] { writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop); });
 }
 
 template <class Do>
 void ResultsFile::writing(const Do& one) {
   try {
     one();
+  } catch (const InputError&) {
+    throw;
   } catch (const std::bad_alloc&) {
     throw;  // is no fault of the disk's
   } catch (const std::exception& error) {

@@ -97,7 +97,11 @@ hdf5::Group ResultsReader::history() const {
 }
 
 std::string ResultsReader::slave_surface(const std::string& contact) const {
-  return damage_told([&] { return file_.root().group("contact").group(contact).group("slave").text_attribute("surface"); });
+  return damage_told([&] {
+    const std::string surface = file_.root().group("contact").group(contact).group("slave").text_attribute("surface");
+    if (surface.empty()) throw std::runtime_error("its slave surface has no name");
+    return surface;
+  });
 }
 
 std::vector<double> ResultsReader::contact_times(const std::string& contact) const {

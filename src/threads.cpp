@@ -18,6 +18,7 @@
 
 #include "case/error.hpp"
 #include "case/memory.hpp"
+#include "case/number_text.hpp"
 #include "stack.hpp"
 
 namespace railwave {
@@ -39,7 +40,7 @@ std::optional<double> whole_number(const std::string& text) {
                    [](unsigned char c) { return std::isdigit(c); }) ||
       digits == "+")
     return std::nullopt;
-  return std::strtod(digits.c_str(), nullptr);
+  return parse_real(digits);
 }
 
 [[noreturn]] void refuse(const char* name, const std::string& text, const std::string& why) {

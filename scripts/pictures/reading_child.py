@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import resource
 import signal
 import sys
@@ -41,7 +42,7 @@ def child(path, work):
         signal.setitimer(signal.ITIMER_PROF, 5 + os.path.getsize(path) / 5e6)
         look_through(path)
     except OSError as error:
-        if "Unable to open file" in str(error) or not os.path.isfile(path):
+        if re.search("nable to (synchronously )?open file", str(error)) or not os.path.isfile(path):
             signal.setitimer(signal.ITIMER_PROF, 0)
             return work()  # which tells better what is wrong
         print(f"{path} is damaged: {error}; copy it again, or repeat the run", file=sys.stderr)
@@ -54,7 +55,7 @@ def child(path, work):
         return work()
     except Exception as error:  # from whatever library a number that makes no sense came to
         frame = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"{path} cannot be drawn: {type(error).__name__}: {error} ({pathlib.Path(frame.filename).name}, line {frame.lineno}); is it damaged, or of another version?",
+        print(f"{path} is damaged, or of another version: {type(error).__name__}: {error} ({pathlib.Path(frame.filename).name}, line {frame.lineno})",
               file=sys.stderr)
         return 2
 

@@ -151,10 +151,10 @@ File File::create(const std::string& path, const FileKind& kind) {
   const Handle access = access_by_journal(what), creation = attributes_in_header(what);
   File file({check(H5Fcreate(beside.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), what), H5Fclose}, target);
   file.name_ = Name::unfinished;
-  note_unfinished(beside);
-  have_checksums(file.id_.get(), what);
   file.beside_ = beside;
   file.kind_ = kind;
+  note_unfinished(beside);
+  have_checksums(file.id_.get(), what);
   file.root().set_attribute("format", kind.mark);
   file.flush();
   return file;

@@ -14,6 +14,7 @@
 #include "case/error.hpp"
 #include "output/disk.hpp"
 #include "output/output_place.hpp"
+#include "output/unfinished.hpp"
 
 namespace railwave {
 namespace {
@@ -72,6 +73,7 @@ RunLock::RunLock(const std::string& path, const std::string& asked_by) {
     }
     lock_ = name;
     descriptor_ = file.release();
+    note_unfinished(lock_);  // a signal before the run takes it away too
     return;
   }
 }
@@ -82,6 +84,7 @@ RunLock::~RunLock() {
   const bool same = fstat(descriptor_, &ours) == 0 && lstat(lock_.c_str(), &named) == 0 &&
                     ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
   if (same) unlink(lock_.c_str());  // before others can have it
+  forget_unfinished(lock_);
   close(descriptor_);
 }
 

@@ -157,6 +157,7 @@ __attribute__((destructor)) static void tell(void) {
   if (!file) return;
   char text[100];
   const int length = snprintf(text, sizeof text, "%ld %ld %ld\n", (long)asked, (long)most, (long)most_of_hdf5);
-  const int to = open(file, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  /* A process that did not use HDF5 does not write over what its child told, which did. */
+  const int to = open(file, O_WRONLY | O_CREAT | (most_of_hdf5 > 0 ? O_TRUNC : O_EXCL), 0666);
   if (to >= 0 && write(to, text, (size_t)length) != length) abort();
 }

@@ -33,7 +33,7 @@ class Memory(Folder):
                     if "out of memory" not in complaint:
                         continue
                     self.assertEqual(run.returncode, 1, complaint)
-                    self.assertRegex(complaint, r"^railwave: out of memory: \S+ \S+ .*could not be had; this machine has .*, this process may take .*; take a coarser mesh")
+                    self.assertRegex(complaint, r"(?m)^railwave: out of memory: \S+ \S+ .*could not be had; this machine has .*, this process may take .*; take a coarser mesh")
                     self.told("out of memory", 1, complaint)
                     self.seen = True
                     (self.folder / "large.toml").unlink(missing_ok=True)

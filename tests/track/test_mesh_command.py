@@ -143,7 +143,7 @@ class MeshCommand(unittest.TestCase):
         self.assertIn("has no element within 0.2 m of (9, 9, 9)", done.stderr)
         done = run(*place, "--around", "here", folder=self.folder)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("three numbers are wanted", done.stderr)
+        self.assertIn("3 numbers with commas between are wanted", done.stderr)
         with h5py.File(self.path("other.h5"), "w"):
             pass
         done = run(sys.executable, os.path.join(ROOT, "scripts", "picture"), "--mesh", "other.h5", folder=self.folder)

@@ -72,7 +72,8 @@ int run_case(const Arguments& arguments) {
   check_run_places(scene, files);
   if (arguments.restart) {  // before anything is held that the child would let go
     const std::string& file = scene.output.file;
-    if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); })) return *code;
+    if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
+      return *code;
   }
   const HeldPlaces places(scene, files);
   const KokkosScope kokkos;
@@ -223,10 +224,22 @@ int dispatch(int argc, char** argv) {
   modes->callback([&] { code = find_modes(arguments); });
   CLI::App* contact = app.add_subcommand("contact", "contact patch, pressure and forces from a results file");
   add_contact_options(contact, arguments.contact);
-  contact->callback([&] { code = in_reading_child("railwave contact", {arguments.contact.results}, [&] { return contact_command(arguments.contact, std::cout); }); });
-  add_signal_command(app, arguments.signal, [&] { code = in_reading_child("railwave signal", {arguments.signal.results}, [&] { return signal_command(arguments.signal, std::cout); }); });
-  add_response_command(app, arguments.response, [&] { code = in_reading_child("railwave frf", arguments.response.results, [&] { return response_command(arguments.response, std::cout); }); });
-  add_decay_command(app, arguments.decay, [&] { code = in_reading_child("railwave decay", arguments.decay.results, [&] { return decay_command(arguments.decay, std::cout); }); });
+  contact->callback([&] {
+    code = in_reading_child("railwave contact", {arguments.contact.results},
+                            [&] { return contact_command(arguments.contact, std::cout); });
+  });
+  add_signal_command(app, arguments.signal, [&] {
+    code = in_reading_child("railwave signal", {arguments.signal.results},
+                            [&] { return signal_command(arguments.signal, std::cout); });
+  });
+  add_response_command(app, arguments.response, [&] {
+    code = in_reading_child("railwave frf", arguments.response.results,
+                            [&] { return response_command(arguments.response, std::cout); });
+  });
+  add_decay_command(app, arguments.decay, [&] {
+    code = in_reading_child("railwave decay", arguments.decay.results,
+                            [&] { return decay_command(arguments.decay, std::cout); });
+  });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means, or a command");
   help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass, run, signal psd ...; nothing: the list of sections");
   help->callback([&] { std::cout << help_on(app, arguments.topic) << '\n'; });

@@ -22,6 +22,11 @@ except ImportError:
 DAMAGES = 60
 
 
+def endless(data):
+    first = data.index(b"GCOL") + 24
+    return data[:first] + (2**64 - 16).to_bytes(8, "little") + data[first + 8 :]
+
+
 class DamagedResults(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -89,6 +94,12 @@ class DamagedResults(unittest.TestCase):
                 outcome = self.commands.judge(seed, name, bytes(data))
                 self.assertFalse(outcome.finding, f"{name}, {offset}: {outcome.kind} {outcome.text}")
 
+    def test_an_endless_loop_is_ended(self):
+        """A text whose length leads HDF5 back to the same place of the heap, for ever."""
+        seed = self.seed("hammer")
+        outcome = self.commands.judge(seed, "frf", endless(seed.bytes))
+        self.assertIn(outcome.kind, ("endless loop in HDF5, told", "refused with a message"), outcome.text)
+
     def test_nothing_is_written_before_all_is_read(self):
         """The table was left where HDF5 crashed in the title, which goes into the second file."""
         seed = self.seed("contact")
@@ -132,7 +143,7 @@ class DamagedResults(unittest.TestCase):
         seed, script = self.seed("contact"), SOURCE / "scripts" / "picture"
         heap = seed.bytes.index(b"GCOL")
         for what, change in (("cut short", lambda data: data[: len(data) // 2]), ("heap", lambda data: data[: heap + 8] + b"\xff" * 40 + data[heap + 48 :]),
-                             ("header", lambda data: data[:60] + b"\x55" + data[61:])):
+                             ("header", lambda data: data[:60] + b"\x55" + data[61:]), ("endless", endless)):
             path = self.folder / "picture.h5"
             path.write_bytes(change(seed.bytes))
             done = subprocess.run([sys.executable, script, path, "--only", "forces", "--out", self.folder / "pictures", "--program", PROGRAM], capture_output=True, text=True)

@@ -69,8 +69,8 @@ int run_case(const Arguments& arguments) {
   PatienceTimer patience;
   const scene::Scene scene = read_told(arguments);
   const RunFiles files{arguments.restart, arguments.overwrite};
-  check_run_places(scene, files);
   if (arguments.restart) {  // before anything is held that the child would let go
+    check_run_places(scene, files);
     const std::string& file = scene.output.file;
     if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
       return *code;

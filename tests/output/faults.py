@@ -22,33 +22,10 @@ except ImportError:
 
 SOURCE = pathlib.Path(os.environ.get("RAILWAVE_SOURCE_DIR", pathlib.Path(__file__).resolve().parent.parent.parent))
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
-CASE = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-[meshes.lower]
-type = "box"
-size = [0.03, 0.03, 0.02]
-divisions = [3, 3, 2]
-[meshes.upper]
-type = "box"
-size = [0.02, 0.02, 0.02]
-divisions = [2, 2, 2]
-[parts.lower]
-mesh = "lower"
-material = "steel"
-[parts.upper]
-mesh = "upper"
-material = "steel"
-position = [0.005, 0.005, 0.02001]
-[constraints.floor]
-target = "lower.z_min"
-fixed = ["x", "y", "z"]
-[contacts.between]
-slave = "upper.z_min"
-master = "lower.z_max"
-friction = 0.3
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from two_blocks import two_blocks  # noqa: E402
+
+CASE = two_blocks(([0.03, 0.03, 0.02], [3, 3, 2]), ([0.02, 0.02, 0.02], [2, 2, 2]), [0.005, 0.005, 0.02001]) + """\
 [initial_motion.fall]
 parts = ["upper"]
 velocity = [2, 1, -12]

@@ -14,40 +14,16 @@ except ImportError:
     sys.exit(77)
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from two_blocks import STEEL as ELASTIC_STEEL, two_blocks  # noqa: E402
 
-STEEL = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
+STEEL = ELASTIC_STEEL + """\
 yield_stress = 4e8
 tangent_modulus = 2e9
 """
 
 # One block falls on another; a spring, beams, loads and a row of probes besides: all that a results file may hold.
-BLOCKS = STEEL + """
-[meshes.lower]
-type = "box"
-size = [0.06, 0.05, 0.03]
-divisions = [6, 5, 3]
-[meshes.upper]
-type = "box"
-size = [0.04, 0.04, 0.03]
-divisions = [4, 4, 3]
-[parts.lower]
-mesh = "lower"
-material = "steel"
-[parts.upper]
-mesh = "upper"
-material = "steel"
-position = [0.005, 0.005, 0.03001]
-[constraints.floor]
-target = "lower.z_min"
-fixed = ["x", "y", "z"]
-[contacts.between]
-slave = "upper.z_min"
-master = "lower.z_max"
-friction = 0.3
+BLOCKS = two_blocks(([0.06, 0.05, 0.03], [6, 5, 3]), ([0.04, 0.04, 0.03], [4, 4, 3]), [0.005, 0.005, 0.03001], STEEL) + """\
 friction_decay = 0.5
 dynamic_friction = 0.1
 [points.hub]

@@ -17,34 +17,10 @@ except ImportError:
     sys.exit(77)
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+from two_blocks import two_blocks  # noqa: E402
 
-CASE = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-[meshes.lower]
-type = "box"
-size = [0.06, 0.05, 0.03]
-divisions = [6, 5, 3]
-[meshes.upper]
-type = "box"
-size = [0.04, 0.04, 0.03]
-divisions = [5, 5, 4]
-[parts.lower]
-mesh = "lower"
-material = "steel"
-[parts.upper]
-mesh = "upper"
-material = "steel"
-position = [0.01, 0.005, 0.03]
-[constraints.floor]
-target = "lower.z_min"
-fixed = ["x", "y", "z"]
-[contacts.between]
-slave = "upper.z_min"
-master = "lower.z_max"
-friction = 0.3
+CASE = two_blocks(([0.06, 0.05, 0.03], [6, 5, 3]), ([0.04, 0.04, 0.03], [5, 5, 4]), [0.01, 0.005, 0.03]) + """\
 [curves.rise]
 type = "cosine_ramp"
 duration = 2e-4

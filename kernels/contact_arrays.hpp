@@ -4,10 +4,30 @@
 
 namespace railwave {
 
-/// What a step must know of a master segment, in two 16-byte loads.
+/// What a step must know of a master segment, in two 16-byte loads. Its sides are eta = -1, xi = 1, eta = 1, xi = -1.
 struct alignas(16) Segment {
-  int node[4];       ///< model node numbers, turned outwards
-  int neighbour[4];  ///< segment beyond the side eta = -1, xi = 1, eta = 1, xi = -1; -1: the surface ends there
+  int node[4];  ///< model node numbers, turned outwards
+  int link[4];  ///< by side: the segment beyond it with what lies between; -1: the surface ends there
+
+  static constexpr int over_fold = 1 << 29;   ///< in a link: the surface folds by 60 degrees or more there
+  static constexpr int over_mouth = 1 << 30;  ///< in a link: a crack, slot or gap is between, which what slides there crosses
+
+  /// The segment beyond a side, -1: none.
+  KOKKOS_INLINE_FUNCTION int beyond(int side) const { return link[side] < 0 ? -1 : link[side] & ~(over_fold | over_mouth); }
+  KOKKOS_INLINE_FUNCTION bool folds(int side) const { return link[side] >= 0 && (link[side] & over_fold) != 0; }
+  KOKKOS_INLINE_FUNCTION bool has_mouth(int side) const { return link[side] >= 0 && (link[side] & over_mouth) != 0; }
+};
+
+/// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of sixteen
+/// leaves, in an order in which neighbours are near each other. They hold until the next look.
+struct SegmentBoxes {
+  static constexpr int leaf_size = 8, branch_size = 16;
+  Array<int*> order;            ///< of the segments
+  Array<double* [6]> leaf;      ///< m, the least of x, y, z, then the largest
+  Array<double* [6]> branch;
+
+  KOKKOS_INLINE_FUNCTION int leaf_count() const { return static_cast<int>(leaf.extent(0)); }
+  KOKKOS_INLINE_FUNCTION int branch_count() const { return static_cast<int>(branch.extent(0)); }
 };
 
 /// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes have a numbering of their
@@ -15,21 +35,21 @@ struct alignas(16) Segment {
 struct ContactArrays {
   int slave_count = 0, master_count = 0, segment_count = 0;
   double friction = 0;
-  bool folded_inwards = false;         ///< the master has sharp inner folds: every step searches anew
-  bool folded_outwards = false;        ///< the master has sharp edges, near which several segments hold what has entered
   Array<int*> slave_nodes;
   Array<int*> master_nodes;
   Array<int* [4]> segments;            ///< master node numbers, turned outwards
   Array<int*> first_segment;           ///< master_count + 1
   Array<int*> segment_of_node;         ///< segments around a master node
   Array<Segment*> surface;             ///< the same segments by model node numbers, with their neighbours
+  SegmentBoxes boxes;
   Array<double*> segment_stiffness;    ///< N/m, eq. 2.26d
 
   /// What the pair does now, by slave node.
   Array<int*> tracked;                 ///< segment that the node was last seen over, touched or not; -1: none yet
   Array<double* [2]> place;            ///< xi, eta on the tracked segment
   Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
-  Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far
+  Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far;
+                                       ///< beside_surface, turned_away
   Array<double* [3]> normal_force;     ///< N on the slave
   Array<double* [3]> tangential_force; ///< N on the slave
   Array<double*> friction_energy;      ///< J dissipated so far
@@ -39,7 +59,7 @@ struct ContactArrays {
 struct alignas(16) WindowEntry {
   int slave;  ///< position among the pair's slave nodes
   int node;   ///< model node number
-  int near;   ///< 1: it can touch until the next look, and is projected at each step
+  int near;   ///< it can touch until the next look, and is projected at each step: near_one_sheet, near_several_sheets; 0: far
   int unused;
 };
 
@@ -52,6 +72,15 @@ struct ContactWindow {
 };
 
 inline constexpr int status_apart = 0, status_sticks = 1, status_slips = 2;
+
+/// What a node in the window can meet: one stretch of the surface, over which it is followed, or several that face different ways,
+/// so that at each step the nearest is searched for.
+inline constexpr int near_one_sheet = 1, near_several_sheets = 2;
+
+/// Gaps of nodes that have none, m: beside the surface; in the body, but not come through the surface.
+inline constexpr double beside_surface = 1e300, turned_away = 2e300;
+/// Whether a gap is a distance.
+KOKKOS_INLINE_FUNCTION bool is_distance(double gap) { return gap < 1e299; }
 
 /// Bilinear shape functions of a segment, eq. 2.24b.
 KOKKOS_INLINE_FUNCTION double segment_shape(int corner, double xi, double eta) {

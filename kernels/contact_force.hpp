@@ -19,6 +19,7 @@ struct ContactForce {
   ContactWindow window;
   ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
+  FirstTouch first_touch;
   Law law{};
 
   /// The i-th of the nodes that can touch, if they are so many.
@@ -32,7 +33,9 @@ struct ContactForce {
     const int tracked = contact.tracked(s);
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
 
-    const Projection now = Normals::turned(search, slave, ContactTrack::where(search, slave, tracked, place, touched));
+    Projection now = ContactTrack::where(search, slave, tracked, place, touched, entry.near);
+    if (!touched) first_touch.judge(search, s, entry.node, now);
+    now = Normals::turned(search, slave, now);
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;

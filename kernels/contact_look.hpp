@@ -13,6 +13,7 @@ struct ContactLook {
   Array<const double* [3]> velocity;
   double interval;      ///< s until the next look
   double sudden;        ///< m
+  bool first;           ///< no look was before: all that penetrates does so from the beginning
   Array<int*> missed;   ///< one: nodes found penetrating that the look before had called far
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -21,44 +22,47 @@ struct ContactLook {
     const int s = entry.slave;
     const bool touching = contact.status(s) != status_apart;
     const bool was_near = entry.near != 0;
-    entry.near = 1;
+    entry.near = near_one_sheet;
     if (!touching) {
       const Vector3 slave = row(search.position, entry.node);
       double beyond;
-      const Projection found = where(slave, s, beyond);
+      const Projection found = search.nearest(slave, contact.tracked(s), beyond);
       contact.tracked(s) = found.segment;
       contact.place(s, 0) = found.place.xi;
       contact.place(s, 1) = found.place.eta;
       const bool beside = search.beside(found, beyond);
-      contact.gap(s) = beside ? 1e300 : found.gap;
       const bool penetrating = !beside && found.gap < 0;
+      const double far = reach(entry.node, found.segment);
+      if (!penetrating) {
+        contact.gap(s) = beside ? beside_surface : found.gap;
+      } else if (first) {
+        contact.gap(s) = found.gap;
+      } else if (!was_near) {
+        // Nobody has looked for as long as an interval. Nodes that were near are judged when they touch.
+        const bool through = -found.gap <= far;
+        contact.gap(s) = through ? found.gap : turned_away;
+        if (through) Kokkos::atomic_add(&missed(0), 1);
+      }
+      const double tolerance = ContactSearch::outside_tolerance * norm(diagonal_of(found.segment));
       // A NaN is near.
-      if (!penetrating && norm(found.offset) > reach(entry.node, found.segment)) entry.near = 0;
-      if (penetrating && !was_near) Kokkos::atomic_add(&missed(0), 1);
+      if (!penetrating && norm(found.offset) > far + tolerance) entry.near = 0;
+      else if (search.several_sheets(slave, found, norm(found.offset) + 2 * far)) entry.near = near_several_sheets;
     }
     window.entries(i) = entry;
     if (entry.near != 0) window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
   }
 
-  /// The fast way for the many that it is sure of.
-  KOKKOS_INLINE_FUNCTION Projection where(const Vector3& slave, int s, double& beyond) const {
-    const ContactArrays& contact = search.contact;
-    Projection now{};
-    now.segment = contact.tracked(s);
-    now.place = {contact.place(s, 0), contact.place(s, 1)};
-    const int start = search.corner_at(now.segment, now.place);
-    if (ContactTrack::follow(search, slave, now, beyond) != ContactTrack::unknown) return now;
-    return search.nearest(slave, search.closest_node(slave, start), -1, beyond);
-  }
-
-  /// How far slave and segment can move, m, and how far beside a segment a node still counts as over it.
+  /// How far slave and segment can move until the next look, m.
   KOKKOS_INLINE_FUNCTION double reach(int node, int segment) const {
     const Segment master = search.contact.surface(segment);
     double speed = 0;
     for (int k = 0; k < 4; ++k) speed = std::fmax(speed, norm(row(velocity, master.node[k])));
-    const Vector3 diagonal = row(search.position, master.node[2]) - row(search.position, master.node[0]);
-    return 1.25 * interval * (speed + norm(row(velocity, node))) + sudden +
-           ContactSearch::outside_tolerance * norm(diagonal);
+    return 1.25 * interval * (speed + norm(row(velocity, node))) + sudden;
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector3 diagonal_of(int segment) const {
+    const Segment master = search.contact.surface(segment);
+    return row(search.position, master.node[2]) - row(search.position, master.node[0]);
   }
 };
 

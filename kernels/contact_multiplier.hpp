@@ -53,6 +53,7 @@ struct ContactMultiplier {
   ExtraForceSum extra;
   FreeMotion free_motion;
   MultiplierArrays multipliers;
+  FirstTouch first_touch;
 
   static constexpr double crowd_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
@@ -76,7 +77,9 @@ struct ContactMultiplier {
     const int status = contact.status(s), tracked = contact.tracked(s);
     const bool touched = status != status_apart;
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
-    const Projection now = Normals::turned(search, slave, ContactTrack::where(search, slave, tracked, place, touched));
+    Projection now = ContactTrack::where(search, slave, tracked, place, touched, near.near);
+    if (!touched) first_touch.judge(search, s, near.node, now);
+    now = Normals::turned(search, slave, now);
     MultiplierRow& r = multipliers.rows(s);
     r.moved = touched ? now.offset - search.see(slave, tracked).point(place) : Vector3{{0, 0, 0}};
     r.normal = now.normal;
@@ -88,7 +91,7 @@ struct ContactMultiplier {
     }
     const Segment segment = contact.surface(now.segment);
     const Vector3 diagonal = row(search.position, segment.node[2]) - row(search.position, segment.node[0]);
-    r.active = now.gap < near_share * norm(diagonal) || (touched && now.gap < 1e299);
+    r.active = now.gap < near_share * norm(diagonal) || (touched && is_distance(now.gap));
     r.force = r.pending = Vector3{{0, 0, 0}};
     r.pressing = r.compliance = 0;
     r.slips = 1;
@@ -186,7 +189,7 @@ struct ContactMultiplier {
       for (int k = 0; k < 4; ++k)
         Kokkos::atomic_add(&multipliers.crowd(contact.segments(contact.tracked(s), k)), std::uint64_t{0} - crowd_share(r.weight[k + 1]));
     const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
-    const bool closes = before < 1e299 && r.gap < 1e299;
+    const bool closes = is_distance(before) && is_distance(r.gap);
     if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
     if constexpr (Friction) {
       const Vector3 tangential = r.force - r.pressing * r.normal;

@@ -34,7 +34,7 @@ struct SmoothNormals {
   static constexpr int most_hops = 3;
 
   KOKKOS_INLINE_FUNCTION static Projection turned(const ContactSearch& search, const Vector3& slave, Projection found) {
-    if (!(found.gap < 1e299)) return found;
+    if (!is_distance(found.gap) || found.at_edge) return found;
     SeenSegment seen = search.see(slave, found.segment);
     if (found.gap > near_share * 2 * norm(seen.across + seen.along)) return found;
     int from = -1;
@@ -50,7 +50,7 @@ struct SmoothNormals {
       found.offset = seen.point(found.place);
       found.gap = -dot(found.normal, found.offset) - bulge(seen, corner, found.place);
       if (place.outside() <= ContactProjection::on_segment) break;
-      const int next = ContactProjection::beyond_side(search.contact.surface(found.segment), place);
+      const int next = search.contact.surface(found.segment).beyond(ContactProjection::side_towards(place));
       if (next < 0 || next == from || hop + 1 == most_hops || !continues(facet, area_of(search, next))) break;
       from = found.segment;
       found.segment = next;

@@ -21,7 +21,15 @@ struct Projection {
   SegmentPlace place;
   double gap;        ///< along the normal, m; negative: penetration
   Vector3 offset;    ///< contact point r(xi, eta) less the slave's position, m
-  Vector3 normal;    ///< outward unit normal of the master there
+  Vector3 normal;    ///< outward unit normal of the master there; at a sharp edge or corner, the way to the slave or from it
+  bool at_edge = false;  ///< at such a one
+};
+
+/// The place of a segment that is nearest to a slave.
+struct NearestPlace {
+  SegmentPlace place;  ///< within the segment's sides
+  double squared;      ///< m2, distance
+  double outside;      ///< how far outside the segment the slave's projection lies, in xi or eta; at most 0: inside
 };
 
 /// A segment seen from a slave node: small numbers, whose rounding does not disturb the iteration. r(xi, eta) less the
@@ -33,6 +41,7 @@ struct SeenSegment {
   KOKKOS_INLINE_FUNCTION Vector3 point(const SegmentPlace& p) const {
     return middle + p.xi * (across + p.eta * twist) + p.eta * along;
   }
+  KOKKOS_INLINE_FUNCTION Vector3 corner(int k) const { return point({k == 1 || k == 2 ? 1.0 : -1.0, k >= 2 ? 1.0 : -1.0}); }
   KOKKOS_INLINE_FUNCTION Vector3 slope_xi(double eta) const { return across + eta * twist; }
   KOKKOS_INLINE_FUNCTION Vector3 slope_eta(double xi) const { return along + xi * twist; }
 };
@@ -76,10 +85,39 @@ struct ContactProjection {
     return {xi, eta};
   }
 
-  /// The neighbour over the side that a place lies farthest beyond.
-  KOKKOS_INLINE_FUNCTION static int beyond_side(const Segment& segment, const SegmentPlace& p) {
+  /// The nearest place of a segment, wherever the slave is. Where the projection lies outside, one of the four straight sides
+  /// has it: which one can't be told from xi and eta on a slanted segment.
+  KOKKOS_INLINE_FUNCTION static NearestPlace nearest_within(const SeenSegment& seen) {
+    const SegmentPlace projected = nearest_place(seen, {0, 0});
+    NearestPlace best{projected, 0, projected.outside()};
+    Vector3 offset = seen.point(projected);
+    best.squared = dot(offset, offset);
+    if (best.outside <= 0) return best;
+    best.squared = 1e300;
+    Vector3 from = seen.corner(0);
+    for (int side = 0; side < 4; ++side) {
+      const Vector3 to = seen.corner((side + 1) % 4), way = to - from;
+      const double share = std::fmax(0.0, std::fmin(1.0, -dot(from, way) / dot(way, way)));
+      offset = from + share * way;
+      const double squared = dot(offset, offset), along = 2 * share - 1;
+      if (squared < best.squared) {
+        best.squared = squared;
+        best.place = side == 0 ? SegmentPlace{along, -1} : side == 1 ? SegmentPlace{1, along} : side == 2 ? SegmentPlace{-along, 1} : SegmentPlace{-1, -along};
+      }
+      from = to;
+    }
+    return best;
+  }
+
+  /// The side that a place lies farthest beyond.
+  KOKKOS_INLINE_FUNCTION static int side_towards(const SegmentPlace& p) {
     const bool along_xi = std::fabs(p.xi) >= std::fabs(p.eta);
-    return along_xi ? segment.neighbour[p.xi > 0 ? 1 : 3] : segment.neighbour[p.eta > 0 ? 2 : 0];
+    return along_xi ? (p.xi > 0 ? 1 : 3) : (p.eta > 0 ? 2 : 0);
+  }
+
+  /// How far a place lies beyond a side, in xi or eta.
+  KOKKOS_INLINE_FUNCTION static double beyond_side(const SegmentPlace& p, int side) {
+    return (side == 1 ? p.xi : side == 3 ? -p.xi : side == 2 ? p.eta : -p.eta) - 1.0;
   }
 
   KOKKOS_INLINE_FUNCTION static Projection at(const SeenSegment& seen, const SegmentPlace& place) {

@@ -1,121 +1,93 @@
 #pragma once
 
+#include "kernels/contact_boxes.hpp"
 #include "kernels/contact_projection.hpp"
 
 namespace railwave {
 
-/// Search of thesis 2.6.1 that knows nothing of the steps before but where to begin: closest master node, the segment around
-/// it that holds the slave's projection (eq. 2.23), the contact point by Newton iteration (eq. 2.25), the penetration
-/// (eq. 2.26a). Its result does not depend on where it begins.
+/// Search for the segment that a slave node meets: the one whose nearest place is nearest, whatever segments share its nodes (thesis
+/// 2.6.1 starts from the closest master node instead, which a crack, a fold or a slender segment can deceive). Of several equally
+/// near, as at a common side, the one whose projection is least outside, then the first. The result does not depend on where
+/// the search begins.
 struct ContactSearch : ContactProjection {
-  /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface: on a convex fold
-  /// a penetrating node can be outside both neighbours.
+  /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface that ends there: the edges of
+  /// bodies of one size stay on each other while they bulge.
   static constexpr double outside_tolerance = 0.05;
   /// How deep it may then be, of the segment's diagonal: no sound contact is.
   static constexpr double outside_depth = 0.25;
-  static constexpr int most_hops = 8;
+  /// Of a segment's size: places no farther apart than that are one, found on several segments.
+  static constexpr double rounding = 1e-12;
+  /// Of unit normals' mean: below, the surface folds by 60 degrees or more.
+  static constexpr double smooth_mean = 0.866;
 
-  KOKKOS_INLINE_FUNCTION Vector3 master(int m) const { return row(position, contact.master_nodes(m)); }
-
-  /// Walks over the mesh from a master node to the nearest one around; of nodes equally near to the first.
-  KOKKOS_INLINE_FUNCTION int closest_node(const Vector3& slave, int start) const {
-    int best = start;
-    Vector3 d = slave - master(best);
-    double least = dot(d, d);
-    for (int hop = 0; hop < 64; ++hop) {
-      const int here = best;
-      for (int s = contact.first_segment(here); s < contact.first_segment(here + 1); ++s)
-        for (int k = 0; k < 4; ++k) {
-          const int m = contact.segments(contact.segment_of_node(s), k);
-          d = slave - master(m);
-          const double distance = dot(d, d);
-          if (distance < least || (distance == least && m < best)) {
-            least = distance;
-            best = m;
+  /// @param start a segment from which the search may begin, best one that is near
+  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the surface goes on
+  ///               beyond a mouth, only what is beyond other sides counts
+  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
+    SeenSegment best = see(slave, start);
+    // That segment's middle is no nearer than its nearest place.
+    double limit = dot(best.middle, best.middle) * (1 + 1e-12);
+    NearestPlace place{{0, 0}, 1e300, 1e300};
+    Vector3 sum{{0, 0, 0}}, weighted{{0, 0, 0}};
+    Vector3 there{{0, 0, 0}};
+    double same_place = 0;  // m
+    int alike = 0;
+    // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one copy does.
+    for (int turn = 0; turn < 2; ++turn) {
+      const SegmentBoxes& boxes = contact.boxes;
+      for (int b = 0; b < boxes.branch_count(); ++b) {
+        if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
+        const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
+        for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
+          if (squared_distance_from_box(boxes.leaf, l, slave) > limit) continue;
+          const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
+          for (int i = first; i < last && i < contact.segment_count; ++i) {
+            const SeenSegment seen = see(slave, boxes.order(i));
+            const double reach = norm(seen.across) + norm(seen.along) + norm(seen.twist) + std::sqrt(limit);
+            if (dot(seen.middle, seen.middle) > reach * reach * (1 + 1e-12)) continue;
+            const NearestPlace found = nearest_within(seen);
+            if (found.squared > limit) continue;
+            bool better = found.squared < place.squared || (found.squared == place.squared && seen.segment < best.segment);
+            if (turn == 1) {
+              const Vector3 aside = seen.point(found.place) - there;
+              if (dot(aside, aside) > same_place * same_place) continue;
+              const Vector3 n = unit_normal(seen, found.place);
+              sum = sum + n;
+              weighted = weighted + corner_angle(seen, found.place) * n;
+              ++alike;
+              const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
+              better = alike == 1 || now < before || (now == before && seen.segment < best.segment);
+            }
+            if (!better) continue;
+            best = seen;
+            place = found;
+            if (turn == 0) limit = found.squared;
           }
         }
-      if (best == here) break;
-    }
-    return best;
-  }
-
-  /// Eq. 2.23: is the slave's projection between the two edges of the segment that start at the closest node?
-  KOKKOS_INLINE_FUNCTION bool between_edges(const Vector3& slave, int node, int segment) const {
-    int k = 0;
-    while (k < 3 && contact.segments(segment, k) != node) ++k;
-    const Vector3 origin = master(node);
-    const Vector3 c1 = master(contact.segments(segment, (k + 1) % 4)) - origin;
-    const Vector3 c2 = master(contact.segments(segment, (k + 3) % 4)) - origin;
-    const Vector3 g = slave - origin;
-    const Vector3 m = cross(c1, c2);
-    const Vector3 s = g - (dot(g, m) / dot(m, m)) * m;
-    const Vector3 c1s = cross(c1, s);
-    return dot(c1s, m) >= 0 && dot(c1s, cross(s, c2)) >= 0;
-  }
-
-  /// The segment that holds the slave's projection, or the one that it is least outside of; then clamped to its sides.
-  /// @param previous segment touched at the last step, -1: none
-  /// @param beyond how far outside the projection lay, before it was clamped
-  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int node, int previous, double& beyond) const {
-    const int begin = contact.first_segment(node), end = contact.first_segment(node + 1);
-    int chosen = -1;
-    // Behind a sharp edge the nearest of those that hold it counts: another may be as deep as a whole segment is long.
-    const bool all = contact.folded_outwards;
-    double least = 1e300;
-    for (int s = begin; s < end && chosen < 0 && !all; ++s)
-      if (contact.segment_of_node(s) == previous && between_edges(slave, node, previous)) chosen = s;
-    for (int s = begin; s < end && chosen < 0 && !all; ++s)
-      if (between_edges(slave, node, contact.segment_of_node(s))) chosen = s;
-
-    SeenSegment best{};
-    SegmentPlace place{};
-    beyond = 1e300;
-    // First the chosen segment. Folds, warped and slender segments: the test with plane edges and the true projection can
-    // disagree, and on a disordered mesh the segment that holds the projection need not touch the closest node; so then
-    // those around that node, and those around their corners. One loop, so that one copy of the projection does.
-    // At last over the sides from what is least outside: slender segments can be farther from the closest node than that.
-    const int hops = 4 * (end - begin);
-    for (int turn = chosen < 0 ? -1 : -2; turn < hops + most_hops && beyond > on_segment; ++turn) {
-      int first = chosen, last = chosen + 1, next = -1;
-      if (turn >= hops) {
-        next = beyond_side(contact.surface(best.segment), place);
-        if (next < 0) break;
-        first = 0;
-        last = 1;
-      } else if (turn > -2) {
-        const int around = turn < 0 ? node : contact.segments(contact.segment_of_node(begin + turn / 4), turn % 4);
-        if (turn >= 0 && around == node) continue;
-        first = contact.first_segment(around);
-        last = contact.first_segment(around + 1);
       }
-      for (int s = first; s < last && (all || beyond > on_segment); ++s) {
-        const int segment = next >= 0 ? next : contact.segment_of_node(s);
-        if (turn > -2 && chosen >= 0 && segment == contact.segment_of_node(chosen)) continue;
-        const SeenSegment seen = see(slave, segment);
-        const SegmentPlace found = nearest_place(seen, {0, 0});
-        bool better = found.outside() < beyond;
-        if (all && found.outside() <= on_segment) {
-          const Vector3 offset = seen.point(found);
-          better = beyond > on_segment || dot(offset, offset) < least;
-          if (better) least = dot(offset, offset);
-        } else if (all && beyond <= on_segment) {
-          better = false;
-        }
-        if (better) {
-          beyond = found.outside();
-          best = seen;
-          place = found;
-        }
+      if (turn == 0) {
+        if (!at_side(place.place)) break;
+        there = best.point(place.place);
+        same_place = rounding * (norm(best.across) + norm(best.along));
+        limit = (std::sqrt(place.squared) + same_place) * (std::sqrt(place.squared) + same_place);
       }
-      if (next >= 0 && best.segment != next) break;
     }
-    return at(best, place.clamped());
+    beyond = place.outside;
+    Projection over;
+    if (over_mouth(slave, best, place.place, over, beyond)) return over;
+    Projection result = at(best, place.place);
+    if (alike > 1 && place.outside > 0 && contact.surface(best.segment).link[side_towards(nearest_place(best, {0, 0}))] >= 0) {
+      towards_side(result, weighted);
+      result.at_edge = norm(sum) < smooth_mean * alike;
+      beyond = 0;
+    }
+    return result;
   }
 
-  /// The same, with segment -1 where the slave stands beside the surface.
-  KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int node, int previous) const {
+  /// Where a slave is, with segment -1 where it stands beside the surface.
+  KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int start) const {
     double beyond;
-    Projection result = nearest(slave, node, previous, beyond);
+    Projection result = nearest(slave, start, beyond);
     if (beside(result, beyond)) result.segment = -1;
     return result;
   }
@@ -130,9 +102,94 @@ struct ContactSearch : ContactProjection {
     return found.gap < -outside_depth * norm(diagonal);
   }
 
-  /// Master node of a segment's corner next to a place on it: where a walk begins.
-  KOKKOS_INLINE_FUNCTION int corner_at(int segment, const SegmentPlace& p) const {
-    return contact.segments(segment, p.eta < 0 ? (p.xi < 0 ? 0 : 1) : (p.xi < 0 ? 3 : 2));
+  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
+  KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
+    const double limit = distance * distance;
+    const SegmentBoxes& boxes = contact.boxes;
+    const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
+    for (int b = 0; b < boxes.branch_count(); ++b) {
+      if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
+      const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
+      for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
+        if (squared_distance_from_box(boxes.leaf, l, slave) > limit) continue;
+        const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
+        for (int i = first; i < last && i < contact.segment_count; ++i) {
+          const SeenSegment seen = see(slave, boxes.order(i));
+          const double reach = norm(seen.across) + norm(seen.along) + norm(seen.twist) + distance;
+          if (dot(seen.middle, seen.middle) > reach * reach) continue;
+          if (dot(unit_normal(seen, {0, 0}), normal) < 0.5) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  KOKKOS_INLINE_FUNCTION static bool at_side(const SegmentPlace& p) { return p.outside() > -1e-9; }
+
+  KOKKOS_INLINE_FUNCTION static Vector3 unit_normal(const SeenSegment& seen, const SegmentPlace& p) {
+    const Vector3 n = cross(seen.slope_xi(p.eta), seen.slope_eta(p.xi));
+    return (1 / norm(n)) * n;
+  }
+
+  /// A segment's angle at a place: pi inside a side, that of the corner at a corner.
+  KOKKOS_INLINE_FUNCTION static double corner_angle(const SeenSegment& seen, const SegmentPlace& p) {
+    constexpr double half_turn = 3.14159265358979323846;
+    if (std::fmin(std::fabs(p.xi), std::fabs(p.eta)) < 1 - 1e-9) return half_turn;
+    const Vector3 a = seen.slope_xi(p.eta), b = seen.slope_eta(p.xi);
+    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+    return std::acos(std::fmax(-1.0, std::fmin(1.0, p.xi * p.eta > 0 ? cosine : -cosine)));
+  }
+
+  /// Over a side or corner where the slave's projection lies inside no segment, the way between it and the slave is the normal: so it
+  /// turns from that of one segment to that of the next. Which side of the surface the slave is on is told by the mean of the normals
+  /// around, weighted by angles (Baerentzen and Aanaes 2005).
+  KOKKOS_INLINE_FUNCTION static void towards_side(Projection& result, const Vector3& weighted) {
+    const double distance = norm(result.offset);
+    if (!(distance > 1e-12)) return;
+    const bool inside = dot(result.offset, weighted) > 0;
+    result.normal = ((inside ? 1 : -1) / distance) * result.offset;
+    result.gap = inside ? -distance : distance;
+  }
+
+  /// What is over a mouth is on the nearer lip, as if the lip went on: a crack, a slot or a gap that is narrower than what slides over
+  /// it is crossed. So is what has sunk in beside the wall under the lip.
+  KOKKOS_INLINE_FUNCTION bool over_mouth(const Vector3& slave, const SeenSegment& nearest, const SegmentPlace& place, Projection& over,
+                                         double& beyond) const {
+    const Segment here = contact.surface(nearest.segment);
+    for (int side = 0; side < 4; ++side) {
+      int lip = -1, mouth = side;
+      if (here.has_mouth(side) && beyond_side(place, side) > -1e-9) {
+        lip = nearest.segment;
+      } else if (here.folds(side)) {
+        const Segment above = contact.surface(here.beyond(side));
+        for (int k = 0; k < 4; ++k)
+          if (above.has_mouth(k) && same_side(above, k, here, side)) {
+            lip = here.beyond(side);
+            mouth = k;
+          }
+      }
+      if (lip < 0) continue;
+      const SeenSegment seen = lip == nearest.segment ? nearest : see(slave, lip);
+      const SegmentPlace projected = nearest_place(seen, {0, 0});
+      if (!(beyond_side(projected, mouth) > 0)) continue;
+      double outside = -1;
+      for (int k = 0; k < 4; ++k)
+        if (k != mouth) outside = std::fmax(outside, beyond_side(projected, k));
+      // Past the mouth's end it is not the mouth that the slave is over.
+      if (outside > outside_tolerance) continue;
+      const Projection result = at(seen, projected.clamped());
+      if (lip != nearest.segment && result.gap > 0) continue;
+      over = result;
+      beyond = outside;
+      return true;
+    }
+    return false;
+  }
+
+  KOKKOS_INLINE_FUNCTION static bool same_side(const Segment& a, int i, const Segment& b, int j) {
+    const int a0 = a.node[i], a1 = a.node[(i + 1) % 4], b0 = b.node[j], b1 = b.node[(j + 1) % 4];
+    return (a0 == b0 && a1 == b1) || (a0 == b1 && a1 == b0);
   }
 };
 

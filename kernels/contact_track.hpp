@@ -9,9 +9,9 @@ namespace railwave {
 struct ContactTrack {
   enum Verdict {
     over_segment,  ///< the projection lies inside a segment
-    over_fold,     ///< in the wedge along the side of two segments where it lies inside neither
+    over_fold,     ///< outside, in the wedge along the side of two segments where it lies inside neither
     surely_apart,  ///< beyond the surface's end or over a convex corner, and outside all segments there
-    unknown        ///< always where the master is folded inwards: there more than one segment can hold a projection
+    unknown        ///< always where the way leads over a sharp fold or stops over a mouth
   };
 
   /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment
@@ -19,10 +19,9 @@ struct ContactTrack {
   KOKKOS_INLINE_FUNCTION static Verdict follow(const ContactProjection& search, const Vector3& slave, Projection& now,
                                                double& beyond) {
     beyond = 1e300;
-    if (search.contact.folded_inwards) return unknown;
     int segment = now.segment, from = -1;
     SegmentPlace place = now.place;
-    bool apart = true, arrived = false, came_over_side = false;
+    bool apart = true, arrived = false, came_over_side = false, mouth = false;
     for (int hop = 0; hop < 4 && !arrived; ++hop) {
       const SeenSegment seen = search.see(slave, segment);
       place = ContactProjection::nearest_place(seen, place);
@@ -34,42 +33,60 @@ struct ContactTrack {
       }
       if (outside <= ContactProjection::on_segment) return over_segment;
       apart = apart && here.gap > 0;
-      const int next = ContactProjection::beyond_side(search.contact.surface(segment), place);
+      const Segment around = search.contact.surface(segment);
+      const int side = ContactProjection::side_towards(place), next = around.beyond(side);
+      if (around.folds(side)) return unknown;
+      mouth = mouth || around.has_mouth(side);
       const bool over_side = std::fmin(std::fabs(place.xi), std::fabs(place.eta)) <= 1.0;
-      if (next >= 0 && next == from && over_side && came_over_side) return over_fold;
+      if (next >= 0 && next == from && over_side && came_over_side) return mouth || now.gap < 0 ? unknown : over_fold;
       arrived = next < 0 || next == from;
       came_over_side = over_side;
       from = segment;
       segment = next;
       place = {0, 0};
     }
-    return apart && arrived ? surely_apart : unknown;
+    return apart && arrived && !mouth ? surely_apart : unknown;
   }
 
-  /// Where a slave stands now; gap 1e300 where beside the surface. What ends being apart is searched anew, so that it
+  /// Where a slave stands now; no distance for a gap where beside the surface. What ends being apart is searched anew, so that it
   /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
   /// @param tracked, place where it was over the surface a step ago
   /// @param touched whether it was in contact then
+  /// @param near of its entry in the window
   KOKKOS_INLINE_FUNCTION static Projection where(const ContactSearch& search, const Vector3& slave, int tracked,
-                                                 const SegmentPlace& place, bool touched) {
+                                                 const SegmentPlace& place, bool touched, int near) {
     Projection now{};
     now.segment = tracked;
     now.place = place;
-    double beyond;
-    const auto verdict = follow(search, slave, now, beyond);
-    const bool over = verdict == over_segment;
+    double beyond = 1e300;
+    Verdict verdict = unknown;
+    if (touched || near != near_several_sheets) verdict = follow(search, slave, now, beyond);
     const bool begins = !touched && now.gap < 0 && beyond <= ContactSearch::outside_tolerance;
-    if (verdict == unknown || begins) {
-      double found_beyond;
-      const int start = search.corner_at(now.segment, now.place);
-      const Projection found = search.nearest(slave, search.closest_node(slave, start), touched ? tracked : -1, found_beyond);
-      if (!over || found_beyond <= ContactSearch::outside_tolerance) {
-        now = found;
-        beyond = found_beyond;
-      }
-    }
-    if (search.beside(now, beyond)) now.gap = 1e300;
+    if (verdict == unknown || begins) now = search.nearest(slave, now.segment, beyond);
+    if (search.beside(now, beyond)) now.gap = beside_surface;
     return now;
+  }
+};
+
+/// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since the node was
+/// last seen apart. What comes in from beside an open surface, or was in the body when it came to be looked at, is turned away
+/// until it has left.
+struct FirstTouch {
+  Array<const double* [3]> velocity;  ///< m/s, that led to the present positions
+  double elapsed;  ///< s since a node was last moved; 0: no motion has led here, and all is taken in
+
+  static constexpr double reserve = 1.25;          ///< on the motion
+  static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
+
+  KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, Projection& now) const {
+    if (!(now.gap < 0) || !(elapsed > 0)) return;
+    const double before = search.contact.gap(s);
+    if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
+    const Segment segment = search.contact.surface(now.segment);
+    Vector3 way = row(velocity, node);
+    for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * row(velocity, segment.node[k]);
+    const Vector3 diagonal = row(search.position, segment.node[2]) - row(search.position, segment.node[0]);
+    if (-now.gap > reserve * elapsed * norm(way) + rounding_share * norm(diagonal)) now.gap = turned_away;
   }
 };
 

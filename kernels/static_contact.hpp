@@ -21,7 +21,7 @@ struct AugmentedLaw : PlainContactLaw {
     return multiplier(s) - stiffness * now.gap;
   }
   KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& contact, int s, const Projection& now) const {
-    return !(now.gap < 1e299) || !(pressing(contact, s, 0, now, stiffness(contact, now.segment)) > 0);
+    return !is_distance(now.gap) || !(pressing(contact, s, 0, now, stiffness(contact, now.segment)) > 0);
   }
 };
 

@@ -79,6 +79,12 @@ Section contact_section() {
           .within(between(0, 1)),
       key("symmetric", &Contact::symmetric,
           "the master's nodes against the slave's faces as well, each with half the stiffness; neither surface then cuts into the other"),
+      key("bridged_gap", &Contact::bridged_gap,
+          "cracks, slots and gaps between faces of the master that are no wider are crossed: what slides or rolls over one presses on the nearer "
+          "side as if that went on")
+          .in("m")
+          .within(at_least(0))
+          .otherwise("one face of the slave, of its smallest ones; or four of them, but not over 1 mm"),
       key("close_gap", &Contact::close_gap,
           "before the run, the slave's part is moved along this direction until it first touches")
           .direction()

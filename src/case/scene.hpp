@@ -203,6 +203,10 @@ struct Constraint : Place {
 enum class ContactAlgorithm { penalty, multiplier };
 enum class ContactNormals { facet, smooth };
 
+/// m: cracks, slots and gaps in a master as wide as this are crossed, but none wider than four of the slave's smallest faces; those as
+/// wide as one always.
+inline constexpr double usual_bridged_gap = 1e-3;
+
 struct Contact : Place {
   std::string slave;               ///< `part.surface`
   std::string master;              ///< `part.surface`
@@ -216,6 +220,7 @@ struct Contact : Place {
   std::vector<std::array<double, 2>> penalty_growth;  ///< (penetration in m, factor on the spring's tangent stiffness); empty: linear
   double damping = 0;              ///< share of critical damping of the contact spring and the masses that it joins
   bool symmetric = false;          ///< the master's nodes against the slave's faces as well, each with half the stiffness
+  std::optional<double> bridged_gap;  ///< m, widest crack, slot or gap in the master that is crossed as if closed; absent: see usual_bridged_gap
   std::optional<Vec3> close_gap;   ///< the slave's part is moved along this direction until first touch, before the run
 
   bool falling_friction() const { return friction_decay > 0; }

@@ -10,6 +10,7 @@
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
+#include "model/link_segments.hpp"
 
 namespace railwave {
 namespace {
@@ -49,64 +50,30 @@ bool common(const std::vector<int>& a, const std::vector<int>& b) {
   return !shared.empty();
 }
 
-/// Cosine of the angle between two segments from which a fold counts as sharp: 60 degrees.
-constexpr double sharp_fold = 0.5;
-
-/// Outward normal, twice the area long, and the centre.
-struct Facet {
-  Vec3 normal{}, centre{};
-  Facet(const std::vector<Vec3>& x, const int (&corner)[4]) {
-    const Vec3 p = difference(x[corner[2]], x[corner[0]]), q = difference(x[corner[3]], x[corner[1]]);
-    normal = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-    for (int k = 0; k < 4; ++k)
-      for (int i = 0; i < 3; ++i) centre[i] += 0.25 * x[corner[k]][i];
-  }
-};
-
-bool sharp(const Facet& a, const Facet& b) {
-  return dot(a.normal, b.normal) < sharp_fold * std::sqrt(dot(a.normal, a.normal) * dot(b.normal, b.normal));
-}
-
-bool inwards(const Facet& a, const Facet& b) { return dot(a.normal, difference(b.centre, a.centre)) > 0; }
-
-/// The master's segments with their neighbours; whether sharp folds lie between them is noted in `arrays`.
-std::vector<Segment> linked_segments(const Assembly& assembly, const std::vector<Face>& master, ContactArrays& arrays) {
-  std::vector<Segment> segments;
-  std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
-  for (const Face& face : master) {
-    const auto corner = assembly.face_nodes(face);
-    Segment segment{};
-    for (int k = 0; k < 4; ++k) {
-      segment.node[k] = corner[k];
-      segment.neighbour[k] = -1;
-      const std::array<int, 2> ends{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])};
-      sides[ends].push_back({static_cast<int>(segments.size()), k});
-    }
-    segments.push_back(segment);
-  }
-  for (const auto& [ends, pair] : sides) {
-    // Where more than two segments meet there is no such thing as the neighbour.
-    if (pair.size() != 2) continue;
-    const auto& [a, b] = std::pair{pair[0], pair[1]};
-    segments[a[0]].neighbour[a[1]] = b[0];
-    segments[b[0]].neighbour[b[1]] = a[0];
-    const Facet first(assembly.nodes, segments[a[0]].node), second(assembly.nodes, segments[b[0]].node);
-    if (sharp(first, second)) (inwards(first, second) ? arrays.folded_inwards : arrays.folded_outwards) = true;
-  }
-  return segments;
-}
-
 /// Sum of the normals of a surface's facets around each of its nodes.
 std::map<int, Vec3> normals_at_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
   std::map<int, Vec3> normals;
   for (const Face& face : surface) {
     const auto corner = assembly.face_nodes(face);
-    const int corners[4] = {corner[0], corner[1], corner[2], corner[3]};
-    const Vec3 normal = Facet(assembly.nodes, corners).normal;
+    const auto& x = assembly.nodes;
+    const Vec3 normal = cross(difference(x[corner[2]], x[corner[0]]), difference(x[corner[3]], x[corner[1]]));
     for (int n : corner)
       for (int i = 0; i < 3; ++i) normals[n][i] += normal[i];
   }
   return normals;
+}
+
+/// m: a crack, slot or gap in the master as wide as that is crossed: what slides there is not let down between.
+double widest_mouth(const Model& model, const scene::Contact& contact, const std::vector<Face>& slave) {
+  if (contact.bridged_gap) return *contact.bridged_gap;
+  double smallest = 1e300;
+  for (const Face& face : slave) {
+    const auto corner = model.assembly.face_nodes(face);
+    double longest = 0;
+    for (int k = 0; k < 4; ++k) longest = std::max(longest, length(difference(model.assembly.nodes[corner[k]], model.assembly.nodes[corner[(k + 1) % 4]])));
+    smallest = std::min(smallest, longest);
+  }
+  return std::max(smallest, std::min(scene::usual_bridged_gap, 4 * smallest));
 }
 
 /// Cosine of the angle between the two surfaces' normals up to which a common node is the end of a seam: 120 degrees.
@@ -177,7 +144,13 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   arrays.first_segment = to_device("first segment", first);
   arrays.segment_of_node = to_device("segment of node", around);
   arrays.segment_stiffness = to_device("segment stiffness", pair.segment_stiffness);
-  arrays.surface = to_device("surface", linked_segments(assembly, master, arrays));
+  std::vector<std::array<int, 4>> corners;
+  for (const Face& face : master) {
+    const auto corner = assembly.face_nodes(face);
+    corners.push_back({corner[0], corner[1], corner[2], corner[3]});
+  }
+  arrays.surface = to_device("surface", link_segments(assembly.nodes, corners, widest_mouth(model, contact, slave)));
+  arrays.boxes = make_boxes(assembly.nodes, corners);
   arrays.tracked = Array<int*>("tracked", arrays.slave_count);
   arrays.place = Array<double* [2]>("place", arrays.slave_count);
   arrays.gap = Array<double*>("gap", arrays.slave_count);

@@ -141,9 +141,9 @@ struct PresentGap {
     const ContactArrays& contact = search.contact;
     const int s = entry.slave;
     const Vector3 slave = row(search.position, entry.node);
-    const int start = search.corner_at(contact.tracked(s), {contact.place(s, 0), contact.place(s, 1)});
-    const Projection found = search.locate(slave, search.closest_node(slave, start), -1);
-    gap(s) = found.segment < 0 ? 1e300 : found.gap;
+    if (gap(s) == turned_away) return;
+    const Projection found = search.locate(slave, contact.tracked(s));
+    gap(s) = found.segment < 0 ? beside_surface : found.gap;
   }
 };
 
@@ -266,7 +266,7 @@ ContactState contact_state(const Model& model, int contact) {
   state.slip_velocity.assign(3 * static_cast<std::size_t>(count), 0);
   state.slipping.assign(count, 0);
   for (int s = 0; s < count; ++s) {
-    if (gap(s) < 1e299) state.gap[s] = gap(s);
+    if (is_distance(gap(s))) state.gap[s] = gap(s);
     state.slipping[s] = now.status(s);
     if (now.status(s) == status_apart) continue;
     const Vec3 slip = slip_velocity(pair, now, state, s);

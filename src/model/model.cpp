@@ -83,7 +83,7 @@ void reset_to_start(Model& model) {
   for (auto& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
     Kokkos::deep_copy(contact.tracked, -1);
-    Kokkos::deep_copy(contact.gap, 1e300);
+    Kokkos::deep_copy(contact.gap, beside_surface);
     zero(pair.missed);
     zero(contact.place);
     zero(contact.normal_force);
@@ -94,6 +94,7 @@ void reset_to_start(Model& model) {
     zero(pair.multipliers.impact_energy);
     reset_contact_law(pair.law, contact.friction);
     pair.next_look = -1;
+    pair.boxed = false;
     pair.slaves_at_layout = {};
   }
   model.carried.begun = false;
@@ -134,7 +135,7 @@ std::size_t device_bytes(const Model& model) {
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
-                   c.surface, c.tracked, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
+                   c.surface, c.boxes.order, c.boxes.leaf, c.boxes.branch, c.tracked, c.place, c.gap, c.normal_force, c.tangential_force, c.status, c.friction_energy,
                    pair.multipliers.rows, pair.multipliers.crowd, pair.multipliers.way_since_stuck, pair.multipliers.impact_energy,
                    pair.law.growth.points, pair.law.friction_now, pair.law.damping_force, pair.law.damping_energy,
                    pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);

@@ -117,6 +117,7 @@ struct ContactPair {
   Array<double* [3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
   long next_look = -1;                 ///< step at which the window is looked at again
   long next_near_look = -1;            ///< step at which the nodes that can touch are picked out of it again
+  bool boxed = false;                  ///< the master's boxes hold until then
   long layouts = 0;                    ///< how often it was laid out
   long looks = 0;                      ///< how often it was looked at, the host waiting
   bool loaded = false;                 ///< loads or connectors act on its nodes

@@ -170,7 +170,7 @@ struct EnterOrLeave {
     }
     contact.tracked(s) = -1;
     contact.status(s) = status_apart;
-    contact.gap(s) = 1e300;
+    contact.gap(s) = beside_surface;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = contact.tangential_force(s, k) = 0;
   }
 };
@@ -238,29 +238,67 @@ double sudden_motion(const Model& model, const ContactPair& pair, const Instant&
   return sudden_share * fastest * instant.step;
 }
 
+long near_interval(const Instant& instant) { return instant.settling ? steps_between_near_looks_settling : steps_between_near_looks; }
+
+void lay_boxes(const Model& model, ContactPair& pair, const Instant& instant) {
+  const SegmentBoxes& boxes = pair.arrays.boxes;
+  const auto steps = static_cast<double>(near_interval(instant));
+  Kokkos::parallel_for("leaf_boxes", SpreadRange(0, boxes.leaf_count()),
+                       LeafBoxes{pair.arrays, model.nodes.position, model.nodes.velocity, steps * instant.step,
+                                 steps * sudden_motion(model, pair, instant)});
+  Kokkos::parallel_for("branch_boxes", SpreadRange(0, boxes.branch_count()), BranchBoxes{boxes});
+  pair.boxed = true;
+}
+
 }  // namespace
 
 void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   const bool look = model.step >= pair.next_look;
-  if (!look && model.step < pair.next_near_look) return;
+  // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
+  if (!look && model.step < pair.next_near_look) return pair.boxed ? void() : lay_boxes(model, pair, instant);
   const double sudden = sudden_motion(model, pair, instant);
+  const bool first = pair.layouts == 0 || instant.settling;
   if (look) renew_window(model, pair, instant.step, sudden);
-  const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  const long steps = near_interval(instant);
   pair.next_near_look = model.step + steps;
-  const double interval = static_cast<double>(steps) * instant.step;
+  lay_boxes(model, pair, instant);
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
-                                   interval, static_cast<double>(steps) * sudden, pair.missed});
+                                   static_cast<double>(steps) * instant.step, static_cast<double>(steps) * sudden, first, pair.missed});
 }
+
+FirstTouch first_touch(const Model& model, const Instant& instant) {
+  // A node at a slower pace of its own has moved for as long as that.
+  const long pace = 1L << (model.subcycling.levels - 1);
+  return {model.nodes.velocity, instant.settling ? 0.0 : static_cast<double>(pace) * instant.elapsed};
+}
+
+namespace {
+
+struct CountTurnedAway {
+  Array<const double*> gap;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s, int& count) const { count += gap(s) == turned_away ? 1 : 0; }
+};
+
+}  // namespace
 
 std::vector<std::string> late_contacts(const Model& model) {
   std::vector<std::string> lines;
-  for (const ContactPair& pair : model.contacts)
+  for (const ContactPair& pair : model.contacts) {
+    int inside = 0;
+    Kokkos::parallel_reduce("turned_away", Range(0, pair.arrays.slave_count), CountTurnedAway{pair.arrays.gap}, inside);
+    if (inside > 0)
+      lines.push_back(fmt::format("contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
+                                  "beside its surface {}, not through it; name the faces that they came through in the contact too "
+                                  "(the whole surface of a part is its `exterior`)",
+                                  pair.contact->name, inside, pair.reversed ? pair.contact->master : pair.contact->slave,
+                                  pair.reversed ? pair.contact->slave : pair.contact->master));
     if (const int late = to_host(pair.missed)(0); late > 0)
       lines.push_back(fmt::format("contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
                                   "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
                                   pair.contact->name, late, steps_between_near_looks));
+  }
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact_track.hpp"
 #include "model/model.hpp"
 #include "solve/stages.hpp"
 
@@ -11,7 +12,11 @@ namespace railwave {
 /// are surely apart, so the result does not depend on how often either is done.
 void keep_window(Model& model, ContactPair& pair, const Instant& instant);
 
-/// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen.
+/// What a node that begins to touch is judged by at an instant.
+FirstTouch first_touch(const Model& model, const Instant& instant);
+
+/// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen; and for each
+/// of which nodes are in the other body without having come in through its surface.
 std::vector<std::string> late_contacts(const Model& model);
 
 }  // namespace railwave

@@ -2,6 +2,7 @@
 
 #include "kernels/contact_force.hpp"
 #include "kernels/set_loads.hpp"
+#include "solve/contact_window.hpp"
 #include "solve/stages.hpp"
 
 namespace railwave {
@@ -28,8 +29,8 @@ SetLoads set_loads(const Model& model, const Instant& instant);
 ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant);
 
 template <bool Friction, class Normals = FacetNormals, class Law = PlainContactLaw>
-ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Law& law = {}) {
-  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra, law};
+ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Instant& instant, const Law& law = {}) {
+  return {ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.extra.sum, model.nodes.extra, first_touch(model, instant), law};
 }
 
 }  // namespace railwave

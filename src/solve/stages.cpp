@@ -142,11 +142,11 @@ Stage contact_stage(Model& model, ContactPair& pair) {
             const SpreadRange range(0, pair.window.count);
             if (pair.contact->normals == scene::ContactNormals::smooth)
               Kokkos::parallel_for("contact_force", range,
-                                   contact_force<Friction, SmoothNormals>(model, pair, contact_law(model, pair, instant)));
+                                   contact_force<Friction, SmoothNormals>(model, pair, instant, contact_law(model, pair, instant)));
             else if (pair.law.active)
-              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, contact_law(model, pair, instant)));
+              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant, contact_law(model, pair, instant)));
             else
-              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair));
+              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant));
           }};
 }
 

@@ -66,10 +66,10 @@ std::vector<double> pressing_forces(const ContactPair& pair) {
 }
 
 template <class Normals>
-void press_pair(const Model& model, const ContactPair& pair, const AugmentedLaw& law) {
+void press_pair(const Model& model, const ContactPair& pair, const Instant& instant, const AugmentedLaw& law) {
   const SpreadRange range(0, pair.window.count);
-  if (pair.arrays.friction > 0) Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, law));
-  else Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, law));
+  if (pair.arrays.friction > 0) Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, instant, law));
+  else Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, instant, law));
 }
 
 }  // namespace
@@ -120,8 +120,8 @@ void StaticContact::press() {
     if (pair.has_springs()) continue;
     keep_window(model_, pair, instant);
     const AugmentedLaw law(kept_[p].multiplier, stiffening);
-    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, law);
-    else press_pair<FacetNormals>(model_, pair, law);
+    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, instant, law);
+    else press_pair<FacetNormals>(model_, pair, instant, law);
   }
 }
 

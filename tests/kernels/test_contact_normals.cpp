@@ -32,7 +32,7 @@ struct Look {
   Array<Both*> found;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const Vector3 x = row(slave, i);
-    const Projection facet = search.locate(x, search.closest_node(x, 0), -1);
+    const Projection facet = search.locate(x, 0);
     found(i) = {facet, SmoothNormals::turned(search, x, facet)};
   }
 };

@@ -1,0 +1,170 @@
+#include "model/link_segments.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+
+#include "mesh/vectors.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Cosine of the angle between two segments from which a fold counts as sharp: 60 degrees.
+constexpr double sharp_fold = 0.5;
+/// Cosine of the angle up to which two lips are of one surface: 30 degrees.
+constexpr double one_surface = 0.866;
+/// Lips may overlap by this share of the widest mouth: the two sides of a closed crack are not quite where they were meshed.
+constexpr double overlap = 0.05;
+
+Vec3 scaled(double factor, const Vec3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
+Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+Vec3 unit(const Vec3& v) { return scaled(1 / length(v), v); }
+
+/// Outward unit normal, and the centre.
+struct Facet {
+  Vec3 normal{}, centre{};
+  Facet(const std::vector<Vec3>& x, const std::array<int, 4>& corner)
+      : normal(unit(cross(difference(x[corner[2]], x[corner[0]]), difference(x[corner[3]], x[corner[1]])))) {
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 3; ++i) centre[i] += 0.25 * x[corner[k]][i];
+  }
+};
+
+/// A side at which the surface ends or folds outwards.
+struct Rim {
+  int segment, side;
+  Vec3 from, way, middle, outward;  ///< m; `outward` is of unit length, in the segment's plane
+};
+
+/// m, from the middle of one to the nearest point of the other.
+Vec3 way_across(const Rim& a, const Rim& b) {
+  const double share = std::clamp(dot(difference(a.middle, b.from), b.way) / dot(b.way, b.way), 0.0, 1.0);
+  return difference(sum(b.from, scaled(share, b.way)), a.middle);
+}
+
+/// Gives rims that face each other to each other.
+void link_mouths(const std::vector<Facet>& facets, std::vector<Rim> rims, double widest, std::vector<Segment>& segments) {
+  if (rims.size() < 2) return;
+  // Those that can be near each other are near along the longest axis.
+  Vec3 low = rims.front().middle, high = low;
+  double longest = 0;
+  for (const Rim& rim : rims) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], rim.middle[i]);
+      high[i] = std::max(high[i], rim.middle[i]);
+    }
+    longest = std::max(longest, length(rim.way));
+  }
+  const Vec3 extent = difference(high, low);
+  const auto axis = static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
+  std::stable_sort(rims.begin(), rims.end(), [axis](const Rim& a, const Rim& b) { return a.middle[axis] < b.middle[axis]; });
+  const double limit = widest * (1 + 1e-6), window = limit + longest;
+  std::size_t begin = 0;
+  for (std::size_t r = 0; r < rims.size(); ++r) {
+    const Rim& rim = rims[r];
+    while (rims[begin].middle[axis] < rim.middle[axis] - window) ++begin;
+    double least = limit;
+    int across = -1;
+    for (std::size_t o = begin; o < rims.size() && rims[o].middle[axis] <= rim.middle[axis] + window; ++o) {
+      const Rim& other = rims[o];
+      if (other.segment == rim.segment || dot(rim.outward, other.outward) > -0.5) continue;
+      if (dot(facets[rim.segment].normal, facets[other.segment].normal) < one_surface) continue;
+      const Vec3 way = way_across(rim, other);
+      const double distance = length(way);
+      if (distance > least || dot(way, rim.outward) < -overlap * limit) continue;
+      if (distance == least && across >= 0 && across < other.segment) continue;
+      least = distance;
+      across = other.segment;
+    }
+    if (across >= 0) segments[rim.segment].link[rim.side] = across | Segment::over_mouth;
+  }
+}
+
+/// The bits of a number of 21 with two zeros between.
+std::uint64_t spread(std::uint64_t bits) {
+  std::uint64_t result = 0;
+  for (int i = 0; i < 21; ++i) result |= (bits >> i & 1) << 3 * i;
+  return result;
+}
+
+}  // namespace
+
+std::vector<Segment> link_segments(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& corners, double widest_mouth) {
+  std::vector<Segment> segments;
+  std::vector<Facet> facets;
+  std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
+  for (const auto& corner : corners) {
+    Segment segment{};
+    for (int k = 0; k < 4; ++k) {
+      segment.node[k] = corner[k];
+      segment.link[k] = -1;
+      const std::array<int, 2> ends{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])};
+      sides[ends].push_back({static_cast<int>(segments.size()), k});
+    }
+    segments.push_back(segment);
+    facets.emplace_back(nodes, corner);
+  }
+  std::vector<Rim> rims;
+  const auto add_rim = [&](const std::array<int, 2>& place) {
+    const auto [s, k] = place;
+    const Vec3 &a = nodes[corners[s][k]], &b = nodes[corners[s][(k + 1) % 4]];
+    const Vec3 way = difference(b, a);
+    if (!(length(way) > 0)) return;
+    rims.push_back({s, k, a, way, sum(a, scaled(0.5, way)), unit(cross(way, facets[s].normal))});
+  };
+  for (const auto& [ends, pair] : sides) {
+    // Where more than two segments meet there is no such thing as the neighbour.
+    if (pair.size() == 1) add_rim(pair[0]);
+    if (pair.size() != 2) continue;
+    const auto &a = pair[0], &b = pair[1];
+    const Facet &first = facets[a[0]], &second = facets[b[0]];
+    const bool folds = dot(first.normal, second.normal) < sharp_fold;
+    const int mark = folds ? Segment::over_fold : 0;
+    segments[a[0]].link[a[1]] = b[0] | mark;
+    segments[b[0]].link[b[1]] = a[0] | mark;
+    if (folds && dot(first.normal, difference(second.centre, first.centre)) < 0) {
+      add_rim(a);
+      add_rim(b);
+    }
+  }
+  link_mouths(facets, std::move(rims), widest_mouth, segments);
+  return segments;
+}
+
+SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& segments) {
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+  std::vector<Vec3> centres;
+  for (const auto& corner : segments) {
+    Vec3 centre{};
+    for (int k = 0; k < 4; ++k)
+      for (int i = 0; i < 3; ++i) centre[i] += 0.25 * nodes[corner[k]][i];
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], centre[i]);
+      high[i] = std::max(high[i], centre[i]);
+    }
+    centres.push_back(centre);
+  }
+  const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2], 1e-300});
+  // Along Morton's curve.
+  std::vector<std::uint64_t> code;
+  for (const Vec3& c : centres) {
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 3; ++i) bits |= spread(static_cast<std::uint64_t>((c[i] - low[i]) / extent * ((1 << 21) - 1))) << i;
+    code.push_back(bits);
+  }
+  std::vector<int> order(segments.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&code](int a, int b) { return code[a] < code[b]; });
+  const std::size_t leaves = (segments.size() + SegmentBoxes::leaf_size - 1) / SegmentBoxes::leaf_size;
+  const std::size_t branches = (leaves + SegmentBoxes::branch_size - 1) / SegmentBoxes::branch_size;
+  SegmentBoxes boxes;
+  boxes.order = to_device("order of segments", order);
+  boxes.leaf = Array<double* [6]>("leaf boxes", leaves);
+  boxes.branch = Array<double* [6]>("branch boxes", branches);
+  return boxes;
+}
+
+}  // namespace railwave

@@ -6,16 +6,25 @@ namespace railwave {
 
 /// What a step must know of a master segment, in two 16-byte loads. Its sides are eta = -1, xi = 1, eta = 1, xi = -1.
 struct alignas(16) Segment {
-  int node[4];  ///< model node numbers, turned outwards
-  int link[4];  ///< by side: the segment beyond it with what lies between; -1: the surface ends there
+  int node[4];  ///< corners, turned outwards: model node numbers, or -1 - the number of a MouthCorner
+  int link[4];  ///< by side: the segment beyond it, marked where the surface folds; -1: the surface ends there
 
-  static constexpr int over_fold = 1 << 29;   ///< in a link: the surface folds by 60 degrees or more there
-  static constexpr int over_mouth = 1 << 30;  ///< in a link: a crack, slot or gap is between, which what slides there crosses
+  static constexpr int over_fold = 1 << 30;  ///< in a link: the surface folds by 60 degrees or more there
 
   /// The segment beyond a side, -1: none.
-  KOKKOS_INLINE_FUNCTION int beyond(int side) const { return link[side] < 0 ? -1 : link[side] & ~(over_fold | over_mouth); }
+  KOKKOS_INLINE_FUNCTION int beyond(int side) const { return link[side] < 0 ? -1 : link[side] & ~over_fold; }
   KOKKOS_INLINE_FUNCTION bool folds(int side) const { return link[side] >= 0 && (link[side] & over_fold) != 0; }
-  KOKKOS_INLINE_FUNCTION bool has_mouth(int side) const { return link[side] >= 0 && (link[side] & over_mouth) != 0; }
+};
+
+/// A corner at the mouth of a crack, slot or gap that is crossed: half of a node of this lip, half of the place of the other lip that is
+/// nearest, between two nodes. Both lips meet there, so that the surface goes on from one to the other without a step, what presses
+/// there presses on both, and no energy is lost over the mouth.
+struct alignas(16) MouthCorner {
+  static constexpr int pieces = 3;
+  int node[pieces];       ///< of the model: of this lip, then two of the other
+  int master[pieces];     ///< the same as master nodes
+  double share[pieces];   ///< where the lips are together: one half; what the other two have of the other half
+  double widest;          ///< m; from that to twice that between the lips, the corner goes back to its node
 };
 
 /// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of sixteen
@@ -41,8 +50,12 @@ struct ContactArrays {
   Array<int*> first_segment;           ///< master_count + 1
   Array<int*> segment_of_node;         ///< segments around a master node
   Array<Segment*> surface;             ///< the same segments by model node numbers, with their neighbours
+  Array<MouthCorner*> mouth_corners;
   SegmentBoxes boxes;
   Array<double*> segment_stiffness;    ///< N/m, eq. 2.26d
+
+  /// A corner's node; at a mouth that of its own lip.
+  KOKKOS_INLINE_FUNCTION int node_of(int corner) const { return corner >= 0 ? corner : mouth_corners(-1 - corner).node[0]; }
 
   /// What the pair does now, by slave node.
   Array<int*> tracked;                 ///< segment that the node was last seen over, touched or not; -1: none yet

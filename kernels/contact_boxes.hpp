@@ -1,18 +1,19 @@
 #pragma once
 
-#include "kernels/contact_arrays.hpp"
+#include "kernels/contact_projection.hpp"
 
 namespace railwave {
 
 /// Boxes around the leaves of SegmentBoxes: where their segments are and can be until the next look, at their present speeds and a
 /// quarter more, and `sudden` for what waves and loads can add.
 struct LeafBoxes {
-  ContactArrays contact;
-  Array<const double* [3]> position, velocity;
+  ContactProjection surface;
+  Array<const double* [3]> velocity;
   double interval;  ///< s until the next look
   double sudden;    ///< m
 
   KOKKOS_INLINE_FUNCTION void operator()(const int l) const {
+    const ContactArrays& contact = surface.contact;
     const SegmentBoxes& boxes = contact.boxes;
     double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, fastest = 0;
     const int first = l * SegmentBoxes::leaf_size, beyond = first + SegmentBoxes::leaf_size;
@@ -20,7 +21,7 @@ struct LeafBoxes {
     for (int i = first; i < end; ++i) {
       const Segment segment = contact.surface(boxes.order(i));
       for (int k = 0; k < 4; ++k) {
-        const Vector3 x = row(position, segment.node[k]), v = row(velocity, segment.node[k]);
+        const Vector3 x = surface.at_corner(surface.position, segment.node[k]), v = surface.at_corner(velocity, segment.node[k]);
         fastest = std::fmax(fastest, dot(v, v));
         for (int c = 0; c < 3; ++c) {
           low[c] = std::fmin(low[c], x[c]);

@@ -103,7 +103,11 @@ struct ContactForce {
   KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now, const Vector3& force) const {
     const int slave_row = extra_row(node);
     int master_row[4];
-    for (int k = 0; k < 4; ++k) master_row[k] = extra_row(segment.node[k]);
+    bool at_mouth = false;
+    for (int k = 0; k < 4; ++k) {
+      at_mouth = at_mouth || segment.node[k] < 0;
+      master_row[k] = segment.node[k] < 0 ? -1 : extra_row(segment.node[k]);
+    }
     const Vector3 quanta = extra.in_quanta(force);
     const FixedForce whole = extra.fixed(quanta);
     FixedForce reaction[4], left = whole;
@@ -112,7 +116,25 @@ struct ContactForce {
       for (int c = 0; c < 3; ++c) left.quanta[c] -= reaction[k].quanta[c];
     }
     extra.add(slave_row, whole);
-    for (int k = 0; k < 4; ++k) extra.subtract(master_row[k], reaction[k]);
+    for (int k = 0; k < 4; ++k)
+      if (master_row[k] >= 0) extra.subtract(master_row[k], reaction[k]);
+    if (at_mouth)
+      for (int k = 0; k < 4; ++k)
+        if (segment.node[k] < 0) push_mouth(search.contact.mouth_corners(-1 - segment.node[k]), reaction[k]);
+  }
+
+  /// A corner's share of the reaction goes to both lips.
+  KOKKOS_INLINE_FUNCTION void push_mouth(const MouthCorner& mouth, const FixedForce& reaction) const {
+    double share[MouthCorner::pieces];
+    search.shares_of(mouth, share);
+    const Vector3 quanta{{static_cast<double>(reaction.quanta[0]), static_cast<double>(reaction.quanta[1]), static_cast<double>(reaction.quanta[2])}};
+    FixedForce left = reaction;
+    for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
+      const FixedForce part = extra.fixed(share[piece] * quanta);
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
+      extra.subtract(extra_row(mouth.node[piece]), part);
+    }
+    extra.subtract(extra_row(mouth.node[0]), left);
   }
 };
 

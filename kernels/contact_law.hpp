@@ -110,8 +110,8 @@ struct ContactLaw {
     double inverse_mass = 1.0 / mass(node);
     for (int k = 0; k < 4; ++k) {
       const double share = segment_shape(k, now.place.xi, now.place.eta);
-      relative = relative - share * row(velocity, segment.node[k]);
-      inverse_mass += share * share / mass(segment.node[k]);
+      relative = relative - share * row(velocity, contact.node_of(segment.node[k]));
+      inverse_mass += share * share / mass(contact.node_of(segment.node[k]));
     }
     return {-dot(relative, now.normal), inverse_mass};
   }

@@ -43,7 +43,7 @@ struct ContactLook {
         contact.gap(s) = through ? found.gap : turned_away;
         if (through) Kokkos::atomic_add(&missed(0), 1);
       }
-      const double tolerance = ContactSearch::outside_tolerance * norm(diagonal_of(found.segment));
+      const double tolerance = ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
       // A NaN is near.
       if (!penetrating && norm(found.offset) > far + tolerance) entry.near = 0;
       else if (search.several_sheets(slave, found, norm(found.offset) + 2 * far)) entry.near = near_several_sheets;
@@ -56,13 +56,8 @@ struct ContactLook {
   KOKKOS_INLINE_FUNCTION double reach(int node, int segment) const {
     const Segment master = search.contact.surface(segment);
     double speed = 0;
-    for (int k = 0; k < 4; ++k) speed = std::fmax(speed, norm(row(velocity, master.node[k])));
+    for (int k = 0; k < 4; ++k) speed = std::fmax(speed, norm(search.at_corner(velocity, master.node[k])));
     return 1.25 * interval * (speed + norm(row(velocity, node))) + sudden;
-  }
-
-  KOKKOS_INLINE_FUNCTION Vector3 diagonal_of(int segment) const {
-    const Segment master = search.contact.surface(segment);
-    return row(search.position, master.node[2]) - row(search.position, master.node[0]);
   }
 };
 

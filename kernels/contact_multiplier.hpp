@@ -66,7 +66,8 @@ struct ContactMultiplier {
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Foresee& /*phase*/, const int i) const {
-    if (i < nodes_of_multiplier * window.near_count(0)) foresee(window.entries(window.near(i / nodes_of_multiplier)).slave, i % nodes_of_multiplier);
+    const int most = multipliers.most_nodes;
+    if (i < most * window.near_count(0)) foresee(window.entries(window.near(i / most)).slave, i % most);
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
@@ -90,8 +91,7 @@ struct ContactMultiplier {
       contact.place(s, 1) = now.place.eta;
     }
     const Segment segment = contact.surface(now.segment);
-    const Vector3 diagonal = row(search.position, segment.node[2]) - row(search.position, segment.node[0]);
-    r.active = now.gap < near_share * norm(diagonal) || (touched && is_distance(now.gap));
+    r.active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
     r.force = r.pending = Vector3{{0, 0, 0}};
     r.pressing = r.compliance = 0;
     r.slips = 1;
@@ -99,10 +99,17 @@ struct ContactMultiplier {
 
     r.node[0] = near.node;
     r.weight[0] = 1;
+    r.count = 1;
     for (int k = 0; k < 4; ++k) {
-      r.node[k + 1] = segment.node[k];
-      r.weight[k + 1] = -segment_shape(k, now.place.xi, now.place.eta);
-      Kokkos::atomic_add(&multipliers.crowd(contact.segments(now.segment, k)), crowd_share(r.weight[k + 1]));
+      const double weight = -segment_shape(k, now.place.xi, now.place.eta);
+      if (segment.node[k] >= 0) {
+        add_node(r, segment.node[k], contact.segments(now.segment, k), weight);
+        continue;
+      }
+      const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
+      double share[MouthCorner::pieces];
+      search.shares_of(mouth, share);
+      for (int piece = 0; piece < MouthCorner::pieces; ++piece) add_node(r, mouth.node[piece], mouth.master[piece], share[piece] * weight);
     }
     r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
@@ -123,10 +130,18 @@ struct ContactMultiplier {
     r.force = r.pending;
   }
 
+  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, int master, double weight) const {
+    r.node[r.count] = node;
+    r.master[r.count] = master;
+    r.weight[r.count] = weight;
+    ++r.count;
+    Kokkos::atomic_add(&multipliers.crowd(master), crowd_share(weight));
+  }
+
   /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its own.
   KOKKOS_INLINE_FUNCTION void foresee(const int s, const int k) const {
     MultiplierRow& r = multipliers.rows(s);
-    if (r.active == 0) return;
+    if (r.active == 0 || k >= r.count) return;
     r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
     r.compliances[k] = free_motion.compliance(r.node[k]);
     r.foreseen[k] = free_motion(r.node[k]) - movement(r, k);
@@ -142,8 +157,8 @@ struct ContactMultiplier {
     const FixedForce whole = extra.fixed(quanta);
     FixedForce left = whole;
     extra.add(r.row[0], whole);
-    for (int k = 1; k < nodes_of_multiplier; ++k) {
-      const FixedForce share = k < 4 ? extra.fixed(-r.weight[k] * quanta) : left;
+    for (int k = 1; k < r.count; ++k) {
+      const FixedForce share = k + 1 < r.count ? extra.fixed(-r.weight[k] * quanta) : left;
       for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
       extra.subtract(r.row[k], share);
     }
@@ -155,14 +170,14 @@ struct ContactMultiplier {
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0) return;
     if (r.compliance == 0) {
-      for (int k = 0; k < nodes_of_multiplier; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
+      for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
       r.compliance = r.compliances[0];
-      for (int k = 1; k < nodes_of_multiplier; ++k)
+      for (int k = 1; k < r.count; ++k)
         r.compliance -= r.weight[k] * r.compliances[k] * crowd_quantum *
-                        static_cast<double>(multipliers.crowd(contact.segments(contact.tracked(s), k - 1)));
+                        static_cast<double>(multipliers.crowd(r.master[k]));
     }
     Vector3 moves = r.free;
-    for (int k = 0; k < nodes_of_multiplier; ++k) moves = moves + r.weight[k] * movement(r, k);
+    for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
     const double opening = dot(moves, r.normal);
     const double pressing = std::fmax(0.0, r.pressing - (r.gap + opening) / r.compliance);
     Vector3 force = pressing * r.normal;
@@ -186,8 +201,8 @@ struct ContactMultiplier {
     const MultiplierRow& r = multipliers.rows(s);
     push(r);
     if (r.active != 0)
-      for (int k = 0; k < 4; ++k)
-        Kokkos::atomic_add(&multipliers.crowd(contact.segments(contact.tracked(s), k)), std::uint64_t{0} - crowd_share(r.weight[k + 1]));
+      for (int k = 1; k < r.count; ++k)
+        Kokkos::atomic_add(&multipliers.crowd(r.master[k]), std::uint64_t{0} - crowd_share(r.weight[k]));
     const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
     const bool closes = is_distance(before) && is_distance(r.gap);
     if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);

@@ -67,7 +67,7 @@ struct SmoothNormals {
   /// Outwards, as long as the segment's area twice.
   KOKKOS_INLINE_FUNCTION static Vector3 area_of(const ContactSearch& search, int segment) {
     const Segment s = search.contact.surface(segment);
-    return cross(row(search.position, s.node[2]) - row(search.position, s.node[0]), row(search.position, s.node[3]) - row(search.position, s.node[1]));
+    return cross(search.diagonal(s), search.at_corner(search.position, s.node[3]) - search.at_corner(search.position, s.node[1]));
   }
 
   /// Unit normal at a segment's corner.

@@ -53,10 +53,35 @@ struct ContactProjection {
 
   static constexpr double on_segment = 1e-12;  ///< `outside` up to this is rounding
 
+  /// What the nodes of a mouth's corner have of it.
+  KOKKOS_INLINE_FUNCTION void shares_of(const MouthCorner& mouth, double (&share)[MouthCorner::pieces]) const {
+    const double half = mouth.share[1] + mouth.share[2];
+    const Vector3 way = (mouth.share[1] / half) * row(position, mouth.node[1]) + (mouth.share[2] / half) * row(position, mouth.node[2]) -
+                        row(position, mouth.node[0]);
+    const double together = std::fmax(0.0, std::fmin(1.0, 2 - norm(way) / mouth.widest));
+    share[1] = together * mouth.share[1];
+    share[2] = together * mouth.share[2];
+    share[0] = 1 - share[1] - share[2];
+  }
+
+  /// A vector of the nodes, such as their positions, at a segment's corner.
+  KOKKOS_INLINE_FUNCTION Vector3 at_corner(const Array<const double* [3]>& values, int corner) const {
+    if (corner >= 0) return row(values, corner);
+    const MouthCorner mouth = contact.mouth_corners(-1 - corner);
+    double share[MouthCorner::pieces];
+    shares_of(mouth, share);
+    return share[0] * row(values, mouth.node[0]) + (share[1] * row(values, mouth.node[1]) + share[2] * row(values, mouth.node[2]));
+  }
+
+  /// From a segment's first corner to the opposite one, m.
+  KOKKOS_INLINE_FUNCTION Vector3 diagonal(const Segment& segment) const {
+    return at_corner(position, segment.node[2]) - at_corner(position, segment.node[0]);
+  }
+
   KOKKOS_INLINE_FUNCTION SeenSegment see(const Vector3& slave, int segment) const {
     const Segment s = contact.surface(segment);
     Vector3 corner[4];
-    for (int k = 0; k < 4; ++k) corner[k] = row(position, s.node[k]) - slave;
+    for (int k = 0; k < 4; ++k) corner[k] = at_corner(position, s.node[k]) - slave;
     const Vector3 low = corner[0] + corner[1], high = corner[3] + corner[2];
     const Vector3 low_way = corner[1] - corner[0], high_way = corner[2] - corner[3];
     return {segment, 0.25 * (low + high), 0.25 * (low_way + high_way), 0.25 * (high - low), 0.25 * (high_way - low_way)};
@@ -113,11 +138,6 @@ struct ContactProjection {
   KOKKOS_INLINE_FUNCTION static int side_towards(const SegmentPlace& p) {
     const bool along_xi = std::fabs(p.xi) >= std::fabs(p.eta);
     return along_xi ? (p.xi > 0 ? 1 : 3) : (p.eta > 0 ? 2 : 0);
-  }
-
-  /// How far a place lies beyond a side, in xi or eta.
-  KOKKOS_INLINE_FUNCTION static double beyond_side(const SegmentPlace& p, int side) {
-    return (side == 1 ? p.xi : side == 3 ? -p.xi : side == 2 ? p.eta : -p.eta) - 1.0;
   }
 
   KOKKOS_INLINE_FUNCTION static Projection at(const SeenSegment& seen, const SegmentPlace& place) {

@@ -21,8 +21,8 @@ struct ContactSearch : ContactProjection {
   static constexpr double smooth_mean = 0.866;
 
   /// @param start a segment from which the search may begin, best one that is near
-  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the surface goes on
-  ///               beyond a mouth, only what is beyond other sides counts
+  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the surface goes on,
+  ///               nothing is outside
   KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
     SeenSegment best = see(slave, start);
     // That segment's middle is no nearer than its nearest place.
@@ -73,8 +73,6 @@ struct ContactSearch : ContactProjection {
       }
     }
     beyond = place.outside;
-    Projection over;
-    if (over_mouth(slave, best, place.place, over, beyond)) return over;
     Projection result = at(best, place.place);
     if (alike > 1 && place.outside > 0 && contact.surface(best.segment).link[side_towards(nearest_place(best, {0, 0}))] >= 0) {
       towards_side(result, weighted);
@@ -97,9 +95,7 @@ struct ContactSearch : ContactProjection {
   KOKKOS_INLINE_FUNCTION bool beside(const Projection& found, double beyond) const {
     if (beyond <= on_segment) return false;
     if (beyond > outside_tolerance) return true;
-    const Segment segment = contact.surface(found.segment);
-    const Vector3 diagonal = row(position, segment.node[2]) - row(position, segment.node[0]);
-    return found.gap < -outside_depth * norm(diagonal);
+    return found.gap < -outside_depth * norm(diagonal(contact.surface(found.segment)));
   }
 
   /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
@@ -150,46 +146,6 @@ struct ContactSearch : ContactProjection {
     const bool inside = dot(result.offset, weighted) > 0;
     result.normal = ((inside ? 1 : -1) / distance) * result.offset;
     result.gap = inside ? -distance : distance;
-  }
-
-  /// What is over a mouth is on the nearer lip, as if the lip went on: a crack, a slot or a gap that is narrower than what slides over
-  /// it is crossed. So is what has sunk in beside the wall under the lip.
-  KOKKOS_INLINE_FUNCTION bool over_mouth(const Vector3& slave, const SeenSegment& nearest, const SegmentPlace& place, Projection& over,
-                                         double& beyond) const {
-    const Segment here = contact.surface(nearest.segment);
-    for (int side = 0; side < 4; ++side) {
-      int lip = -1, mouth = side;
-      if (here.has_mouth(side) && beyond_side(place, side) > -1e-9) {
-        lip = nearest.segment;
-      } else if (here.folds(side)) {
-        const Segment above = contact.surface(here.beyond(side));
-        for (int k = 0; k < 4; ++k)
-          if (above.has_mouth(k) && same_side(above, k, here, side)) {
-            lip = here.beyond(side);
-            mouth = k;
-          }
-      }
-      if (lip < 0) continue;
-      const SeenSegment seen = lip == nearest.segment ? nearest : see(slave, lip);
-      const SegmentPlace projected = nearest_place(seen, {0, 0});
-      if (!(beyond_side(projected, mouth) > 0)) continue;
-      double outside = -1;
-      for (int k = 0; k < 4; ++k)
-        if (k != mouth) outside = std::fmax(outside, beyond_side(projected, k));
-      // Past the mouth's end it is not the mouth that the slave is over.
-      if (outside > outside_tolerance) continue;
-      const Projection result = at(seen, projected.clamped());
-      if (lip != nearest.segment && result.gap > 0) continue;
-      over = result;
-      beyond = outside;
-      return true;
-    }
-    return false;
-  }
-
-  KOKKOS_INLINE_FUNCTION static bool same_side(const Segment& a, int i, const Segment& b, int j) {
-    const int a0 = a.node[i], a1 = a.node[(i + 1) % 4], b0 = b.node[j], b1 = b.node[(j + 1) % 4];
-    return (a0 == b0 && a1 == b1) || (a0 == b1 && a1 == b0);
   }
 };
 

@@ -11,7 +11,7 @@ struct ContactTrack {
     over_segment,  ///< the projection lies inside a segment
     over_fold,     ///< outside, in the wedge along the side of two segments where it lies inside neither
     surely_apart,  ///< beyond the surface's end or over a convex corner, and outside all segments there
-    unknown        ///< always where the way leads over a sharp fold or stops over a mouth
+    unknown        ///< always where the way leads over a sharp fold
   };
 
   /// @param now in: a place on a segment; out: the projection, clamped to the sides of its segment
@@ -21,7 +21,7 @@ struct ContactTrack {
     beyond = 1e300;
     int segment = now.segment, from = -1;
     SegmentPlace place = now.place;
-    bool apart = true, arrived = false, came_over_side = false, mouth = false;
+    bool apart = true, arrived = false, came_over_side = false;
     for (int hop = 0; hop < 4 && !arrived; ++hop) {
       const SeenSegment seen = search.see(slave, segment);
       place = ContactProjection::nearest_place(seen, place);
@@ -36,16 +36,15 @@ struct ContactTrack {
       const Segment around = search.contact.surface(segment);
       const int side = ContactProjection::side_towards(place), next = around.beyond(side);
       if (around.folds(side)) return unknown;
-      mouth = mouth || around.has_mouth(side);
       const bool over_side = std::fmin(std::fabs(place.xi), std::fabs(place.eta)) <= 1.0;
-      if (next >= 0 && next == from && over_side && came_over_side) return mouth || now.gap < 0 ? unknown : over_fold;
+      if (next >= 0 && next == from && over_side && came_over_side) return now.gap < 0 ? unknown : over_fold;
       arrived = next < 0 || next == from;
       came_over_side = over_side;
       from = segment;
       segment = next;
       place = {0, 0};
     }
-    return apart && arrived && !mouth ? surely_apart : unknown;
+    return apart && arrived ? surely_apart : unknown;
   }
 
   /// Where a slave stands now; no distance for a gap where beside the surface. What ends being apart is searched anew, so that it
@@ -84,9 +83,8 @@ struct FirstTouch {
     if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
     Vector3 way = row(velocity, node);
-    for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * row(velocity, segment.node[k]);
-    const Vector3 diagonal = row(search.position, segment.node[2]) - row(search.position, segment.node[0]);
-    if (-now.gap > reserve * elapsed * norm(way) + rounding_share * norm(diagonal)) now.gap = turned_away;
+    for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * search.at_corner(velocity, segment.node[k]);
+    if (-now.gap > reserve * elapsed * norm(way) + rounding_share * norm(search.diagonal(segment))) now.gap = turned_away;
   }
 };
 

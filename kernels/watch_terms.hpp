@@ -89,8 +89,8 @@ struct ContactWatch {
     value[1] = 0.5 * (changes(s) >> 1);
     if (touches == 0) return;
     const Segment segment = contact.surface(contact.tracked(s));
-    const Vector3 across = row(position, segment.node[2]) - row(position, segment.node[0]);
-    const Vector3 other = row(position, segment.node[3]) - row(position, segment.node[1]);
+    const Vector3 across = row(position, contact.node_of(segment.node[2])) - row(position, contact.node_of(segment.node[0]));
+    const Vector3 other = row(position, contact.node_of(segment.node[3])) - row(position, contact.node_of(segment.node[1]));
     value[0] = -contact.gap(s) / std::sqrt(0.5 * norm(cross(across, other)));
   }
 };

@@ -149,7 +149,12 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
     const auto corner = assembly.face_nodes(face);
     corners.push_back({corner[0], corner[1], corner[2], corner[3]});
   }
-  arrays.surface = to_device("surface", link_segments(assembly.nodes, corners, widest_mouth(model, contact, slave)));
+  LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(model, contact, slave));
+  for (MouthCorner& corner : linked.mouth_corners)
+    for (int p = 0; p < MouthCorner::pieces; ++p)
+      corner.master[p] = static_cast<int>(std::lower_bound(pair.master_nodes.begin(), pair.master_nodes.end(), corner.node[p]) - pair.master_nodes.begin());
+  arrays.surface = to_device("surface", linked.segments);
+  arrays.mouth_corners = to_device("mouth corners", linked.mouth_corners);
   arrays.boxes = make_boxes(assembly.nodes, corners);
   arrays.tracked = Array<int*>("tracked", arrays.slave_count);
   arrays.place = Array<double* [2]>("place", arrays.slave_count);
@@ -161,6 +166,7 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   if (contact.algorithm == scene::ContactAlgorithm::multiplier)
     pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
                         Array<std::uint64_t*>("crowd", masters), Array<double* [3]>("way since stuck", arrays.slave_count),
+                        linked.mouth_corners.empty() ? nodes_of_multiplier : most_nodes_of_multiplier,
                         Array<double*>("impact energy", arrays.slave_count)};
   pair.law = make_contact_law(contact, arrays.slave_count);
   pair.growth = largest_growth(contact);

@@ -36,18 +36,33 @@ struct Facet {
 /// A side at which the surface ends or folds outwards.
 struct Rim {
   int segment, side;
+  std::array<int, 2> ends;          ///< its nodes
   Vec3 from, way, middle, outward;  ///< m; `outward` is of unit length, in the segment's plane
 };
 
-/// m, from the middle of one to the nearest point of the other.
-Vec3 way_across(const Rim& a, const Rim& b) {
-  const double share = std::clamp(dot(difference(a.middle, b.from), b.way) / dot(b.way, b.way), 0.0, 1.0);
-  return difference(sum(b.from, scaled(share, b.way)), a.middle);
-}
+/// The place of a rim that is nearest to a point.
+struct OnRim {
+  double share;  ///< of the way from its first end to its second
+  Vec3 way;      ///< m, there
+  OnRim(const Vec3& point, const Rim& rim)
+      : share(std::clamp(dot(difference(point, rim.from), rim.way) / dot(rim.way, rim.way), 0.0, 1.0)),
+        way(difference(sum(rim.from, scaled(share, rim.way)), point)) {}
+};
 
-/// Gives rims that face each other to each other.
-void link_mouths(const std::vector<Facet>& facets, std::vector<Rim> rims, double widest, std::vector<Segment>& segments) {
-  if (rims.size() < 2) return;
+/// What is across the mouth from a node.
+struct Across {
+  double distance = 1e300;  ///< m
+  const Rim* rim = nullptr;
+  double share = 0;
+  Vec3 normal{};            ///< of the surface at the node
+};
+
+/// Links segments over mouths.
+/// @return by node of their rims what is across
+std::map<int, Across> link_mouths(const std::vector<Vec3>& nodes, const std::vector<Facet>& facets, std::vector<Rim>& rims, double widest,
+                                  std::vector<Segment>& segments) {
+  std::map<int, Across> found;
+  if (rims.size() < 2) return found;
   // Those that can be near each other are near along the longest axis.
   Vec3 low = rims.front().middle, high = low;
   double longest = 0;
@@ -72,15 +87,51 @@ void link_mouths(const std::vector<Facet>& facets, std::vector<Rim> rims, double
       const Rim& other = rims[o];
       if (other.segment == rim.segment || dot(rim.outward, other.outward) > -0.5) continue;
       if (dot(facets[rim.segment].normal, facets[other.segment].normal) < one_surface) continue;
-      const Vec3 way = way_across(rim, other);
+      const Vec3 way = OnRim(rim.middle, other).way;
       const double distance = length(way);
-      if (distance > least || dot(way, rim.outward) < -overlap * limit) continue;
-      if (distance == least && across >= 0 && across < other.segment) continue;
+      if (distance > limit || dot(way, rim.outward) < -overlap * limit) continue;
+      for (int end : rim.ends) {
+        const OnRim there(nodes[end], other);
+        Across& across_end = found[end];
+        if (length(there.way) < across_end.distance) across_end = {length(there.way), &other, there.share, facets[rim.segment].normal};
+      }
+      if (distance > least || (distance == least && across >= 0 && across < other.segment)) continue;
       least = distance;
       across = other.segment;
     }
-    if (across >= 0) segments[rim.segment].link[rim.side] = across | Segment::over_mouth;
+    if (across >= 0) segments[rim.segment].link[rim.side] = across;
   }
+  return found;
+}
+
+/// Puts corners of both lips in place of the nodes of one.
+std::vector<MouthCorner> join_lips(const std::map<int, Across>& across, const std::vector<Facet>& facets, double widest,
+                                   std::vector<Segment>& segments) {
+  std::vector<MouthCorner> corners;
+  std::map<int, int> number;
+  for (const auto& [node, there] : across) {
+    const auto& ends = there.rim->ends;
+    // At a crack's end both lips have the node.
+    if (node == ends[0] || node == ends[1]) continue;
+    number[node] = static_cast<int>(corners.size());
+    MouthCorner corner{};
+    const int pieces[MouthCorner::pieces] = {node, ends[0], ends[1]};
+    const double shares[MouthCorner::pieces] = {0.5, 0.5 * (1 - there.share), 0.5 * there.share};
+    for (int p = 0; p < MouthCorner::pieces; ++p) {
+      corner.node[p] = pieces[p];
+      corner.share[p] = shares[p];
+    }
+    corner.widest = widest;
+    corners.push_back(corner);
+  }
+  // Of the surface's faces around such a node, not of a wall below it.
+  for (std::size_t s = 0; s < segments.size(); ++s)
+    for (int& node : segments[s].node) {
+      const auto corner = number.find(node);
+      if (corner == number.end() || dot(facets[s].normal, across.at(node).normal) < sharp_fold) continue;
+      node = -1 - corner->second;
+    }
+  return corners;
 }
 
 /// The bits of a number of 21 with two zeros between.
@@ -92,7 +143,7 @@ std::uint64_t spread(std::uint64_t bits) {
 
 }  // namespace
 
-std::vector<Segment> link_segments(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& corners, double widest_mouth) {
+LinkedSegments link_segments(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& corners, double widest_mouth) {
   std::vector<Segment> segments;
   std::vector<Facet> facets;
   std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
@@ -113,7 +164,7 @@ std::vector<Segment> link_segments(const std::vector<Vec3>& nodes, const std::ve
     const Vec3 &a = nodes[corners[s][k]], &b = nodes[corners[s][(k + 1) % 4]];
     const Vec3 way = difference(b, a);
     if (!(length(way) > 0)) return;
-    rims.push_back({s, k, a, way, sum(a, scaled(0.5, way)), unit(cross(way, facets[s].normal))});
+    rims.push_back({s, k, {corners[s][k], corners[s][(k + 1) % 4]}, a, way, sum(a, scaled(0.5, way)), unit(cross(way, facets[s].normal))});
   };
   for (const auto& [ends, pair] : sides) {
     // Where more than two segments meet there is no such thing as the neighbour.
@@ -130,8 +181,9 @@ std::vector<Segment> link_segments(const std::vector<Vec3>& nodes, const std::ve
       add_rim(b);
     }
   }
-  link_mouths(facets, std::move(rims), widest_mouth, segments);
-  return segments;
+  const auto across = link_mouths(nodes, facets, rims, widest_mouth, segments);
+  std::vector<MouthCorner> mouth_corners = join_lips(across, facets, std::max(widest_mouth, 1e-300), segments);
+  return {std::move(segments), std::move(mouth_corners)};
 }
 
 SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& segments) {

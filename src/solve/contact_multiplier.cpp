@@ -39,19 +39,19 @@ AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const I
 }
 
 template <class Phase>
-void run_phase(const char* name, const AnyMultiplier& any, int threads_of_slave = 1) {
+void run_phase(const char* name, const AnyMultiplier& any, bool by_node = false) {
   std::visit(
       [&](const auto& multiplier) {
         // How many nodes can touch is known on the device only.
         using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-        Kokkos::parallel_for(name, Policy(0, threads_of_slave * multiplier.window.count), multiplier);
+        Kokkos::parallel_for(name, Policy(0, (by_node ? multiplier.multipliers.most_nodes : 1) * multiplier.window.count), multiplier);
       },
       any);
 }
 
 void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
   for (const auto& pair : pairs) run_phase<Multiplier::Begin>("multipliers_begin", pair);
-  for (const auto& pair : pairs) run_phase<Multiplier::Foresee>("multipliers_foresee", pair, nodes_of_multiplier);
+  for (const auto& pair : pairs) run_phase<Multiplier::Foresee>("multipliers_foresee", pair, true);
   for (const auto& pair : pairs) run_phase<Multiplier::Push>("multipliers_push", pair);
   for (int sweep = 1; sweep <= sweeps; ++sweep)
     for (const auto& pair : pairs) {

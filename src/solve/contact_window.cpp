@@ -244,7 +244,7 @@ void lay_boxes(const Model& model, ContactPair& pair, const Instant& instant) {
   const SegmentBoxes& boxes = pair.arrays.boxes;
   const auto steps = static_cast<double>(near_interval(instant));
   Kokkos::parallel_for("leaf_boxes", SpreadRange(0, boxes.leaf_count()),
-                       LeafBoxes{pair.arrays, model.nodes.position, model.nodes.velocity, steps * instant.step,
+                       LeafBoxes{{pair.arrays, model.nodes.position}, model.nodes.velocity, steps * instant.step,
                                  steps * sudden_motion(model, pair, instant)});
   Kokkos::parallel_for("branch_boxes", SpreadRange(0, boxes.branch_count()), BranchBoxes{boxes});
   pair.boxed = true;

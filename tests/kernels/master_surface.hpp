@@ -28,13 +28,15 @@ inline ContactSearch search_on(const std::vector<Point>& nodes, const std::vecto
   search.contact.master_nodes = to_device("master nodes", identity);
   search.contact.segments = to_device("segments", quads);
   search.contact.first_segment = to_device("first segment", first);
-  search.contact.surface = to_device("surface", link_segments(nodes, quads, widest_mouth));
+  const LinkedSegments linked = link_segments(nodes, quads, widest_mouth);
+  search.contact.surface = to_device("surface", linked.segments);
+  search.contact.mouth_corners = to_device("mouth corners", linked.mouth_corners);
   search.contact.boxes = make_boxes(nodes, quads);
   search.contact.segment_of_node = to_device("segment of node", around);
   search.position = to_device("position", nodes);
   const Array<double* [3]> at_rest("velocity", nodes.size());
   const SegmentBoxes& boxes = search.contact.boxes;
-  Kokkos::parallel_for("leaf_boxes", Range(0, boxes.leaf_count()), LeafBoxes{search.contact, search.position, at_rest, 0, 0});
+  Kokkos::parallel_for("leaf_boxes", Range(0, boxes.leaf_count()), LeafBoxes{search, at_rest, 0, 0});
   Kokkos::parallel_for("branch_boxes", Range(0, boxes.branch_count()), BranchBoxes{boxes});
   return search;
 }

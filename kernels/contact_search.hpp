@@ -74,7 +74,7 @@ struct ContactSearch : ContactProjection {
     }
     beyond = place.outside;
     Projection result = at(best, place.place);
-    if (alike > 1 && place.outside > 0 && contact.surface(best.segment).link[side_towards(nearest_place(best, {0, 0}))] >= 0) {
+    if (alike > 1 && place.outside > 0 && goes_on(contact.surface(best.segment), nearest_place(best, {0, 0}))) {
       towards_side(result, weighted);
       result.at_edge = norm(sum) < smooth_mean * alike;
       beyond = 0;
@@ -121,6 +121,14 @@ struct ContactSearch : ContactProjection {
   }
 
  private:
+  /// Whether the surface goes on beyond each of the sides that a place lies beyond.
+  KOKKOS_INLINE_FUNCTION static bool goes_on(const Segment& segment, const SegmentPlace& p) {
+    const double beyond[4] = {-p.eta - 1, p.xi - 1, p.eta - 1, -p.xi - 1};
+    for (int side = 0; side < 4; ++side)
+      if (beyond[side] > on_segment && segment.link[side] < 0) return false;
+    return true;
+  }
+
   KOKKOS_INLINE_FUNCTION static bool at_side(const SegmentPlace& p) { return p.outside() > -1e-9; }
 
   KOKKOS_INLINE_FUNCTION static Vector3 unit_normal(const SeenSegment& seen, const SegmentPlace& p) {

@@ -5,7 +5,7 @@
 namespace railwave {
 
 /// Boxes around the leaves of SegmentBoxes: where their segments are and can be until the next look, at their present speeds and a
-/// quarter more, and `sudden` for what waves and loads can add.
+/// quarter more, and `sudden` for what waves and loads can add; and how far beside them a node still counts as over them.
 struct LeafBoxes {
   ContactProjection surface;
   Array<const double* [3]> velocity;
@@ -15,11 +15,13 @@ struct LeafBoxes {
   KOKKOS_INLINE_FUNCTION void operator()(const int l) const {
     const ContactArrays& contact = surface.contact;
     const SegmentBoxes& boxes = contact.boxes;
-    double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, fastest = 0;
+    double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, fastest = 0, widest = 0;
     const int first = l * SegmentBoxes::leaf_size, beyond = first + SegmentBoxes::leaf_size;
     const int end = beyond < contact.segment_count ? beyond : contact.segment_count;
     for (int i = first; i < end; ++i) {
       const Segment segment = contact.surface(boxes.order(i));
+      const Vector3 diagonal = surface.diagonal(segment);
+      widest = std::fmax(widest, dot(diagonal, diagonal));
       for (int k = 0; k < 4; ++k) {
         const Vector3 x = surface.at_corner(surface.position, segment.node[k]), v = surface.at_corner(velocity, segment.node[k]);
         fastest = std::fmax(fastest, dot(v, v));
@@ -29,7 +31,7 @@ struct LeafBoxes {
         }
       }
     }
-    const double margin = 1.25 * interval * std::sqrt(fastest) + sudden;
+    const double margin = 1.25 * interval * std::sqrt(fastest) + sudden + ContactProjection::outside_tolerance * std::sqrt(widest);
     for (int c = 0; c < 3; ++c) {
       boxes.leaf(l, c) = low[c] - margin;
       boxes.leaf(l, 3 + c) = high[c] + margin;

@@ -23,8 +23,10 @@ struct ContactLook {
     const bool touching = contact.status(s) != status_apart;
     const bool was_near = entry.near != 0;
     entry.near = near_one_sheet;
-    if (!touching) {
-      const Vector3 slave = row(search.position, entry.node);
+    const Vector3 slave = row(search.position, entry.node);
+    if (!touching && !search.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
+      entry.near = 0;
+    } else if (!touching) {
       double beyond;
       const Projection found = search.nearest(slave, contact.tracked(s), beyond);
       contact.tracked(s) = found.segment;

@@ -52,6 +52,9 @@ struct ContactProjection {
   Array<const double* [3]> position;
 
   static constexpr double on_segment = 1e-12;  ///< `outside` up to this is rounding
+  /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface that ends there: the edges of
+  /// bodies of one size stay on each other while they bulge.
+  static constexpr double outside_tolerance = 0.05;
 
   /// What the nodes of a mouth's corner have of it.
   KOKKOS_INLINE_FUNCTION void shares_of(const MouthCorner& mouth, double (&share)[MouthCorner::pieces]) const {

@@ -10,10 +10,7 @@ namespace railwave {
 /// near, as at a common side, the one whose projection is least outside, then the first. The result does not depend on where
 /// the search begins.
 struct ContactSearch : ContactProjection {
-  /// A projection may lie this far outside a segment, in xi or eta, and still belong to the surface that ends there: the edges of
-  /// bodies of one size stay on each other while they bulge.
-  static constexpr double outside_tolerance = 0.05;
-  /// How deep it may then be, of the segment's diagonal: no sound contact is.
+  /// How deep a projection outside a segment may be, of the segment's diagonal: no sound contact is.
   static constexpr double outside_depth = 0.25;
   /// Of a segment's size: places no farther apart than that are one, found on several segments.
   static constexpr double rounding = 1e-12;
@@ -80,6 +77,19 @@ struct ContactSearch : ContactProjection {
       beyond = 0;
     }
     return result;
+  }
+
+  /// Whether any leaf's box is within a distance, m.
+  KOKKOS_INLINE_FUNCTION bool comes_within(const Vector3& slave, double distance) const {
+    const double limit = distance * distance;
+    const SegmentBoxes& boxes = contact.boxes;
+    for (int b = 0; b < boxes.branch_count(); ++b) {
+      if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
+      const int first = b * SegmentBoxes::branch_size, last = first + SegmentBoxes::branch_size;
+      for (int l = first; l < last && l < boxes.leaf_count(); ++l)
+        if (!(squared_distance_from_box(boxes.leaf, l, slave) > limit)) return true;
+    }
+    return false;
   }
 
   /// Where a slave is, with segment -1 where it stands beside the surface.

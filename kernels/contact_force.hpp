@@ -7,10 +7,57 @@
 
 namespace railwave {
 
+/// Takes reactions from the master's nodes.
+struct MasterReaction {
+  ContactProjection surface;
+  ExtraForceSum extra;
+  Array<const int*> extra_row;  ///< by model node
+
+  /// At a mouth's corner both lips have a share. Equal and opposite to the last bit: this lip takes what the other leaves.
+  KOKKOS_INLINE_FUNCTION void subtract(int corner, const FixedForce& reaction) const {
+    if (corner >= 0) return extra.subtract(extra_row(corner), reaction);
+    const MouthCorner mouth = surface.contact.mouth_corners(-1 - corner);
+    double share[MouthCorner::pieces];
+    surface.shares_of(mouth, share);
+    const Vector3 quanta{{static_cast<double>(reaction.quanta[0]), static_cast<double>(reaction.quanta[1]), static_cast<double>(reaction.quanta[2])}};
+    FixedForce left = reaction;
+    for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
+      const FixedForce part = extra.fixed(share[piece] * quanta);
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
+      extra.subtract(extra_row(mouth.node[piece]), part);
+    }
+    extra.subtract(extra_row(mouth.node[0]), left);
+  }
+};
+
+/// Takes a force's shares from the master's nodes, see SmoothNormals::reaction. Equal and opposite to the last bit.
+struct CurvedReaction : MasterReaction {
+  Segment segment;
+  Vector3 force;  ///< N on the slave
+
+  KOKKOS_INLINE_FUNCTION CurvedReaction(const MasterReaction& reaction, const Segment& of, const Vector3& on_slave)
+      : MasterReaction(reaction), segment(of), force(on_slave) {}
+
+  KOKKOS_INLINE_FUNCTION void corners(const Vector3 (&share)[4]) const {
+    FixedForce left = extra.fixed(extra.in_quanta(force));
+    for (int k = 0; k < 4; ++k) {
+      const FixedForce part = k < 3 ? extra.fixed(extra.in_quanta(share[k])) : left;
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
+      subtract(segment.node[k], part);
+    }
+  }
+  KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const {
+    const FixedForce part = extra.fixed(extra.in_quanta(share));
+    subtract(plus, part);
+    subtract(minus, {{-part.quanta[0], -part.quanta[1], -part.quanta[2]}});
+  }
+};
+
 /// Step (d) of the thesis's table 2.1 for one slave node: locate, project, penetrate, push, rub.
 /// Normal: penalty f = -l k n (eq. 2.26). Tangential: Coulomb with the stick trial f* = f_T - k de (eqs. 2.28), de the
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
-/// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27).
+/// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27); of curved segments by what each node does
+/// to the contact point.
 /// @tparam Law what presses and what bounds friction: see kernels/contact_law.hpp
 /// @tparam Normals along which it presses: see kernels/contact_normals.hpp
 template <bool Friction, class Law = PlainContactLaw, class Normals = FacetNormals>
@@ -62,7 +109,8 @@ struct ContactForce {
       force = force + tangential;
     }
     contact.status(s) = status;
-    push(entry.node, contact.surface(now.segment), now, force);
+    if constexpr (Normals::curved) push_curved(entry.node, now, force);
+    else push(entry.node, contact.surface(now.segment), now, force);
   }
 
   KOKKOS_INLINE_FUNCTION void part(int s, int previous) const {
@@ -84,7 +132,7 @@ struct ContactForce {
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
     if (previous >= 0) {
-      moved = now.offset - search.see(slave, previous).point(place);
+      moved = now.offset - Normals::point(search, slave, previous, place);
       held = row(contact.tangential_force, s);
     }
     Vector3 trial = held - stiffness * moved;
@@ -120,21 +168,14 @@ struct ContactForce {
       if (master_row[k] >= 0) extra.subtract(master_row[k], reaction[k]);
     if (at_mouth)
       for (int k = 0; k < 4; ++k)
-        if (segment.node[k] < 0) push_mouth(search.contact.mouth_corners(-1 - segment.node[k]), reaction[k]);
+        if (segment.node[k] < 0) MasterReaction{search, extra, extra_row}.subtract(segment.node[k], reaction[k]);
   }
 
-  /// A corner's share of the reaction goes to both lips.
-  KOKKOS_INLINE_FUNCTION void push_mouth(const MouthCorner& mouth, const FixedForce& reaction) const {
-    double share[MouthCorner::pieces];
-    search.shares_of(mouth, share);
-    const Vector3 quanta{{static_cast<double>(reaction.quanta[0]), static_cast<double>(reaction.quanta[1]), static_cast<double>(reaction.quanta[2])}};
-    FixedForce left = reaction;
-    for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
-      const FixedForce part = extra.fixed(share[piece] * quanta);
-      for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
-      extra.subtract(extra_row(mouth.node[piece]), part);
-    }
-    extra.subtract(extra_row(mouth.node[0]), left);
+  /// The same on a curved master, where nodes around the segment feel the force too.
+  KOKKOS_INLINE_FUNCTION void push_curved(int node, const Projection& now, const Vector3& force) const {
+    const Segment segment = search.contact.surface(now.segment);
+    extra.add(extra_row(node), extra.fixed(extra.in_quanta(force)));
+    Normals::reaction(search, now.segment, now.place, force, CurvedReaction({search, extra, extra_row}, segment, force));
   }
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/contact_projection.hpp"
+#include "kernels/contact_normals.hpp"
 
 namespace railwave {
 
@@ -61,6 +61,7 @@ struct ContactLaw {
   Array<const double*> mass;          ///< kg
   double damping;                     ///< share of critical damping now: none while a scene settles
   double elapsed;                     ///< s since the instant before; 0: there is none, or time has no meaning
+  Array<const double* [3]> position;  ///< m, of a pair with smooth normals; empty otherwise
 
   KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const { return contact.segment_stiffness(segment); }
   KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const { return !(now.gap < 0); }
@@ -113,6 +114,8 @@ struct ContactLaw {
       relative = relative - share * row(velocity, contact.node_of(segment.node[k]));
       inverse_mass += share * share / mass(contact.node_of(segment.node[k]));
     }
+    if (position.extent(0) != 0)
+      relative = row(velocity, node) - SmoothNormals::carried(ContactSearch{{contact, position}}, now.segment, now.place, velocity);
     return {-dot(relative, now.normal), inverse_mass};
   }
 

@@ -54,6 +54,7 @@ struct ContactMultiplier {
   FreeMotion free_motion;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
+  double elapsed = 0;  ///< s since the instant before; 0: there is none, or time has no meaning
 
   static constexpr double crowd_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
@@ -82,7 +83,9 @@ struct ContactMultiplier {
     if (!touched) first_touch.judge(search, s, near.node, now);
     now = Normals::turned(search, slave, now);
     MultiplierRow& r = multipliers.rows(s);
-    r.moved = touched ? now.offset - search.see(slave, tracked).point(place) : Vector3{{0, 0, 0}};
+    if constexpr (Normals::curved)
+      if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));
+    r.moved = touched ? now.offset - Normals::point(search, slave, tracked, place) : Vector3{{0, 0, 0}};
     r.normal = now.normal;
     r.gap = now.gap;
     if (now.segment >= 0) {
@@ -203,9 +206,14 @@ struct ContactMultiplier {
     if (r.active != 0)
       for (int k = 1; k < r.count; ++k)
         Kokkos::atomic_add(&multipliers.crowd(r.master[k]), std::uint64_t{0} - crowd_share(r.weight[k]));
-    const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
-    const bool closes = is_distance(before) && is_distance(r.gap);
-    if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
+    if constexpr (Normals::curved) {
+      const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
+      if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
+    } else {
+      const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
+      const bool closes = is_distance(before) && is_distance(r.gap);
+      if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
+    }
     if constexpr (Friction) {
       const Vector3 tangential = r.force - r.pressing * r.normal;
       contact.friction_energy(s) -= 0.5 * dot(row(contact.tangential_force, s) + tangential, r.moved);
@@ -214,6 +222,16 @@ struct ContactMultiplier {
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = r.pressing * r.normal[k];
     contact.gap(s) = r.gap;
     contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
+  }
+
+  /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does not tell: they bend
+  /// with the nodes around them, to which multipliers hand no force.
+  KOKKOS_INLINE_FUNCTION void book_work(int s, int node, int tracked, const SegmentPlace& place, const Vector3& force) const {
+    const Array<double* [3]>& velocity = free_motion.acceleration.force.nodes.velocity;
+    const Segment segment = search.contact.surface(tracked);
+    Vector3 relative = row(velocity, node);
+    for (int k = 0; k < 4; ++k) relative = relative - segment_shape(k, place.xi, place.eta) * search.at_corner(velocity, segment.node[k]);
+    multipliers.impact_energy(s) -= 0.5 * elapsed * dot(force, relative);
   }
 
   /// m, of one of a multiplier's nodes under the contact forces handed to it so far.

@@ -99,6 +99,7 @@ std::string expectation(const Key& key, bool with_unit) {
       return "a list of directions such as [\"x\", \"z\"]";
     case Kind::texts:
       return !key.choices.empty() ? "a list of " + alternatives(key.choices)
+             : key.may_be_one     ? "a name in quotes or a list of such"
              : named              ? "a list of names in quotes"
                                   : "a list of texts";
     case Kind::pairs:

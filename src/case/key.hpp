@@ -76,6 +76,7 @@ struct Key {
   std::vector<std::string> choices;
   std::vector<std::string> types;  ///< the section's `type`s that have this key; empty: all
   unsigned refers_to = refers_to_nothing;
+  bool may_be_one = false;  ///< of a list: one text alone stands for a list of it
 
   Key in(std::string the_unit) && { return unit = std::move(the_unit), std::move(*this); }
   Key within(Range allowed) && { return range = allowed, std::move(*this); }
@@ -89,6 +90,7 @@ struct Key {
   Key one_of(std::vector<std::string> allowed) && { return choices = std::move(allowed), std::move(*this); }
   Key only(std::vector<std::string> of_types) && { return types = std::move(of_types), std::move(*this); }
   Key names(unsigned references) && { return refers_to = references, std::move(*this); }
+  Key or_one() && { return may_be_one = true, std::move(*this); }
 
   bool belongs_to(const std::string& type) const {
     if (types.empty()) return true;
@@ -134,6 +136,12 @@ template <>
 struct AsValue<Flags3> : Same<Flags3, Kind::directions> {};
 template <>
 struct AsValue<Texts> : Same<Texts, Kind::texts> {};
+template <>
+struct AsValue<scene::SurfaceNames> {
+  static constexpr Kind kind = Kind::texts;
+  static scene::SurfaceNames from(const Value& value) { return scene::SurfaceNames(std::get<Texts>(value)); }
+  static Value to(const scene::SurfaceNames& field) { return field.list(); }
+};
 template <>
 struct AsValue<Pairs> : Same<Pairs, Kind::pairs> {};
 template <>

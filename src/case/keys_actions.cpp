@@ -50,7 +50,11 @@ Section contact_section() {
                                "Pairs of surfaces that may touch, with Coulomb friction.");
   section.keys = {
       key("slave", &Contact::slave, "surface whose nodes must not enter the other").names(surface).needed(),
-      key("master", &Contact::master, "surface whose faces the nodes meet").names(surface).needed(),
+      key("master", &Contact::master,
+          "surface whose faces the nodes meet; a list of several, such as the heads of two rails, is one surface and one contact")
+          .names(surface)
+          .or_one()
+          .needed(),
       key("friction", &Contact::friction, "Coulomb's coefficient; 0 leaves friction out; with friction_decay the one at rest")
           .within(between(0, 2)),
       key("dynamic_friction", &Contact::dynamic_friction,

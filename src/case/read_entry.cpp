@@ -142,7 +142,7 @@ class EntryReader : public EntryCheck {
       unsound_.insert(key.name);
       if (!reading_.complete || meant_.count(key.name) != 0) continue;
       const auto range = range_text(key.range);
-      const bool name = key.refers_to != refers_to_nothing && key.kind == Kind::text;
+      const bool name = key.refers_to != refers_to_nothing && (key.kind == Kind::text || key.may_be_one);
       complain(key.name, "is missing; must " +
                              (name ? "name " + reference_text(key.refers_to) : "be " + expectation(key)) +
                              (range.empty() ? "" : ", " + range));

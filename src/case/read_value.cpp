@@ -253,6 +253,10 @@ class Reader {
   }
 
   std::optional<Value> texts(const Node& node) const {
+    if (key_.may_be_one && node.type == Node::Type::text) {
+      if (node.text.empty()) return bad(node, "is empty, must be " + expectation(key_));
+      return Texts{node.text};
+    }
     if (node.type != Node::Type::list) return wrong(node);
     if (key_.required && node.children.empty()) return bad(node, "is empty, must be " + expectation(key_));
     Texts result;

@@ -147,7 +147,7 @@ std::string value_cell(const Key& key) {
   const bool several = key.kind == Kind::texts;
   if (!key.choices.empty()) return (several ? "list of " : "one of ") + code_list(key.choices);
   if (key.refers_to != refers_to_nothing)
-    return (several ? "list of names: " : "name of ") + reference_text(key.refers_to);
+    return (key.may_be_one ? "name or list of names: " : several ? "list of names: " : "name of ") + reference_text(key.refers_to);
   return expectation(key, false);
 }
 

@@ -70,7 +70,8 @@ Members value_schema(const Key& key) {
     case Kind::directions:
       return list_of({{"enum", json::texts({"x", "y", "z"})}}, "1", "3");
     case Kind::texts:
-      return list_of(text_schema(key), least, "");
+      if (!key.may_be_one) return list_of(text_schema(key), least, "");
+      return {{"anyOf", json::list({json::object(text_schema(key)), json::object(list_of(text_schema(key), least, ""))})}};
     case Kind::pairs:
       return list_of(pair_schema(key), "1", "");
     case Kind::numbers:

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace railwave::case_file {
@@ -232,14 +233,14 @@ void check_contact(void* entry, EntryCheck& check) {
   check_falling_friction(contact, check);
   check_penalty_growth(contact, check);
   if (!check.sound({"slave", "master"})) return;
-  if (contact.slave == contact.master) {
-    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces",
-                                         contact.master));
-  } else if (contact.close_gap && part_of(contact.slave) == part_of(contact.master)) {
-    check.complain(
-        "close_gap",
-        fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out",
-                    part_of(contact.slave)));
+  const bool several = contact.master.size() > 1;
+  const bool own = std::any_of(contact.master.begin(), contact.master.end(), [&](const std::string& name) { return part_of(name) == part_of(contact.slave); });
+  if (contact.master.has(contact.slave)) {
+    check.complain("master", several ? fmt::format("has '{}', which is the `slave`; a surface cannot touch itself: leave it out of the list", contact.slave)
+                                     : fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces", contact.slave));
+  } else if (contact.close_gap && own) {
+    check.complain("close_gap", several ? fmt::format("the slave and one of the masters are of the part '{}', which cannot be moved towards itself; leave close_gap out", part_of(contact.slave))
+                                        : fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out", part_of(contact.slave)));
   }
 }
 

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
+#include <utility>
 
 // Entries of one case file that cannot all hold, as far as their names show it; model/contradictions.cpp looks at what the names mean.
 namespace railwave::case_file {
@@ -19,28 +23,50 @@ void check_names(const scene::Scene& scene, Complaints& complaints) {
     }
 }
 
-/// Two entries with a slave and a master, of one section or two.
+/// Two surfaces that an entry presses, or ties, on each other. A contact with several masters has several such pairs.
+using SurfacePair = std::pair<std::string, std::string>;
+
+template <class Entry>
+std::set<SurfacePair> pairs_of(const Entry& entry) {
+  std::set<SurfacePair> pairs;
+  for (const std::string& master : scene::SurfaceNames(entry.master))
+    if (!entry.slave.empty() && entry.slave != master) pairs.insert(std::minmax(entry.slave, master));
+  return pairs;
+}
+
+/// The first pair of surfaces that two entries, of one section or two, have in common.
 template <class Later, class Earlier>
-bool same_pair(const Later& later, const Earlier& earlier) {
-  const bool same = later.slave == earlier.slave && later.master == earlier.master;
-  const bool turned = later.slave == earlier.master && later.master == earlier.slave;
-  return (same || turned) && !later.slave.empty() && !later.master.empty() && later.slave != later.master;
+std::optional<SurfacePair> common_pair(const Later& later, const Earlier& earlier) {
+  const auto known = pairs_of(earlier);
+  for (const SurfacePair& pair : pairs_of(later))
+    if (known.count(pair) != 0) return pair;
+  return std::nullopt;
+}
+
+/// "has the same two surfaces as", with their names where one of the entries has more.
+template <class Later, class Earlier>
+std::string same_surfaces(const Later& later, const Earlier& earlier, const SurfacePair& pair) {
+  if (scene::SurfaceNames(later.master).size() == 1 && scene::SurfaceNames(earlier.master).size() == 1) return "has the same two surfaces as";
+  return fmt::format("has '{}' and '{}' like", pair.first, pair.second);
 }
 
 template <class Entry>
 void check_pairs_of(const std::vector<Entry>& entries, const char* section, const char* why, Complaints& complaints) {
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (same_pair(entries[i], entries[j]))
-        complaints.add({entries[i].line}, fmt::format("[{}.{}]: has the same two surfaces as [{}.{}], {}; keep one of them", section, entries[i].name, section, entries[j].name, why));
+      if (const auto pair = common_pair(entries[i], entries[j])) {
+        const bool several = scene::SurfaceNames(entries[i].master).size() > 1 || scene::SurfaceNames(entries[j].master).size() > 1;
+        complaints.add({entries[i].line}, fmt::format("[{}.{}]: {} [{}.{}], {}; keep {}", section, entries[i].name, same_surfaces(entries[i], entries[j], *pair), section, entries[j].name, why,
+                                                      several ? "them in one of the two" : "one of them"));
+      }
 }
 
 void check_ties_and_contacts(const scene::Scene& scene, Complaints& complaints) {
   for (const auto& tie : scene.ties)
     for (const auto& contact : scene.contacts)
-      if (same_pair(tie, contact))
-        complaints.add({tie.line}, fmt::format("[ties.{}]: has the same two surfaces as [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two", tie.name,
-                                               contact.name, contact.line));
+      if (const auto pair = common_pair(tie, contact))
+        complaints.add({tie.line}, fmt::format("[ties.{}]: {} [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two", tie.name,
+                                               same_surfaces(tie, contact, *pair), contact.name, contact.line));
 }
 
 /// Velocities would add up.

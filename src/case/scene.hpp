@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/scene_meshes.hpp"
+#include "case/surface_names.hpp"
 
 /// What a case file says, read and checked: plain host structs in SI units, in the file's order.
 /// Names that refer to other entries have been checked to exist; names of sets inside a mesh (`part.set`) are resolved
@@ -209,7 +210,7 @@ inline constexpr double usual_bridged_gap = 1e-3;
 
 struct Contact : Place {
   std::string slave;               ///< `part.surface`
-  std::string master;              ///< `part.surface`
+  SurfaceNames master;             ///< `part.surface`; several are one surface
   double friction = 0;             ///< Coulomb coefficient, at rest where it falls with the sliding speed
   std::optional<double> dynamic_friction;  ///< at high speed, mu_d of thesis eq. 2.29
   double friction_decay = 0;       ///< c of thesis eq. 2.29, s/m; 0: friction is constant

@@ -126,7 +126,7 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
   for (double& d : direction) d /= length;
   double nearest = std::numeric_limits<double>::infinity();
   const auto& slaves = surface_nodes(assembly, find_surface(scene, assembly, contact, "slave", contact.slave));
-  const auto& master = find_surface(scene, assembly, contact, "master", contact.master);
+  const auto master = master_faces(scene, assembly, contact);
   for (int n : slaves)
     for (const Face& face : master) {
       const auto corner = assembly.face_nodes(face);
@@ -138,7 +138,7 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
     throw InputError(fmt::format("{}:{}: [contacts.{}] close_gap: moved along [{}, {}, {}], no node of '{}' ever meets '{}'; "
                                  "turn the direction, or place the part so that the surfaces face each other",
                                  scene.path, contact.line, contact.name, direction[0], direction[1], direction[2],
-                                 contact.slave, contact.master));
+                                 contact.slave, contact.master.text()));
   const std::string part = contact.slave.substr(0, contact.slave.find('.'));
   for (int n : assembly.node_sets.at(part))
     for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
@@ -201,6 +201,21 @@ const std::vector<Face>& find_surface(const scene::Scene& scene, const Assembly&
   if (found == assembly.surfaces.end() || found->second.empty())
     throw InputError(unknown_set(scene, entry, key, name, names_of(assembly.surfaces)));
   return found->second;
+}
+
+std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assembly, const scene::Contact& contact) {
+  std::vector<Face> faces;
+  std::map<std::array<int, 2>, const std::string*> owner;  // by element, side
+  for (const std::string& name : contact.master)
+    for (const Face& face : find_surface(scene, assembly, contact, "master", name)) {
+      const auto [known, first] = owner.try_emplace({face.element, face.side}, &name);
+      if (!first && known->second != &name)
+        throw InputError(fmt::format("{}:{}: [contacts.{}] master: '{}' and '{}' have faces in common, which would press twice; leave one of the two out, or name surfaces "
+                                     "without common faces",
+                                     scene.path, contact.line, contact.name, *known->second, name));
+      faces.push_back(face);
+    }
+  return faces;
 }
 
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface) {

@@ -56,6 +56,10 @@ const std::vector<int>& find_node_set(const scene::Scene& scene, const Assembly&
 const std::vector<Face>& find_surface(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
                                       const std::string& key, const std::string& name);
 
+/// Faces of all of a contact's masters, in the order in which they are named. Throws InputError where one does not exist, and where two have a
+/// face in common, which would press twice.
+std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assembly, const scene::Contact& contact);
+
 /// A vector turned by a part's angle of attack; by that of the part that a name `part` or `part.set` names, if it names one.
 Vec3 turned_with(const scene::Part& part, const Vec3& v);
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v);

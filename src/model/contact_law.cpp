@@ -60,6 +60,10 @@ double largest_growth(const scene::Contact& contact) {
   return largest;
 }
 
+std::string describe_contact(const scene::Contact& contact) {
+  return contact.name + (contact.master.size() > 1 ? " on " + contact.master.text() : "");
+}
+
 std::string describe_contact_law(const scene::Contact& contact) {
   std::string words = contact.friction > 0 ? ", friction" : ", frictionless";
   if (contact.falling_friction()) words += " that falls with speed";

@@ -97,7 +97,7 @@ std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contac
     throw InputError(fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
                                  "choose surfaces without common nodes (but for the ends of a seam, whose two sides face each "
                                  "other and have nodes of their own)",
-                                 model.scene.path, contact.line, contact.name, contact.slave, contact.master, shared));
+                                 model.scene.path, contact.line, contact.name, contact.slave, contact.master.text(), shared));
   return on_both;
 }
 
@@ -106,10 +106,9 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   ContactPair pair;
   pair.contact = &contact;
   pair.reversed = reversed;
-  const auto* slave_faces = &find_surface(model.scene, assembly, contact, "slave", contact.slave);
-  const auto* master_faces = &find_surface(model.scene, assembly, contact, "master", contact.master);
-  if (reversed) std::swap(slave_faces, master_faces);
-  const auto &slave = *slave_faces, &master = *master_faces;
+  std::vector<Face> slave = find_surface(model.scene, assembly, contact, "slave", contact.slave);
+  std::vector<Face> master = master_faces(model.scene, assembly, contact);
+  if (reversed) std::swap(slave, master);
   pair.slave_nodes = surface_nodes(assembly, slave);
   pair.master_nodes = surface_nodes(assembly, master);
   pair.on_both = nodes_on_both(model, contact, slave, master, pair.slave_nodes);

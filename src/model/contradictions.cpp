@@ -80,9 +80,10 @@ void refuse_moved_constraints(const Model& model) {
 }
 
 /// The faces of one side of a contact or tie, to be compared with those of others.
-std::set<std::array<int, 2>> faces_of(const Model& model, const scene::Place& entry, const char* key, const std::string& name) {
+std::set<std::array<int, 2>> faces_of(const Model& model, const scene::Place& entry, const char* key, const scene::SurfaceNames& names) {
   std::set<std::array<int, 2>> faces;
-  for (const Face& face : find_surface(model.scene, model.assembly, entry, key, name)) faces.insert({face.element, face.side});
+  for (const std::string& name : names)
+    for (const Face& face : find_surface(model.scene, model.assembly, entry, key, name)) faces.insert({face.element, face.side});
   return faces;
 }
 
@@ -96,7 +97,7 @@ template <class Entry>
 std::vector<Pair> pairs_of(const Model& model, const std::vector<Entry>& entries) {
   std::vector<Pair> pairs;
   for (const Entry& entry : entries)
-    pairs.push_back({&entry, entry.slave, entry.master, faces_of(model, entry, "slave", entry.slave), faces_of(model, entry, "master", entry.master)});
+    pairs.push_back({&entry, entry.slave, scene::SurfaceNames(entry.master).text(), faces_of(model, entry, "slave", entry.slave), faces_of(model, entry, "master", entry.master)});
   return pairs;
 }
 
@@ -153,7 +154,7 @@ void refuse_inner_faces(const Model& model) {
   constexpr const char* no_contact = "nothing can touch them: name a surface on the outside";
   for (const scene::Contact& contact : model.scene.contacts) {
     check("contacts", contact, "slave", contact.slave, no_contact);
-    check("contacts", contact, "master", contact.master, no_contact);
+    for (const std::string& master : contact.master) check("contacts", contact, "master", master, no_contact);
   }
   for (const scene::NonReflecting& end : model.scene.non_reflecting)
     check("non_reflecting", end, "target", end.target, "waves leave a body on its outside: name a surface there");

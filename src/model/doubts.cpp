@@ -20,8 +20,12 @@ using Doubts = std::vector<std::string>;
 /// By a contact or a tie.
 bool joined(const scene::Scene& scene, const std::string& a, const std::string& b) {
   const auto joins = [&](const auto& pair) {
-    const std::string slave = part_of_name(pair.slave), master = part_of_name(pair.master);
-    return (slave == a && master == b) || (slave == b && master == a);
+    const std::string slave = part_of_name(pair.slave);
+    const scene::SurfaceNames masters(pair.master);
+    return std::any_of(masters.begin(), masters.end(), [&](const std::string& name) {
+      const std::string master = part_of_name(name);
+      return (slave == a && master == b) || (slave == b && master == a);
+    });
   };
   return std::any_of(scene.contacts.begin(), scene.contacts.end(), joins) || std::any_of(scene.ties.begin(), scene.ties.end(), joins);
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
-#include "kernels/contact_search.hpp"
+#include "kernels/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/element_precision.hpp"
 #include "model/host_copy.hpp"
@@ -168,14 +169,49 @@ struct SlavesNow {
   double share(int s, int corner) const { return segment_shape(corner, place(s, 0), place(s, 1)); }
 };
 
-void add_forces(const ContactPair& pair, const SlavesNow& now, ContactSide& slave, ContactSide& master) {
+/// What curved segments hand on to the master's nodes, by these.
+struct CurvedShares {
+  ContactSearch search;
+  ExtraForceSum sum;
+  Array<const int*> place_of_node;
+  Array<const double* [3]> force;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    const ContactArrays& contact = search.contact;
+    if (contact.status(s) == status_apart) return;
+    const int segment = contact.tracked(s);
+    const Vector3 f = row(force, s);
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f, CurvedReaction{sum, place_of_node, contact.surface(segment), f});
+  }
+};
+
+/// Springs on curved segments are felt by nodes around the segment too, see SmoothNormals::reaction.
+bool curved(const ContactPair& pair) { return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs(); }
+
+void add_curved_forces(const Model& model, const ContactPair& pair, const Array<double* [3]>& force, std::vector<double>& on_master) {
+  std::vector<int> place(model.nodes.count, -1);
+  for (std::size_t m = 0; m < pair.master_nodes.size(); ++m) place[pair.master_nodes[m]] = static_cast<int>(m);
+  ExtraForceSum sum;
+  sum.quantum = model.extra.sum.quantum;
+  sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
+  Kokkos::parallel_for("curved_shares", Range(0, pair.arrays.slave_count),
+                       CurvedShares{ContactSearch{{pair.arrays, model.nodes.position}}, sum, to_device("place of node", place), force});
+  const auto quanta = to_host(sum.contact);
+  for (std::size_t m = 0; m < pair.master_nodes.size(); ++m)
+    for (int i = 0; i < 3; ++i) on_master[3 * m + i] += sum.quantum * static_cast<double>(static_cast<std::int64_t>(quanta(m, i)));
+}
+
+void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& now, ContactSide& slave, ContactSide& master) {
+  if (curved(pair)) {
+    add_curved_forces(model, pair, pair.arrays.normal_force, master.normal_force);
+    add_curved_forces(model, pair, pair.arrays.tangential_force, master.tangential_force);
+  }
   for (int s = 0; s < pair.arrays.slave_count; ++s) {
     if (now.status(s) == status_apart) continue;
     for (int i = 0; i < 3; ++i) {
       slave.normal_force[3 * s + i] += now.normal(s, i);
       slave.tangential_force[3 * s + i] += now.tangential(s, i);
     }
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4 && !curved(pair); ++k) {
       const int m = pair.master_segments[now.segment(s)][k];
       for (int i = 0; i < 3; ++i) {
         master.normal_force[3 * m + i] -= now.share(s, k) * now.normal(s, i);
@@ -254,11 +290,11 @@ ContactState contact_state(const Model& model, int contact) {
   state.master = bare_side(model, pair.master_nodes, pair.master_segments);
 
   const SlavesNow now(pair.arrays);
-  add_forces(pair, now, state.slave, state.master);
+  add_forces(model, pair, now, state.slave, state.master);
   if (pair.partner >= 0) {
     // Both halves of a symmetric contact number the nodes of each surface alike.
     const ContactPair& other = model.contacts[pair.partner];
-    add_forces(other, SlavesNow(other.arrays), state.master, state.slave);
+    add_forces(model, other, SlavesNow(other.arrays), state.master, state.slave);
   }
   const auto gap = present_gaps(model, pair);
   const int count = pair.arrays.slave_count;

@@ -148,23 +148,36 @@ std::optional<RoundPart> round_part(const Model& model, const std::string& name)
   return std::nullopt;
 }
 
+namespace {
+
+/// Where the part is nearest to the other surface of a contact, or to one of its masters; none: it is no part of the pair, or far off.
+std::optional<Touch> touch_of(const Model& model, const RoundPart& round, const scene::Contact& contact, const std::string& master_name) {
+  const std::string slave = part_of_name(contact.slave), master = part_of_name(master_name);
+  const std::string& own = round.part->name;
+  if ((slave == own) == (master == own)) return std::nullopt;
+  const auto& slaves = find_surface(model.scene, model.assembly, contact, "slave", contact.slave);
+  const auto& masters = find_surface(model.scene, model.assembly, contact, "master", master_name);
+  const Profile profile(model, round, slave == own ? slaves : masters);
+  const Nearest nearest = nearest_of(model, profile, slave == own ? masters : slaves);
+  if (!(nearest.gap < round.nominal_radius)) return std::nullopt;
+  const auto [along, distance] = profile.seen(nearest.place);
+  if (!(distance > 0)) return std::nullopt;
+  Touch touch{&contact, slave == own ? master : slave, nearest.place, {0, 0, 0}, profile.radius(along), nearest.gap};
+  touch.along = cross(round.axis, difference(nearest.place, round.origin));
+  for (double& c : touch.along) c /= distance;
+  return touch;
+}
+
+}  // namespace
+
 std::vector<Touch> touches(const Model& model, const RoundPart& round) {
   std::vector<Touch> found;
   for (const scene::Contact& contact : model.scene.contacts) {
-    const std::string slave = part_of_name(contact.slave), master = part_of_name(contact.master);
-    const std::string& own = round.part->name;
-    if ((slave == own) == (master == own)) continue;
-    const auto& slaves = find_surface(model.scene, model.assembly, contact, "slave", contact.slave);
-    const auto& masters = find_surface(model.scene, model.assembly, contact, "master", contact.master);
-    const Profile profile(model, round, slave == own ? slaves : masters);
-    const Nearest nearest = nearest_of(model, profile, slave == own ? masters : slaves);
-    if (!(nearest.gap < round.nominal_radius)) continue;
-    const auto [along, distance] = profile.seen(nearest.place);
-    if (!(distance > 0)) continue;
-    Touch touch{&contact, slave == own ? master : slave, nearest.place, {0, 0, 0}, profile.radius(along), nearest.gap};
-    touch.along = cross(round.axis, difference(nearest.place, round.origin));
-    for (double& c : touch.along) c /= distance;
-    found.push_back(touch);
+    // Of several masters the one that is nearest: the next rail along the track is not what the wheel stands on.
+    std::optional<Touch> best;
+    for (const std::string& name : contact.master)
+      if (const auto touch = touch_of(model, round, contact, name); touch && (!best || touch->gap < best->gap)) best = touch;
+    if (best) found.push_back(*best);
   }
   return found;
 }

@@ -48,6 +48,7 @@ constexpr OutputField fields[] = {
     {"/beams/*/force", 3, "N"},
     {"/beams/*/moment", 3, "N m"},
     // Sides of contacts.
+    {"/contact/*/surface_of_facet", 1, "1"},
     {"/contact/*/area", 1, "m2"},
     {"/contact/*/position", 3, "m"},
     {"/contact/*/normal", 3, "1"},

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <ostream>
 
+#include "model/contact_law.hpp"
 #include "model/doubts.hpp"
 #include "model/model.hpp"
 #include "solve/settle.hpp"
@@ -23,7 +24,7 @@ void Progress::begin(const Model& model) {
   plan.updates_saved = model.subcycling.gain();
   plan.end_time = model.scene.time.end;
   plan.interval = model.scene.output.progress_interval;
-  for (const auto& contact : model.scene.contacts) plan.contacts.push_back(contact.name);
+  for (const auto& contact : model.scene.contacts) plan.contacts.push_back(describe_contact(contact));
   table_ = std::make_unique<ProgressTable>(out_, std::move(plan), wall_seconds);
 }
 

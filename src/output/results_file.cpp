@@ -89,7 +89,11 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.end_time = scene.time.end;
   description_.node_count = static_cast<long>(assembly.nodes.size());
   description_.element_count = static_cast<long>(assembly.elements.size());
-  for (const auto& contact : scene.contacts) description_.contacts.push_back({contact.name, contact.slave, contact.master});
+  for (const auto& contact : scene.contacts) {
+    description_.contacts.push_back({contact.name, contact.slave, contact.master, {}});
+    for (const std::string& master : contact.master)
+      description_.contacts.back().master_facets.push_back(static_cast<int>(find_surface(scene, assembly, contact, "master", master).size()));
+  }
   for (const HistorySet& set : resolve_history_sets(scene, assembly)) {
     if (set.motion()) {
       description_.history_sets.push_back(set.name);

@@ -29,10 +29,14 @@ double values_of_output(const RunDescription& description, const Assembly& assem
       values += components_of(field) * static_cast<double>(of_element ? set.elements.size() : set.nodes.size());
     }
   }
-  for (const ContactNames& contact : description.contacts)
-    for (const std::string& surface : {contact.slave, contact.master})
-      if (const auto found = assembly.surfaces.find(surface); found != assembly.surfaces.end())
-        values += values_of_contact_node * static_cast<double>(found->second.size());  // about a node a facet
+  const auto add_surface = [&](const std::string& surface) {
+    if (const auto found = assembly.surfaces.find(surface); found != assembly.surfaces.end())
+      values += values_of_contact_node * static_cast<double>(found->second.size());  // about a node a facet
+  };
+  for (const ContactNames& contact : description.contacts) {
+    add_surface(contact.slave);
+    for (const std::string& master : contact.master) add_surface(master);
+  }
   return values;
 }
 

@@ -149,7 +149,14 @@ void ResultsWriter::create_sections(const FieldSource& source) {
     const ContactNames& names = description_.contacts[i];
     const hdf5::Group group = contacts_group.group(names.name);
     group.group("slave").set_attribute("surface", names.slave);
-    group.group("master").set_attribute("surface", names.master);
+    const hdf5::Group master = group.group("master");
+    master.set_attribute("surface", names.master.text());
+    if (names.master.size() > 1) {
+      master.set_attribute("surfaces", names.master.list());
+      std::vector<int> surface_of_facet;
+      for (std::size_t k = 0; k < names.master_facets.size(); ++k) surface_of_facet.insert(surface_of_facet.end(), names.master_facets[k], static_cast<int>(k));
+      master.write("surface_of_facet", surface_of_facet, {surface_of_facet.size()});
+    }
     for (const bool slave : {true, false})
       contact_sides_.push_back({names.name, slave, section.node_count(slave), section.facet_count(slave)});
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "case/surface_names.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/contact_section.hpp"
 #include "output/field_section.hpp"
@@ -17,7 +18,9 @@ namespace railwave {
 
 /// A contact pair's name and those of its surfaces.
 struct ContactNames {
-  std::string name, slave, master;
+  std::string name, slave;
+  scene::SurfaceNames master;
+  std::vector<int> master_facets = {};  ///< how many each of the masters has, in their order
 };
 
 /// What a results file says of the run as a whole.

@@ -29,8 +29,9 @@ template <class Normals>
 AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const Instant& instant) {
   const ContactSearch search{{pair.arrays, model.nodes.position}};
   const FreeMotion motion = free_motion(model, instant);
-  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
-  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
+  const double elapsed = instant.settling ? 0.0 : instant.elapsed;
+  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant), elapsed};
+  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant), elapsed};
 }
 
 AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
@@ -68,7 +69,7 @@ Stage multiplier_stage(Model& model) {
   int sweeps = 0;
   for (const ContactPair& pair : model.contacts) {
     if (pair.has_springs()) continue;
-    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", pair.contact->name, describe_contact_law(*pair.contact));
+    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact), describe_contact_law(*pair.contact));
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
   return {name, [&model, sweeps](const Instant& instant) {

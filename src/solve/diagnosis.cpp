@@ -100,7 +100,7 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
     for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
     for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
       const auto& one = model.scene.contacts[c];
-      held = held || ((concerns(one.slave) || concerns(one.master)) && c < evidence.touching.size() && evidence.touching[c] > 0);
+      held = held || ((concerns(one.slave) || std::any_of(one.master.begin(), one.master.end(), concerns)) && c < evidence.touching.size() && evidence.touching[c] > 0);
     }
     for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
     for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);

@@ -135,7 +135,7 @@ Stage contact_clearing_stage(Model& model) {
 
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
-  return {"contact " + pair.contact->name + (pair.reversed ? " reversed" : "") + describe_contact_law(*pair.contact),
+  return {"contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : "") + describe_contact_law(*pair.contact),
           [&model, &pair](const Instant& instant) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;

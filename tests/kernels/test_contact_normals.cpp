@@ -101,3 +101,127 @@ TEST_CASE("facets that meet at more than 30 degrees keep their edge", "[contact]
     CHECK(norm(both.smooth.normal - both.facet.normal) < 1e-14);
   }
 }
+
+namespace {
+
+/// What a force's shares do when the nodes move.
+struct WorkOfShares {
+  Segment segment;
+  Array<const double* [3]> moved;
+  double* sum;
+  KOKKOS_INLINE_FUNCTION void corners(const Vector3 (&share)[4]) const {
+    for (int k = 0; k < 4; ++k) *sum += dot(share[k], row(moved, segment.node[k]));
+  }
+  KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const { *sum += dot(share, row(moved, plus) - row(moved, minus)); }
+};
+
+struct Shared {
+  double work;      ///< of the shares of a force
+  Vector3 carried;  ///< of the contact point
+};
+
+struct Share {
+  ContactSearch search;
+  Array<const Both*> found;
+  Vector3 force;
+  bool along_normal;
+  Array<const double* [3]> moved;
+  Array<Shared*> result;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const Projection& p = found(i).smooth;
+    Shared shared{0, SmoothNormals::carried(search, p.segment, p.place, moved)};
+    SmoothNormals::reaction(search, p.segment, p.place, along_normal ? p.normal : force, WorkOfShares{search.contact.surface(p.segment), moved, &shared.work});
+    result(i) = shared;
+  }
+};
+
+std::vector<Shared> share(const ContactSearch& search, const std::vector<Both>& found, const std::vector<Point>& moved, const Vector3* force) {
+  const Array<Shared*> result("shared", found.size());
+  Kokkos::parallel_for("share", Range(0, static_cast<int>(found.size())),
+                       Share{search, to_device("found", found), force ? *force : Vector3{}, force == nullptr, to_device("moved", moved), result});
+  const auto host = to_host(result);
+  return {host.data(), host.data() + found.size()};
+}
+
+/// A hilly surface of unequal segments.
+struct Hills {
+  std::vector<Point> nodes;
+  std::vector<Quad> quads;
+  explicit Hills(unsigned seed) {
+    constexpr int n = 7;
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> aside(-0.15, 0.15), up(-0.06, 0.06);
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) nodes.push_back({i + aside(random), j + aside(random), up(random)});
+    for (int j = 0; j + 1 < n; ++j)
+      for (int i = 0; i + 1 < n; ++i) quads.push_back({n * j + i, n * j + i + 1, n * (j + 1) + i + 1, n * (j + 1) + i});
+  }
+  ContactSearch search(const std::vector<Point>& moved, double factor) const {
+    std::vector<Point> there = nodes;
+    for (std::size_t k = 0; k < there.size(); ++k)
+      for (int i = 0; i < 3; ++i) there[k][i] += factor * moved[k][i];
+    return search_on(there, quads);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("on curved segments a contact's forces are the gradient of its gap, and balance in sum and in moment", "[contact]") {
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    const Hills hills(seed);
+    std::mt19937 random(100 + seed);
+    std::uniform_real_distribution<double> inside(1.5, 4.5), height(-0.03, 0.02), any(-1, 1);
+    std::vector<Point> slaves, moves, nodes_move(hills.nodes.size());
+    for (int i = 0; i < 300; ++i) {
+      slaves.push_back({inside(random), inside(random), height(random)});
+      moves.push_back({any(random), any(random), any(random)});
+    }
+    for (Point& move : nodes_move) move = {any(random), any(random), any(random)};
+
+    const ContactSearch search = hills.search(nodes_move, 0);
+    const auto found = look(search, slaves);
+    const auto shared = share(search, found, nodes_move, nullptr);
+    constexpr double step = 1e-5;
+    const auto looked = [&](double factor) {
+      auto there = slaves;
+      for (std::size_t i = 0; i < there.size(); ++i)
+        for (int c = 0; c < 3; ++c) there[i][c] += factor * moves[i][c];
+      return look(hills.search(nodes_move, factor), there);
+    };
+    const auto ahead = looked(step), behind = looked(-step);
+    double largest = 0, least_neighbours = 0;
+    int compared = 0;
+    for (std::size_t i = 0; i < slaves.size(); ++i) {
+      const Projection& p = found[i].smooth;
+      // Between segments the normal jumps by what hills of so few facets leave: not where the place changes its segment, nor at its sides.
+      if (ahead[i].smooth.segment != p.segment || behind[i].smooth.segment != p.segment || p.place.outside() > -1e-3) continue;
+      const Vector3 move{{moves[i][0], moves[i][1], moves[i][2]}};
+      const double slope = (ahead[i].smooth.gap - behind[i].smooth.gap) / (2 * step);
+      largest = std::max(largest, std::fabs(slope - (dot(p.normal, move) - shared[i].work)));
+      CHECK_THAT(dot(p.normal, shared[i].carried), WithinAbs(shared[i].work, 1e-12));
+      double alone = 0;
+      const Quad& corner = hills.quads[p.segment];
+      for (int k = 0; k < 4; ++k)
+        for (int c = 0; c < 3; ++c) alone += segment_shape(k, p.place.xi, p.place.eta) * p.normal[c] * nodes_move[corner[k]][c];
+      least_neighbours = std::max(least_neighbours, std::fabs(alone - shared[i].work));
+      ++compared;
+    }
+    INFO(compared << " places, gradient off by " << largest << ", shape functions alone by " << least_neighbours);
+    CHECK(compared > 250);
+    CHECK(largest < 1e-7);  // the second differences of hills of 0.06 over 1, by the step's square
+    CHECK(least_neighbours > 0.05);
+
+    // A rigid motion moves the contact point as any other.
+    const Vector3 force{{0.3, -0.5, 0.8}}, turn{{0.7, 0.2, -0.4}}, shift{{-0.1, 0.6, 0.2}};
+    std::vector<Point> rigid;
+    for (const Point& x : hills.nodes) {
+      const Vector3 moved = shift + cross(turn, Vector3{{x[0], x[1], x[2]}});
+      rigid.push_back({moved[0], moved[1], moved[2]});
+    }
+    const auto carried = share(search, found, rigid, &force);
+    for (std::size_t i = 0; i < slaves.size(); ++i) {
+      const Vector3 contact = Vector3{{slaves[i][0], slaves[i][1], slaves[i][2]}} + found[i].smooth.offset;
+      CHECK_THAT(carried[i].work, WithinAbs(dot(force, shift + cross(turn, contact)), 1e-12));
+    }
+  }
+}

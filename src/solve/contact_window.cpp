@@ -292,8 +292,8 @@ std::vector<std::string> late_contacts(const Model& model) {
       lines.push_back(fmt::format("contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
                                   "beside its surface {}, not through it; name the faces that they came through in the contact too "
                                   "(the whole surface of a part is its `exterior`)",
-                                  pair.contact->name, inside, pair.reversed ? pair.contact->master : pair.contact->slave,
-                                  pair.reversed ? pair.contact->slave : pair.contact->master));
+                                  pair.contact->name, inside, pair.reversed ? pair.contact->master.text() : pair.contact->slave,
+                                  pair.reversed ? pair.contact->slave : pair.contact->master.text()));
     if (const int late = to_host(pair.missed)(0); late > 0)
       lines.push_back(fmt::format("contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
                                   "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",

@@ -3,6 +3,7 @@
 #include "kernels/contact_arrays.hpp"
 #include "kernels/element_modes.hpp"
 #include "kernels/nodes.hpp"
+#include "kernels/paced_nodes.hpp"
 
 namespace railwave {
 
@@ -68,11 +69,14 @@ struct ElementWatch {
   }
 };
 
-/// A node's speed, m/s.
+/// A node's speed, m/s, and its acceleration, m/s2, which tells from what travels fast what is pushed too hard.
 struct NodeWatch {
-  static constexpr int values = 1;
-  Array<const double* [3]> velocity;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, double* value) const { value[0] = norm(row(velocity, n)); }
+  static constexpr int values = 2;
+  PacedAcceleration acceleration;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* value) const {
+    value[0] = norm(row(acceleration.plain.force.nodes.velocity, n));
+    value[1] = norm(acceleration(n));
+  }
 };
 
 /// How deep a slave node is in its segment, over the segment's size; how often it was seen to open and to close again.

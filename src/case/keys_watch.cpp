@@ -12,9 +12,9 @@ Section watch_section() {
       "results as NAME.fault.h5 and .xdmf. docs/watch.md tells more.");
   section.keys = {
       key("active", &Watch::active, "`false` leaves all of it out; a run whose solution is no longer finite stops even so"),
-      key("energy_error", &Watch::energy_error, "error of the energy balance, over the energy that the run was given").within(above(0)),
-      key("fatal_energy_error", &Watch::fatal_energy_error, "the same, at which the run stops, if it holds that much more energy than it was given").within(above(0)),
-      key("kinetic_growth", &Watch::kinetic_growth, "kinetic energy beyond what the run was given, over that").within(above(0)),
+      key("energy_error", &Watch::energy_error, "error of the energy balance, over what deformation, contacts and connectors have held and dissipated so far; rigid travel does not count").within(above(0)),
+      key("fatal_energy_error", &Watch::fatal_energy_error, "the same, a gain or a loss, at which the run stops: a run that completes has an account below this").within(above(0)),
+      key("kinetic_growth", &Watch::kinetic_growth, "kinetic energy beyond what the run was given, over what deformation has held and dissipated so far").within(above(0)),
       key("hourglass_share", &Watch::hourglass_share, "hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation").within(above(0)),
       key("hourglass_distortion", &Watch::hourglass_distortion, "how far an hourglass mode moves an element's corners, over its size")
           .within(above(0)),

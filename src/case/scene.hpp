@@ -306,9 +306,9 @@ struct Solver {
 /// What a run looks out for: beyond a limit it warns, beyond a fatal one it stops.
 struct Watch {
   bool active = true;
-  double energy_error = 0.05;        ///< of the balance, over the energy that the run was given
+  double energy_error = 0.05;        ///< of the balance, over what deformation has held and dissipated
   double fatal_energy_error = 0.5;   ///< the same; the run stops
-  double kinetic_growth = 0.1;       ///< kinetic energy beyond what the run was given, over that
+  double kinetic_growth = 0.1;       ///< kinetic energy beyond what the run was given, over the same
   double hourglass_share = 0.1;      ///< hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation
   double hourglass_distortion = 0.3; ///< hourglass displacement of an element over its size
   double penetration = 0.1;          ///< of a contact node over the size of the face under it

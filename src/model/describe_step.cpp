@@ -63,7 +63,8 @@ std::vector<std::string> describe_stable_step(const Model& model) {
     lines.push_back(fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
                                 stable.global,
                                 model.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
-                                stable.global / stable.by_elements));
+                                stable.global / stable.by_elements) +
+                    (stable.limit < stable.global ? fmt::format("; {:.4g} s for contact springs that bodies strike undamped", stable.limit) : ""));
   const char* names[] = {"element", "eigenvalue", "global"};
   lines.push_back(model.scene.time.step > 0
                       ? fmt::format("set by time.step = {:.4g} s", model.scene.time.step)

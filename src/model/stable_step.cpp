@@ -194,7 +194,9 @@ void estimate_by_elements(Model& model) {
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
   stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues);
-  if (stable.contact > 0 && stable.contact < stable.elements && strikes_undamped(model)) stable.by_elements *= springs_that_open;
+  const bool strikes = strikes_undamped(model);
+  if (strikes && stable.contact > 0 && stable.contact < stable.elements) stable.by_elements *= springs_that_open;
+  if (strikes && stable.eigenvalue_contact > 0 && stable.eigenvalue_contact < stable.eigenvalue) stable.by_eigenvalues *= springs_that_open;
   // Beams' elements have masses of their own like those of solids, so that the highest frequency of any is an upper bound.
   if (model.beams) {
     stable.beam = model.beams->step;
@@ -243,6 +245,8 @@ void renew_global_step(Model& model) {
   // It knows beams by their mass only.
   if (model.beams) found.step = together(found.step, 2 / stable.beam);
   stable.global = stable.limit = found.step;
+  // Springs that the scene's highest mode hardly feels open in other modes all the same.
+  if (found.springs > 0 && stable.contact < stable.elements && strikes_undamped(model)) stable.limit *= springs_that_open;
   stable.springs = found.springs;
   stable.seen = std::move(found.seen);
 }

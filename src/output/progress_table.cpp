@@ -132,6 +132,7 @@ void ProgressTable::end(const RunSummary& summary) {
   if (summary.smallest_step < summary.largest_step)
     out_ << fmt::format("  steps between {:.4g} and {:.4g} us, the stable step renewed {} times\n", 1e6 * summary.smallest_step,
                         1e6 * summary.largest_step, summary.step_renewals);
+  if (!summary.account.empty()) out_ << "  " << summary.account << '\n';
   for (const std::string& line : summary.warnings) out_ << "  warning: " << line << '\n';
   for (const std::string& line : summary.swings) out_ << "  " << line << '\n';
   for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';

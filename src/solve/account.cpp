@@ -226,7 +226,10 @@ void queue_contact_energies(const Model& model, EnergyAccount& energy, Reduction
         energy.damping += sum[2];
       });
     } else {
-      sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count, add);
+      sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count, [&energy, add](const double* sum) {
+        add(sum);
+        energy.impacts += sum[0];
+      });
     }
   }
 }
@@ -275,6 +278,11 @@ EnergyAccount account_energies(const Model& model, double step) {
 double balance_total(const EnergyAccount& energy) {
   return energy.kinetic + energy.internal + energy.hourglass + energy.contact + energy.friction + energy.connector +
          energy.damping + energy.plastic - energy.external_work;
+}
+
+double deformation_energy(const EnergyAccount& energy) {
+  return std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.friction) + std::fabs(energy.connector) +
+         std::fabs(energy.damping) + std::fabs(energy.plastic);
 }
 
 double largest_energy(const EnergyAccount& energy) {

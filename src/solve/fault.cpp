@@ -8,9 +8,9 @@ const char* name_of(FaultKind kind) {
   switch (kind) {
     case FaultKind::not_finite: return "the solution is no longer finite";
     case FaultKind::inversion: return "an element is squeezed or inverted: its smallest Jacobian over the undeformed one";
-    case FaultKind::energy: return "energy balance: its error over the energy that the run was given";
+    case FaultKind::energy: return "energy balance: its error over what deformation has held and dissipated";
     case FaultKind::speed: return "speed of a node, m/s";
-    case FaultKind::kinetic: return "kinetic energy without work: what is beyond the energy that the run was given, over that";
+    case FaultKind::kinetic: return "kinetic energy without work: what is beyond the energy that the run was given, over what deformation has held and dissipated";
     case FaultKind::hourglass_share: return "hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation";
     case FaultKind::hourglass_distortion: return "hourglass mode of an element over its size";
     case FaultKind::penetration: return "contact penetration over the size of the face under it";

@@ -20,6 +20,7 @@ struct EnergyAccount {
   double internal = 0;       ///< elastic, of solids and beams
   double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
   double contact = 0;        ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
+  double impacts = 0;        ///< of `contact`, what nodes' impacts on multipliers took out
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
   double damping = 0;        ///< dissipated in dashpots and by contact damping
@@ -82,6 +83,7 @@ struct RunSummary {
   int checkpoints = 0;                   ///< written
   double checkpoint_seconds = 0;         ///< s, the loop waited for these in all
   double watch_seconds = 0;              ///< s, that looks of the watch added to the run
+  std::string account;                   ///< how well the energy account was kept, or that nobody judged it
   std::string watched;                   ///< the worst values that it saw, and their limits; empty: it saw nothing
   long first_step = 0;                   ///< at which this process took the run up; 0 unless restarted
   double time = 0;

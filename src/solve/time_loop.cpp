@@ -246,6 +246,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.step_estimates = describe_stable_step(model);
   summary.subcycling = describe_subcycling(model);
   summary.warnings = watch.told();
+  summary.account = watch.account_told();
   summary.watched = watch.worst_told();
   for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
   if (keeping.checkpoints)

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "mesh/hexahedron.hpp"
+#include "model/host_copy.hpp"
 #include "solve/account.hpp"
 #include "solve/diagnosis_units.hpp"
 
@@ -14,12 +15,25 @@ namespace {
 
 /// Between regular looks: a 64th of the run, but within these bounds; powers of two, whole rounds of any levels.
 constexpr long fewest_between_looks = 512, most_between_looks = 4096, looks_of_run = 64;
+/// At the energies alone, at least: a broken account must not waste more than a twentieth of a run.
+constexpr long energy_looks_of_run = 24;
 constexpr long steps_when_odd = 32;
 static_assert(fewest_between_looks % (1L << (most_levels - 1)) == 0);
 /// Smallest Jacobian at a corner, over the mean.
 constexpr double flattest_corner = 0.03;
 /// Of the whole model's deformation: parts that have less are measured by that.
 constexpr double least_share = 0.1;
+/// What a step's rounding can do to the energy given: velocities are rounded to half a unit in the last place, so that a step changes
+/// v^2 by two such halves at most; and as much again for the sums and for the work. Steps before the first count for sums.
+constexpr double rounding_of_step = 4 * 0.5 * std::numeric_limits<double>::epsilon();
+constexpr double steps_of_sums = 1000;
+/// The same of loads' work where nodes are in single precision: these hold what work has changed of the motion that a part began with.
+constexpr double rounding_of_single_step = 4 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
+/// Strain that elements in single precision see where there is none.
+constexpr double strain_of_rounding = 8 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
+/// Of the part (w dt)^2 of its kinetic energy, what the first steps of a body that turns by w dt in each, unsettled, can lose or make: they carry its
+/// nodes along tangents, and it rings with what that stretches.
+constexpr double turning = 4;
 /// In which a contact patch is passed, or a high mode fades, s.
 constexpr double short_while = 1e-3;
 
@@ -28,16 +42,54 @@ double magnitude(const EnergyAccount& energy) {
          std::fabs(energy.plastic);
 }
 
+/// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its angular velocity, of
+/// what travels nothing.
+double largest_rate(const Model& model) {
+  const auto x = to_host(model.nodes.position), v = to_host(model.nodes.velocity);
+  double largest = 0;
+  for (const auto& element : model.assembly.elements)
+    for (int N = 0; N < 8; ++N) {
+      const int a = element[N], b = element[N % 4 == 3 ? N - 3 : N + 1];
+      double moving = 0, apart = 0;
+      for (int i = 0; i < 3; ++i) {
+        moving += (v(a, i) - v(b, i)) * (v(a, i) - v(b, i));
+        apart += (x(a, i) - x(b, i)) * (x(a, i) - x(b, i));
+      }
+      if (apart > 0) largest = std::max(largest, moving / apart);
+    }
+  return std::sqrt(largest);
+}
+
+/// J, elastic, of what rounding strains elements in single precision by.
+double energy_of_rounding(const Model& model) {
+  double energy = 0;
+  if (model.scene.solver.elements_in_single())
+    for (const auto& part : model.assembly.parts)
+      for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+        energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain_of_rounding * strain_of_rounding *
+                  hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+  return energy;
+}
+
 }  // namespace
 
 Watch::Watch(const Model& model) : model_(model) {
   if (!model.scene.watch.active) return;
   arrays_ = std::make_unique<WatchArrays>(model);
   evidence_.worst_shape = arrays_->worst_shape();
+  energy_of_rounding_ = energy_of_rounding(model);
   parts_.resize(model.assembly.parts.size());
 }
 
-bool Watch::due(long step) const {
+bool Watch::due(long step) const { return whole_due(step) || (arrays_ && energies_due(step)); }
+
+bool Watch::energies_due(long step) const {
+  long between = fewest_between_looks;
+  while (between > steps_when_odd && between * energy_looks_of_run > model_.step_count) between /= 2;
+  return step % between == 0;
+}
+
+bool Watch::whole_due(long step) const {
   if (regular(step)) return true;
   if (!arrays_) return false;
   const bool power_of_two = (step & (step - 1)) == 0;
@@ -58,7 +110,12 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
     if (!finite(sample)) note(FaultKind::not_finite, true, 0, 0, sample, {}, false);
     return new_;
   }
-  const bool whole = due(sample.step) || !finite(sample);
+  if (!begun_) {
+    given_at_start_ = magnitude(sample.energy);
+    rate_at_start_ = largest_rate(model_);
+  }
+  if (finite(sample)) weigh_energies(sample);
+  const bool whole = whole_due(sample.step) || !finite(sample) || share_ > model_.scene.watch.fatal_energy_error;
   if (whole) {
     WatchMeasures now = arrays_->measure(model_);
     if (!begun_) evidence_.first = now;
@@ -80,12 +137,11 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   }
   if (whole) look_at_model(sample);
   look_at_energies(sample);
-  if (whole && by_part_.size() == parts_.size()) look_at_parts(sample);
+  if (whole_due(sample.step) && by_part_.size() == parts_.size()) look_at_parts(sample);
   return new_;
 }
 
 void Watch::look_at_beginning(const HistorySample& sample) {
-  given_at_start_ = magnitude(sample.energy);
   for (Fault& fault : absurd_units(model_)) {
     fault.time = sample.time;
     fault.step = sample.step;
@@ -105,24 +161,48 @@ void Watch::look_at_model(const HistorySample& sample) {
   for (const Extreme& one : now.chatter) judge(FaultKind::chatter, one.value, {static_cast<double>(limit.chatter)}, sample, one);
 }
 
-/// What the run was given: what it began with, and the most that loads have worked so far.
-void Watch::look_at_energies(const HistorySample& sample) {
-  const scene::Watch& limit = model_.scene.watch;
+void Watch::weigh_energies(const HistorySample& sample) {
   const EnergyAccount& energy = sample.energy;
   given_ = std::max(given_, given_at_start_ + std::fabs(energy.external_work) - std::min(0.0, energy.connector));
-  if (!(given_ > 0)) return;
-  const double error = std::fabs(energy.balance_error) / given_, beyond = energy.kinetic / given_ - 1;
+  // An impact can only take energy: what an account of impacts gives back, contact has made.
+  impacts_ = std::max(impacts_, energy.impacts);
+  const double error = energy.balance_error + (impacts_ - energy.impacts);
+  deformation_ = std::max(deformation_, deformation_energy(energy) - std::max(0.0, error));
+  const double turn = rate_at_start_ * model_.step_size, steps = steps_of_sums + static_cast<double>(sample.step);
+  work_ = std::max(work_, std::fabs(energy.external_work));
+  const bool single = model_.scene.solver.precision == scene::Precision::single_precision;
+  const double floor =
+      given_ * (rounding_of_step * steps + turning * turn * turn) + (single ? rounding_of_single_step * steps * work_ : 0) + energy_of_rounding_;
+  const double scale = std::max(deformation_, floor), beyond = std::max(0.0, std::fabs(error) - floor);
+  share_ = scale > 0 ? beyond / scale : 0;
+  blown_up_ = beyond > model_.scene.watch.fatal_energy_error * std::max(scale, given_);
+  kinetic_share_ = scale > 0 ? std::max(0.0, energy.kinetic - given_ - floor) / scale : 0;
+}
+
+void Watch::look_at_energies(const HistorySample& sample) {
+  const scene::Watch& limit = model_.scene.watch;
   // What is off but stays so needs no closer look.
-  odd_ = error > 0.2 * limit.energy_error && error > 1.1 * error_before_;
-  if (regular(sample.step)) error_before_ = error;
-  // What an instability adds is there. An account that is only wrong, as that of hourglass control near the stable step can be, does not end
-  // a run.
-  const double present = energy.kinetic + energy.internal + energy.contact + std::fmax(0.0, energy.connector);
-  const double fatal = present > (1 + limit.fatal_energy_error) * given_ ? limit.fatal_energy_error : std::numeric_limits<double>::infinity();
-  // In the first steps under a load little is given.
-  if (sample.step >= steps_when_odd || error > fatal)
-    judge(FaultKind::energy, error, {limit.energy_error, fatal}, sample, evidence_.last.speed);
-  judge(FaultKind::kinetic, beyond, {limit.kinetic_growth}, sample, evidence_.last.speed);
+  odd_ = share_ > 0.2 * limit.energy_error && (share_ > 1.1 * share_before_ || share_ > limit.fatal_energy_error);
+  if (regular(sample.step)) share_before_ = share_;
+  judge_lasting(FaultKind::energy, share_, {limit.energy_error, limit.fatal_energy_error}, lasting_error_, sample);
+  judge_lasting(FaultKind::kinetic, kinetic_share_, {limit.kinetic_growth}, lasting_growth_, sample);
+}
+
+/// A node that touches first has next to nothing deformed yet, and can err by as much: what is beyond a limit counts when it has lasted.
+void Watch::judge_lasting(FaultKind kind, double value, Limits limits, Lasting& lasting, const HistorySample& sample) {
+  const bool last = sample.step == model_.step_count && sample.step >= steps_when_odd;
+  const auto judge_it = [&](double what) { judge(kind, what, limits, sample, evidence_.last.acceleration); };
+  if (blown_up_ || last || value <= limits.warning) {
+    lasting.since = -1;
+    judge_it(value);
+  } else if (lasting.since < 0) {
+    lasting = {value, sample.step};
+  } else {
+    lasting.least = std::min(lasting.least, value);
+    if (sample.step - lasting.since < steps_when_odd) return;
+    judge_it(lasting.least);
+    lasting = {value, sample.step};
+  }
 }
 
 void Watch::look_at_parts(const HistorySample& sample) {
@@ -231,6 +311,14 @@ std::vector<std::string> Watch::told() const {
     lines.push_back(std::move(line));
   }
   return lines;
+}
+
+std::string Watch::account_told() const {
+  if (!arrays_) return "energy account not judged: watch.active = false";
+  const Worst& worst = worst_[static_cast<int>(FaultKind::energy)];
+  const double limit = model_.scene.watch.fatal_energy_error;
+  return fmt::format("energy account {}: error at most {:.2g} of what deformation held and dissipated, limit {:g}", worst.value > limit ? "broken" : "kept", worst.value,
+                     limit);
 }
 
 std::string Watch::worst_told() const {

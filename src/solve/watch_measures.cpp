@@ -56,8 +56,10 @@ WatchMeasures WatchArrays::measure(const Model& model) const {
     found.jacobian = {-of.value[0], of.place[0]};
     found.distortion = {of.value[1], of.place[1]};
   });
-  looks.largest(NodeWatch{model.nodes.velocity}, model.nodes.count,
-                [&found](const Largest<1>& of) { found.speed = {of.value[0], of.place[0]}; });
+  looks.largest(NodeWatch{model.paced_acceleration()}, model.nodes.count, [&found](const Largest<2>& of) {
+    found.speed = {of.value[0], of.place[0]};
+    found.acceleration = {of.value[1], of.place[1]};
+  });
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const ContactPair& pair = model.contacts[c];
     looks.largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count, [&](const Largest<2>& of) {

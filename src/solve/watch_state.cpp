@@ -48,6 +48,7 @@ void archive_measures(Archive& archive, const std::string& of, WatchMeasures& me
   archive.value(of + "jacobian", measures.jacobian);
   archive.value(of + "distortion", measures.distortion);
   archive.value(of + "speed", measures.speed);
+  archive.value(of + "acceleration", measures.acceleration);
   archive.values(of + "penetration", measures.penetration);
   archive.values(of + "chatter", measures.chatter);
 }
@@ -63,7 +64,13 @@ void Watch::archive_all(Archive& archive) {
   archive.value("watch_odd", odd_);
   archive.value("watch_given_at_start", given_at_start_);
   archive.value("watch_given", given_);
-  archive.value("watch_error_before", error_before_);
+  archive.value("watch_deformation", deformation_);
+  archive.value("watch_impacts", impacts_);
+  archive.value("watch_work", work_);
+  archive.value("watch_rate_at_start", rate_at_start_);
+  archive.value("watch_share_before", share_before_);
+  archive.value("watch_lasting_error", lasting_error_);
+  archive.value("watch_lasting_growth", lasting_growth_);
   archive.value("watch_worst", worst_);
   archive.values("watch_parts", parts_);
   archive_measures(archive, "watch_first_", evidence_.first);

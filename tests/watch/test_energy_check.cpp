@@ -1,0 +1,174 @@
+#include <catch2/catch_test_macros.hpp>
+#include <fmt/format.h>
+
+#include "tests/watch/seeded.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+/// The check of the energy balance: what is done here to a run's state from outside stands for whatever defect makes or loses energy.
+namespace {
+
+/// Changes a run's state once, at the first look from a step on, and remembers what the watch said.
+struct Meddler : RunObserver {
+  Model* model = nullptr;
+  long from = 0;
+  std::function<void(Model&)> meddle;
+
+  long done_at = -1;
+  EnergyAccount before;
+  std::vector<Fault> faults;
+  RunSummary summary;
+
+  void progress(const Model& /*model*/, const HistorySample& sample) override {
+    if (!meddle || done_at >= 0 || sample.step < from) return;
+    done_at = sample.step;
+    before = sample.energy;
+    meddle(*model);
+  }
+  void warning(const Model& /*model*/, const Fault& fault) override { faults.push_back(fault); }
+  void end(const Model& /*model*/, const RunSummary& ended) override { summary = ended; }
+
+  std::string said() const {
+    std::string all;
+    for (const Fault& fault : faults) all += fault.told() + '\n';
+    return all;
+  }
+};
+
+/// 10.9 t at 100 km/h, which nothing touches: 4.2 MJ.
+void add_traveller(scene::Scene& scene) {
+  scene::PointMass mass;
+  mass.name = "traveller";
+  mass.mass = 10900;
+  mass.position = {0, 5, 0};
+  scene.points.push_back(mass);
+  scene::InitialMotion motion;
+  motion.name = "travel";
+  motion.parts = {"traveller"};
+  motion.velocity = {100 / 3.6, 0, 0};
+  scene.initial_motions.push_back(motion);
+}
+
+/// A block on a held one, pressed on it within 0.1 ms.
+scene::Scene pressed_pair(scene::ContactAlgorithm algorithm) {
+  TwoBlocks blocks;
+  blocks.upper_divisions = {4, 4, 2};
+  blocks.lower_divisions = {8, 8, 3};
+  blocks.algorithm = algorithm;
+  scene::Scene scene = blocks.scene(1);
+  for (scene::Part& part : scene.parts) part.take_hourglass(scene::HourglassType::stiffness);
+  hold(scene, "lower.z_min", {true, true, true});
+  press(scene, "upper.z_max", 1e7).curve = "ramp";
+  add_ramp(scene, "ramp", 0, 1e-4);
+  add_traveller(scene);
+  return scene;
+}
+
+constexpr long steps = 4000;
+
+Meddler run_with(const scene::Scene& scene, const std::function<void(Model&)>& meddle, long of_steps = steps) {
+  Model model;
+  build_model(scene, model);
+  Meddler meddler;
+  meddler.model = &model;
+  meddler.from = of_steps / 2;
+  meddler.meddle = meddle;
+  model.step_count = of_steps;
+  model.output_times.history = model.output_times.fields = 1e9 * model.step_size;
+  run(model, {&meddler});
+  return meddler;
+}
+
+/// Stopped by the energy check, before a twentieth of the run was wasted, or between two of the looks that the least of runs has.
+void check_stopped(const Meddler& meddler, long of_steps = steps) {
+  INFO("meddled with at step " << meddler.done_at << "; " << meddler.said());
+  REQUIRE(meddler.done_at > 0);
+  CHECK(!meddler.summary.completed);
+  REQUIRE(meddler.summary.fault);
+  CHECK(meddler.summary.fault->kind == FaultKind::energy);
+  CHECK(meddler.summary.steps - meddler.done_at <= std::max(64L, of_steps / 20));
+}
+
+/// Adds a velocity to a part's nodes, in turn up and down, so that no rigid motion comes of it.
+void shake(Model& model, const std::string& part, double energy) {
+  const auto velocity = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), model.nodes.velocity);
+  const auto& nodes = model.assembly.node_sets.at(part);
+  const double speed = std::sqrt(2 * energy / mass_of(model, part));
+  double sign = 1;
+  for (int n : nodes) velocity(n, 2) += (sign = -sign) * speed;
+  Kokkos::deep_copy(model.nodes.velocity, velocity);
+}
+
+void move(Model& model, const std::string& set, double down) {
+  const auto position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), model.nodes.position);
+  for (int n : model.assembly.node_sets.at(set)) position(n, 2) -= down;
+  Kokkos::deep_copy(model.nodes.position, position);
+}
+
+/// What rings in a body that is spun unsettled may be told of as hourglass energy.
+std::string said_of_energy(const Meddler& meddler) {
+  std::string all;
+  for (const Fault& fault : meddler.faults)
+    if (fault.kind != FaultKind::hourglass_share) all += fault.told() + '\n';
+  return all;
+}
+
+double deformation(const Meddler& meddler) { return deformation_energy(meddler.before); }
+
+}  // namespace
+
+TEST_CASE("energy that is made beside a fast heavy mass ends the run within a twentieth of it, whatever makes it") {
+  for (const auto algorithm : both_algorithms) {
+    INFO(name_of(algorithm));
+    const scene::Scene scene = pressed_pair(algorithm);
+    const Meddler sound = run_with(scene, {});
+    CHECK(sound.said() == "");
+    CHECK(sound.summary.completed);
+
+    // As much as deforms, a millionth of what travels.
+    double energy = 0;
+    const Meddler quiet = run_with(scene, [&](Model&) {});
+    energy = 1.5 * deformation(quiet);
+    CHECK(energy < 1e-5 * quiet.before.kinetic);
+    check_stopped(run_with(scene, [&](Model& model) { shake(model, "upper", energy); }));
+    check_stopped(run_with(scene, [&](Model& model) { shake(model, "upper", energy); }, 400), 400);
+    // One node is found deep in the other body, as a wrong projection leaves it.
+    check_stopped(run_with(scene, [&](Model& model) {
+      const auto position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), model.nodes.position);
+      position(model.contacts[0].slave_nodes[12], 2) -= 5e-4;
+      Kokkos::deep_copy(model.nodes.position, position);
+    }));
+    // Energy that is lost: all that both bodies hold.
+    check_stopped(run_with(scene, [&](Model& model) { Kokkos::deep_copy(model.nodes.position, model.nodes.reference); }));
+  }
+}
+
+TEST_CASE("an account of impacts that gives energy back is no excuse for it") {
+  // Multipliers let nothing penetrate: what is pressed in they throw out, and book that as less taken by impacts.
+  scene::Scene scene = pressed_pair(scene::ContactAlgorithm::multiplier);
+  check_stopped(run_with(scene, [&](Model& model) { move(model, "upper", 2e-5); }));
+}
+
+TEST_CASE("what only travels is no error: bodies in flight, spun and in free fall, beside a fast heavy mass") {
+  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+    scene::Scene scene = block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1);
+    scene.solver.precision = precision;
+    scene.parts[0].take_hourglass(scene::HourglassType::stiffness);
+    scene.gravity = {0, 0, -9.81};
+    add_traveller(scene);
+    scene::InitialMotion motion;
+    motion.name = "throw";
+    motion.parts = {"block"};
+    motion.velocity = {100 / 3.6, 0, 0};
+    INFO(static_cast<int>(precision));
+    scene.initial_motions.push_back(motion);
+    CHECK(said_of_energy(run_with(scene, {})) == "");
+    scene.initial_motions.back().angular_velocity = {10, 20, 60};
+    CHECK(said_of_energy(run_with(scene, {})) == "");
+    // And alone, where rounding of the traveller hides nothing.
+    scene.points.clear();
+    scene.initial_motions.erase(scene.initial_motions.begin());
+    CHECK(said_of_energy(run_with(scene, {})) == "");
+  }
+}

@@ -121,6 +121,11 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
       causes.push_back(Cause{"contact", fmt::format("nodes of contact {} are found {:.3g} of a face's size inside the other surface, with more energy than brought them there: look "
                                                "where they come in from beside, over an edge or from behind, and move the parts or choose other surfaces", contact.name,
                                                evidence.last.penetration[c].value), 45});
+    if (fault.kind == FaultKind::energy && model.contacts[c].has_springs() && !(model.contacts[c].law.damping > 0) && c < evidence.deepest.size() &&
+        evidence.deepest[c] > 0 && !(evidence.first.penetration[c].value > 0))
+      causes.push_back(Cause{"blow on springs", fmt::format("bodies strike the undamped springs of contact {} with few elements behind them, and each node that touches or parts errs by "
+                                                       "the square of the step: lower time.step_scale, give contacts.{}.damping, or take its algorithm \"multiplier\"", contact.name,
+                                                       contact.name), 10});
     const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > model.scene.watch.penetration;
     if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
       causes.push_back(Cause{"soft penalty", fmt::format("the springs of contact {} (contacts.{}.penalty_scale = {:.3g}) are too soft for what presses", contact.name,

@@ -29,7 +29,7 @@ constexpr double rounding_of_step = 4 * 0.5 * std::numeric_limits<double>::epsil
 constexpr double steps_of_sums = 1000;
 /// The same of loads' work where nodes are in single precision: these hold what work has changed of the motion that a part began with.
 constexpr double rounding_of_single_step = 4 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// Strain that elements in single precision see where there is none.
+/// Strain that elements in single precision see at most where bodies travel and there is none.
 constexpr double strain_of_rounding = 8 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Of the part (w dt)^2 of its kinetic energy, what the first steps of a body that turns by w dt in each, unsettled, can lose or make: they carry its
 /// nodes along tangents, and it rings with what that stretches.
@@ -172,7 +172,8 @@ void Watch::weigh_energies(const HistorySample& sample) {
   work_ = std::max(work_, std::fabs(energy.external_work));
   const bool single = model_.scene.solver.precision == scene::Precision::single_precision;
   const double floor =
-      given_ * (rounding_of_step * steps + turning * turn * turn) + (single ? rounding_of_single_step * steps * work_ : 0) + energy_of_rounding_;
+      given_ * (rounding_of_step * steps + turning * turn * turn) + (single ? rounding_of_single_step * steps * work_ : 0) +
+      std::min(energy_of_rounding_, rounding_of_single_step * given_);
   const double scale = std::max(deformation_, floor), beyond = std::max(0.0, std::fabs(error) - floor);
   share_ = scale > 0 ? beyond / scale : 0;
   blown_up_ = beyond > model_.scene.watch.fatal_energy_error * std::max(scale, given_);
@@ -190,11 +191,12 @@ void Watch::look_at_energies(const HistorySample& sample) {
 
 /// A node that touches first has next to nothing deformed yet, and can err by as much: what is beyond a limit counts when it has lasted.
 void Watch::judge_lasting(FaultKind kind, double value, Limits limits, Lasting& lasting, const HistorySample& sample) {
-  const bool last = sample.step == model_.step_count && sample.step >= steps_when_odd;
+  const bool last = sample.step == model_.step_count;
   const auto judge_it = [&](double what) { judge(kind, what, limits, sample, evidence_.last.acceleration); };
   if (blown_up_ || last || value <= limits.warning) {
     lasting.since = -1;
-    judge_it(value);
+    // In the first steps under a load little has deformed.
+    if (blown_up_ || last || sample.step >= steps_when_odd) judge_it(value);
   } else if (lasting.since < 0) {
     lasting = {value, sample.step};
   } else {

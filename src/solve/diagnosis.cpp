@@ -117,10 +117,10 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
     if (c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
       causes.push_back(Cause{"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
                                                            "contacts.{}.close_gap", contact.name, evidence.first.penetration[c].value, contact.name), 80});
-    if (fault.kind == FaultKind::energy && c < evidence.last.penetration.size() && evidence.last.penetration[c].value > 0.5 * model.scene.watch.penetration)
-      causes.push_back(Cause{"contact", fmt::format("nodes of contact {} are found {:.3g} of a face's size inside the other surface, with more energy than brought them there: look "
+    if (fault.kind == FaultKind::energy && c < evidence.deepest.size() && evidence.deepest[c] > 0.5 * model.scene.watch.penetration)
+      causes.push_back(Cause{"contact", fmt::format("nodes of contact {} were found {:.3g} of a face's size inside the other surface, with more energy than brought them there: look "
                                                "where they come in from beside, over an edge or from behind, and move the parts or choose other surfaces", contact.name,
-                                               evidence.last.penetration[c].value), 45});
+                                               evidence.deepest[c]), 45});
     if (fault.kind == FaultKind::energy && model.contacts[c].has_springs() && !(model.contacts[c].law.damping > 0) && c < evidence.deepest.size() &&
         evidence.deepest[c] > 0 && !(evidence.first.penetration[c].value > 0))
       causes.push_back(Cause{"blow on springs", fmt::format("bodies strike the undamped springs of contact {} with few elements behind them, and each node that touches or parts errs by "

@@ -70,6 +70,7 @@ class Watch {
 
   void look_at_beginning(const HistorySample& sample);
   void look_at_model(const HistorySample& sample);
+  double floor_of_error(const HistorySample& sample) const;
   void weigh_energies(const HistorySample& sample);
   void look_at_energies(const HistorySample& sample);
   void look_at_parts(const HistorySample& sample);

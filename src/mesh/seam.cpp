@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "case/error.hpp"
+#include "mesh/connected_bodies.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/surface_above.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave {
@@ -34,15 +36,35 @@ Vec3 centre_of(const Mesh& mesh, int element) {
   return sum;
 }
 
-/// How deep a place lies below the mouth, along the seam.
-double depth_of(const scene::Seam& seam, const Vec3& x) { return (seam.place[2] - x[2]) / std::cos(seam.angle); }
+/// A seam of a case, and z of the mesh's upper surface over its place: its depth is measured from there.
+struct Crack {
+  const scene::Seam& seam;
+  std::string place;  ///< "FILE:LINE: [seams.NAME]"
+  double surface;     ///< m
 
-bool inside(const scene::Seam& seam, const LayerFace& face) {
-  return std::fabs(face.centre[1] - seam.place[1]) <= 0.5 * seam.length && depth_of(seam, face.centre) <= seam.depth;
+  /// Along the seam's plane, m.
+  double depth_of(const Vec3& x) const { return (surface - x[2]) / std::cos(seam.angle); }
+  bool has(const LayerFace& face) const { return std::fabs(face.centre[1] - seam.place[1]) <= 0.5 * seam.length && depth_of(face.centre) <= seam.depth; }
+};
+
+std::string at(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
+
+/// The mesh's upper surface over the seam's place, which has to lie on it but for an element's height.
+double surface_over(const scene::Seam& seam, const std::string& place, const Mesh& mesh) {
+  const SurfaceAbove surface(mesh);
+  const auto top = surface.over(seam.place[0], seam.place[1]);
+  if (!top)
+    throw InputError(fmt::format("{} place: {} lies beside the mesh: its upper surface is nowhere over or under it; the nearest place on it is {}", place, at(seam.place),
+                                 at(surface.nearest(seam.place))));
+  const double above = seam.place[2] - top->z;
+  if (std::fabs(above) > top->element_height)
+    throw InputError(fmt::format("{} place: {} is {:.4g} m {} the mesh's upper surface, from which the depth is measured; the nearest place on it is {}", place, at(seam.place),
+                                 std::fabs(above), above > 0 ? "above" : "below", at({seam.place[0], seam.place[1], top->z})));
+  return top->z;
 }
 
 /// Faces across x with an element at both sides, by layer (x in units of a tolerance).
-std::map<long, std::vector<LayerFace>> layers_within(const scene::Seam& seam, const Mesh& mesh, double tolerance) {
+std::map<long, std::vector<LayerFace>> layers_within(const Crack& crack, const Mesh& mesh, double tolerance) {
   std::map<std::array<int, 4>, Face> open;
   std::map<long, std::vector<LayerFace>> layers;
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
@@ -53,7 +75,7 @@ std::map<long, std::vector<LayerFace>> layers_within(const scene::Seam& seam, co
       LayerFace face;
       for (int n : nodes)
         for (int i = 0; i < 3; ++i) face.centre[i] += mesh.nodes[n][i] / 4;
-      if (!inside(seam, face)) continue;
+      if (!crack.has(face)) continue;
       face.area = 0.5 * length(cross(difference(mesh.nodes[nodes[2]], mesh.nodes[nodes[0]]), difference(mesh.nodes[nodes[3]], mesh.nodes[nodes[1]])));
       std::sort(nodes.begin(), nodes.end());
       const auto other = open.find(nodes);
@@ -88,6 +110,29 @@ std::vector<LayerFace> chosen_layer(const scene::Seam& seam, const std::map<long
     best = &faces;
   }
   return best ? *best : std::vector<LayerFace>{};
+}
+
+/// The extents of these faces' nodes: along y, and down from the surface along the seam's plane, m.
+struct Extent {
+  double length = 0, depth = 0;
+};
+
+Extent extent_of(const Crack& crack, const Mesh& mesh, const std::vector<LayerFace>& faces) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, deepest = 0;
+  for (const LayerFace& face : faces)
+    for (int n : face.nodes) {
+      low = std::min(low, mesh.nodes[n][1]);
+      high = std::max(high, mesh.nodes[n][1]);
+      deepest = std::max(deepest, crack.depth_of(mesh.nodes[n]));
+    }
+  return {high - low, deepest};
+}
+
+/// How large a seam has to be here to open anything, by the element under its place.
+std::string least_size(const scene::Seam& seam, const Mesh& mesh) {
+  const auto element = SurfaceAbove(mesh).over(seam.place[0], seam.place[1]);
+  if (!element) return "larger than the elements are";
+  return fmt::format("at least two elements ({:.4g} m) long and one ({:.4g} m) deep", 2 * element->element_width, element->element_height);
 }
 
 /// Moves the layer of these faces onto the seam's plane, and what is beside it by less.
@@ -141,13 +186,21 @@ std::set<int> front_of(const Mesh& mesh, const std::vector<LayerFace>& faces) {
   return front;
 }
 
-/// Gives the elements behind the seam nodes of their own.
-void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, Mesh& mesh) {
+/// Nodes of these faces that the seam opens, each with room for the number of its twin.
+std::map<int, int> opened_by(const Crack& crack, const std::vector<LayerFace>& faces, const Mesh& mesh) {
   const std::set<int> front = front_of(mesh, faces);
   std::map<int, int> twin;
   for (const LayerFace& face : faces)
     for (int n : face.nodes)
       if (front.count(n) == 0) twin.emplace(n, 0);
+  if (twin.empty())
+    throw InputError(fmt::format("{}: opens no node: of its {} element face{} all nodes lie on its front, which stays whole; make it {}, or the elements smaller", crack.place,
+                                 faces.size(), faces.size() == 1 ? "" : "s", least_size(crack.seam, mesh)));
+  return twin;
+}
+
+/// Gives the elements behind the seam nodes of their own.
+void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, std::map<int, int> twin, Mesh& mesh) {
   for (auto& [n, own] : twin) {
     own = static_cast<int>(mesh.nodes.size());
     mesh.nodes.push_back(Vec3(mesh.nodes[n]));
@@ -175,19 +228,38 @@ void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, Mesh& me
 
 }  // namespace
 
-void open_seam(const scene::Seam& seam, const std::string& place, Mesh& mesh) {
+OpenedSeam open_seam(const scene::Seam& seam, const std::string& place, Mesh& mesh) {
   for (const char* side : {"_before", "_behind"})
     if (mesh.surfaces.count(seam.name + side) != 0)
       throw InputError(fmt::format("{}: the mesh has a surface '{}{}' already; choose another name", place, seam.name, side));
+  const Crack crack{seam, place, surface_over(seam, place, mesh)};
   double shortest = std::numeric_limits<double>::infinity();
   for (const auto& element : mesh.elements) shortest = std::min(shortest, hexahedron_length(corners_of(mesh.nodes, element)));
-  const auto faces = chosen_layer(seam, layers_within(seam, mesh, 1e-4 * shortest));
+  const auto faces = chosen_layer(seam, layers_within(crack, mesh, 1e-4 * shortest));
   if (faces.empty())
-    throw InputError(fmt::format("{}: no layer of element faces across x lies within its length and depth below z = {:.6g}; make it longer or "
-                                 "deeper than an element, or move `place` to the mesh's upper surface",
-                                 place, seam.place[2]));
+    throw InputError(fmt::format("{}: no layer of element faces across x lies within its length and depth below z = {:.6g}, so that it opens no node; make it {}, or move "
+                                 "`place` along the mesh",
+                                 place, crack.surface, least_size(seam, mesh)));
+  const auto twins = opened_by(crack, faces, mesh);
+  const Extent extent = extent_of(crack, mesh, faces);
+  const int bodies = connected_bodies(mesh);
   incline(seam, place, faces, mesh);
-  part(seam, faces, mesh);
+  part(seam, faces, twins, mesh);
+  if (connected_bodies(mesh) > bodies)
+    throw InputError(fmt::format("{}: cuts the body in two: it became {:.4g} m long and {:.4g} m deep, through all of it; make its depth less than {:.4g} m, its length less, or "
+                                 "make two meshes of the two bodies",
+                                 place, extent.length, extent.depth, extent.depth));
+  OpenedSeam opened;
+  opened.nodes = static_cast<int>(twins.size());
+  opened.faces = static_cast<int>(faces.size());
+  opened.length = extent.length;
+  opened.depth = extent.depth;
+  return opened;
+}
+
+std::string describe(const scene::Seam& seam, const OpenedSeam& opened) {
+  return fmt::format("[seams.{}] (line {}) opens {} node{} of mesh {} between {} pairs of element faces: {:.4g} m long ({:.4g} m asked for), {:.4g} m deep ({:.4g} m asked for)",
+                     seam.name, seam.line, opened.nodes, opened.nodes == 1 ? "" : "s", seam.mesh, opened.faces, opened.length, seam.length, opened.depth, seam.depth);
 }
 
 }  // namespace railwave

@@ -64,10 +64,10 @@ Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std
                                     rounded_count(expected_elements(*source))));
   std::vector<std::string> own;
   Mesh mesh = build_mesh(*source, &own);
+  for (const scene::Seam& seam : scene.seams)
+    if (seam.mesh == part.mesh) own.push_back(describe(seam, open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh)));
   for (std::string& note : own)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
-  for (const scene::Seam& seam : scene.seams)
-    if (seam.mesh == part.mesh) open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh);
   if (part.element_set.empty()) return mesh;
   const auto set = mesh.element_sets.find(part.element_set);
   if (set == mesh.element_sets.end()) {

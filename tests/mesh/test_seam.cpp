@@ -6,6 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/box.hpp"
+#include "mesh/connected_bodies.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
@@ -133,6 +134,42 @@ TEST_CASE("a seam in a rail's head goes down through its coarser layers") {
   CHECK(topology(mesh).open_edges == 0);
 }
 
+TEST_CASE("what a seam became is said: nodes, faces, length and depth beside those asked for") {
+  Mesh mesh = box({24, 8, 4});
+  auto crack = seam({0.061, 0.02, 0.02}, 0.023, 0.012, 0);
+  crack.mesh = "block";
+  crack.line = 4;
+  const OpenedSeam opened = open_seam(crack, "here", mesh);
+  CHECK(opened.nodes == 6);
+  CHECK(opened.faces == 8);
+  CHECK_THAT(opened.length, WithinRel(0.02, 1e-12));
+  CHECK_THAT(opened.depth, WithinRel(0.01, 1e-12));
+  CHECK(describe(crack, opened) == "[seams.crack] (line 4) opens 6 nodes of mesh block between 8 pairs of element faces: 0.02 m long (0.023 m asked for), 0.01 m deep (0.012 m asked for)");
+}
+
+TEST_CASE("two elements long and one deep is the least that opens, one node") {
+  Mesh mesh = box({24, 8, 4});
+  const OpenedSeam opened = open_seam(seam({0.06, 0.02, 0.02}, 0.01, 0.005, 0), "here", mesh);
+  CHECK(opened.nodes == 1);
+  CHECK(opened.faces == 2);
+}
+
+TEST_CASE("a seam's depth is measured from the surface, wherever near it its place lies") {
+  for (double above : {-0.004, 0.0, 0.004}) {
+    Mesh mesh = box({24, 8, 4});
+    const OpenedSeam opened = open_seam(seam({0.06, 0.02, 0.02 + above}, 0.02, 0.01, 0), "here", mesh);
+    CHECK(opened.nodes == 6);
+    CHECK_THAT(opened.depth, WithinRel(0.01, 1e-12));
+  }
+}
+
+TEST_CASE("a seam as deep as the body that is not as wide leaves it in one piece") {
+  Mesh mesh = box({24, 8, 4});
+  const OpenedSeam opened = open_seam(seam({0.06, 0.02, 0.02}, 0.02, 1, 0), "here", mesh);
+  CHECK_THAT(opened.depth, WithinRel(0.02, 1e-12));
+  CHECK(connected_bodies(mesh) == 1);
+}
+
 TEST_CASE("seams that cannot be are told why") {
   const auto complaint = [](const scene::Seam& one) -> std::string {
     Mesh mesh = box({24, 8, 4});
@@ -144,7 +181,14 @@ TEST_CASE("seams that cannot be are told why") {
     return "";
   };
   CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)), ContainsSubstring("case.toml:3: [seams.crack]: no layer of element faces across x"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)), ContainsSubstring("at least two elements (0.01 m) long and one (0.005 m) deep"));
   CHECK_THAT(complaint(seam({0.005, 0.02, 0.02}, 0.02, 0.01, 1)), ContainsSubstring("place the seam farther from the end"));
+  CHECK_THAT(complaint(seam({0.06, 0.0225, 0.02}, 0.006, 0.01, 0)), ContainsSubstring("[seams.crack]: opens no node: of its 2 element faces all nodes lie on its front"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.014}, 0.02, 0.002, 0)),
+             ContainsSubstring("[seams.crack] place: [0.06, 0.02, 0.014] is 0.006 m below the mesh's upper surface, from which the depth is measured; the nearest place on it is [0.06, 0.02, 0.02]"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.026}, 0.02, 0.01, 0)), ContainsSubstring("is 0.006 m above the mesh's upper surface"));
+  CHECK_THAT(complaint(seam({0.06, 0.05, 0.01}, 0.04, 0.01, 0)), ContainsSubstring("lies beside the mesh: its upper surface is nowhere over or under it; the nearest place on it is [0.06, 0.04, 0.02]"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 1, 1, 0)), ContainsSubstring("cuts the body in two: it became 0.04 m long and 0.02 m deep"));
   Mesh mesh = box({24, 8, 4});
   open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh);
   CHECK_THROWS_AS(open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh), InputError);

@@ -180,7 +180,7 @@ struct CurvedShares {
     if (contact.status(s) == status_apart) return;
     const int segment = contact.tracked(s);
     const Vector3 f = row(force, s);
-    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f, CurvedReaction{sum, place_of_node, contact.surface(segment), f});
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f, CurvedReaction({search, sum, place_of_node}, contact.surface(segment), f));
   }
 };
 

@@ -290,8 +290,8 @@ std::vector<std::string> late_contacts(const Model& model) {
     Kokkos::parallel_reduce("turned_away", Range(0, pair.arrays.slave_count), CountTurnedAway{pair.arrays.gap}, inside);
     if (inside > 0)
       lines.push_back(fmt::format("contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
-                                  "beside its surface {}, not through it; name the faces that they came through in the contact too "
-                                  "(the whole surface of a part is its `exterior`)",
+                                  "beside its surface {}, not through it; name the faces that they came through in the contact too, "
+                                  "as a list of masters",
                                   pair.contact->name, inside, pair.reversed ? pair.contact->master.text() : pair.contact->slave,
                                   pair.reversed ? pair.contact->slave : pair.contact->master.text()));
     if (const int late = to_host(pair.missed)(0); late > 0)

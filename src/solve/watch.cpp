@@ -50,8 +50,9 @@ double largest_rate(const Model& model) {
   const auto x = to_host(model.nodes.position), v = to_host(model.nodes.velocity);
   double largest = 0;
   for (const auto& element : model.assembly.elements)
-    for (int N = 0; N < 8; ++N) {
-      const int a = element[N], b = element[N % 4 == 3 ? N - 3 : N + 1];
+    for (int k = 0; k < 12; ++k) {
+      // Around the lower and the upper face, and up between them.
+      const int N = k % 8, a = element[N], b = element[k >= 8 ? N + 4 : N % 4 == 3 ? N - 3 : N + 1];
       double moving = 0, apart = 0;
       for (int i = 0; i < 3; ++i) {
         moving += (v(a, i) - v(b, i)) * (v(a, i) - v(b, i));

@@ -37,7 +37,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const Carr
 /// Damping forces of one patch's elements, with the velocities half a step back:
 ///   sigma = beta (lambda tr(d) I + 2 mu d) - q I,  d the rate of strain,
 ///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (von Neumann & Richtmyer 1950; Landshoff 1955),
-/// by the mean gradient, and - alpha m v on the nodes. Hourglass modes have their own control. Forces go to rows of the
+/// by the mean gradient, and - alpha m v on the nodes, alpha being the part's and that of absorbing layers there. Hourglass modes have their own control. Forces go to rows of the
 /// partial ones beside those of the elements' stresses, so that damped elements are computed by the same kernels as others.
 /// What is dissipated is the forces' work by the trapezoidal rule, from what the rows still hold of the instant before.
 template <class S, class Nodes>
@@ -72,7 +72,7 @@ struct PatchDamping {
     double dissipated = 0;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, packs),
-        [&](const int k, double& sum) { sum += hand_over(p, k, constants.mass_rate, staged, force); }, dissipated);
+        [&](const int k, double& sum) { sum += hand_over(p, k, staged, force); }, dissipated);
     Kokkos::single(Kokkos::PerTeam(team), [&]() { damping.energy(p) += dissipated; });
   }
 
@@ -107,7 +107,7 @@ struct PatchDamping {
   }
 
   /// Sums the corners at a pack of nodes; returns what they have dissipated since the instant before, J.
-  KOKKOS_INLINE_FUNCTION double hand_over(const int p, const int k, const double mass_rate, const Staged& staged, const S* force) const {
+  KOKKOS_INLINE_FUNCTION double hand_over(const int p, const int k, const Staged& staged, const S* force) const {
     constexpr int lanes = lane_count<S>;
     const std::uint16_t* first_place = patches.first_place.data() + static_cast<long>(p) * patches.pack_stride;
     const std::uint16_t* place = patches.place.data() + static_cast<long>(p) * patches.place_stride;
@@ -120,11 +120,11 @@ struct PatchDamping {
     for (int lane = 0; lane < lanes && k * lanes + lane < patches.node_count(p); ++lane) {
       const int l = k * lanes + lane, at = p * patches.node_stride + l;
       const Vector3 v = velocity_of(staged, nodes.nodes, p, patches.node(at) & ~advance_bit, l);
-      const double rate = mass_rate * damping.node_mass(at);
+      const double drag = damping.node_drag(at);
       const PartialForce<S> before = partial(damping.first_partial + at);
       PartialForce<S> now{};
       for (int i = 0; i < 3; ++i) {
-        now.x[i] = static_cast<S>(lane_sum[i][lane] - rate * v[i]);
+        now.x[i] = static_cast<S>(lane_sum[i][lane] - drag * v[i]);
         dissipated -= 0.5 * elapsed * (share_before * static_cast<double>(before.x[i]) + static_cast<double>(now.x[i])) * v[i];
       }
       partial(damping.first_partial + at) = now;

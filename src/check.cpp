@@ -8,6 +8,7 @@
 #include "case/activity.hpp"
 #include "kernels/lanes.hpp"
 #include "mesh/quality.hpp"
+#include "model/absorbing_layer.hpp"
 #include "model/doubts.hpp"
 #include "model/output_times.hpp"
 #include "model/place_element_sets.hpp"
@@ -79,6 +80,12 @@ void describe_places(const Model& model, std::ostream& out) {
   }
 }
 
+/// Where waves leave, and which do not.
+void describe_ends(const Model& model, std::ostream& out) {
+  for (const std::string& line : describe_absorbing_layers(model)) out << line << '\n';
+  for (const std::string& line : describe_slender_ends(model)) out << "note: " << line << '\n';
+}
+
 /// What rolls, and at what rate; then all that may be a mistake.
 void describe_motions(const Model& model, std::ostream& out) {
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
@@ -115,6 +122,7 @@ void describe_run(Model& model, std::ostream& out) {
   if (!model.scene.connectors.empty())
     out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
   describe_places(model, out);
+  describe_ends(model, out);
   describe_motions(model, out);
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;

@@ -10,7 +10,7 @@ const std::vector<Section>& sections() {
       node_set_section(),  element_set_section(), sleeper_section(),    track_section(),   beam_section(),  connector_section(),
       constraint_section(), contact_section(),   curve_section(),   load_section(),
       hammer_section(),    probe_section(),
-      gravity_section(),   motion_section(),     prescribed_section(), non_reflecting_section(), tie_section(), settle_section(), time_section(),
+      gravity_section(),   motion_section(),     prescribed_section(), non_reflecting_section(), absorbing_layer_section(), tie_section(), settle_section(), time_section(),
       checkpoint_section(), solver_section(),    watch_section(),      output_section(),
   };
   return all;

@@ -54,6 +54,7 @@ Section contact_section();
 Section motion_section();
 Section prescribed_section();
 Section non_reflecting_section();
+Section absorbing_layer_section();
 Section tie_section();
 Section gravity_section();
 

@@ -220,9 +220,27 @@ Section non_reflecting_section() {
   using scene::NonReflecting;
   auto section = named_section("non_reflecting", "non-reflecting end", &Scene::non_reflecting,
                                "Surfaces where bodies go on without end: dashpots of the part's own wave impedances (rho C_d along "
-                               "the normal, rho C_s across) let waves out. While the scene settles their nodes are held, and what "
-                               "held them then acts on them as a constant force during the run.");
+                               "the normal, rho C_s across) let plane waves of the continuum out. A slender bar's own waves are slower, and come back in part "
+                               "(a pulse in a steel bar about 15 %, bending more): [absorbing_layers.NAME] before the same end takes these too. While the scene settles their nodes are held, and "
+                               "what held them then acts on them as a constant force during the run.");
   section.keys = {key("target", &NonReflecting::target, "where waves leave").names(surface).needed()};
+  return section;
+}
+
+Section absorbing_layer_section() {
+  using scene::AbsorbingLayer;
+  auto section = named_section("absorbing_layers", "absorbing layer", &Scene::absorbing_layers,
+                               "Zones before the ends of bodies in which waves of all kinds die out, a bar's and a rail's as well as those of the continuum: mass-proportional damping "
+                               "that grows with the cube of the way to the end. A layer as long as a longitudinal wave, or twice as long as a bending wave, sends about 2 % of it back at most "
+                               "(table in docs/verification.md). It slows rigid motion of the zone too: not for bodies that roll or travel. Statics and `modes` know nothing of it.");
+  section.keys = {
+      key("target", &AbsorbingLayer::target, "the plane end before which it lies").names(surface).needed(),
+      key("length", &AbsorbingLayer::length, "from the end into the body").in("m").within(above(0)).needed(),
+      key("reflection", &AbsorbingLayer::reflection,
+          "of the amplitude of the part's fastest waves what damping leaves on the way to the end and back: its damping at the end is 4 C_d ln(1 / reflection) / length. Less is not "
+          "always better: damping that grows fast sends long waves back by itself")
+          .within(inside(1e-6, 1)),
+  };
   return section;
 }
 

@@ -156,7 +156,10 @@ void check_mesh(void* entry, EntryCheck& check) {
 
 void check_part(void* entry, EntryCheck& check) {
   auto& part = *static_cast<scene::Part*>(entry);
-  if (!check.given("hourglass_coefficient")) part.take_hourglass(part.hourglass);
+  if (!check.given("hourglass_coefficient")) return part.take_hourglass(part.hourglass);
+  if (!check.given("hourglass") && check.sound({"hourglass_coefficient"}) && part.hourglass_coefficient > 0)
+    check.remark("hourglass_coefficient", "is given without hourglass, and so is one of stiffness control, the default; give hourglass = \"stiffness\" beside it, or \"viscous\" if that "
+                                          "control's coefficient is meant (docs/hourglass.md)");
 }
 
 void check_beam(void* entry, EntryCheck& check) {

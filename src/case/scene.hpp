@@ -256,6 +256,13 @@ struct NonReflecting : Place {
   std::string target;              ///< `part.surface`
 };
 
+/// A zone before a part's end in which mass-proportional damping grows with the cube of the way to the end, so that waves of all kinds die out.
+struct AbsorbingLayer : Place {
+  std::string target;              ///< `part.surface`: the end
+  double length = 0;               ///< m, from the end into the body
+  double reflection = 0.01;        ///< of the part's fastest waves' amplitude that its damping leaves on the way to the end and back
+};
+
 /// Each node of the slave stays where it lies over a face of the master.
 struct Tie : Place {
   std::string slave;               ///< `part.surface`
@@ -409,6 +416,7 @@ struct Scene {
   std::vector<InitialMotion> initial_motions;
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<NonReflecting> non_reflecting;
+  std::vector<AbsorbingLayer> absorbing_layers;
   std::vector<Tie> ties;
   Vec3 gravity{0, 0, 0};           ///< m/s2
   Settle settle;

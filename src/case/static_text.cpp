@@ -9,11 +9,11 @@ namespace railwave::case_file {
 namespace {
 
 /// * stands for any name.
-constexpr std::array<const char*, 17> without = {
+constexpr std::array<const char*, 18> without = {
     ".title", ".time", ".checkpoint", ".watch", ".output", ".solver.step_estimate", ".solver.subcycling", ".solver.renew_steps",
     ".settle.active", ".settle.max_steps", ".settle.cache", ".settle.cache_folder", ".initial_motion.*.velocity",
     ".prescribed_motion.*.velocity", ".prescribed_motion.*.displacement",
-    ".probes", ".element_sets"};
+    ".probes", ".element_sets", ".absorbing_layers"};
 
 std::string value_text(const Node& node) {
   switch (node.type) {

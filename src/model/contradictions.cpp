@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
 #include "case/error.hpp"
+#include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
 #include "model/build_steps.hpp"
 #include "model/centre_of_mass.hpp"
@@ -196,6 +198,99 @@ void refuse_held_hammers(const Model& model) {
   }
 }
 
+/// The entry that holds or drives a node.
+std::string holder_of(const Model& model, int node) {
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
+    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return fmt::format("[prescribed_motion.{}] (line {})", motion.name, motion.line);
+  }
+  for (const scene::Constraint& constraint : model.scene.constraints) {
+    const auto& nodes = find_node_set(model.scene, model.assembly, constraint, "target", constraint.target);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return fmt::format("[constraints.{}] (line {})", constraint.name, constraint.line);
+  }
+  return "constraints";
+}
+
+/// m, no less than any node of that motion goes in the run.
+double travel_of(const Model& model, const scene::PrescribedMotion& motion) {
+  const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+  const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+  double fastest = 0;
+  for (int n : nodes) fastest = std::max(fastest, length(prescribed_at(motion, centre, model.assembly.nodes[n]).velocity));
+  const scene::Curve *curve = curve_of(model.scene, motion.curve), *displacement = curve_of(model.scene, motion.displacement_curve);
+  constexpr int instants = 1000;
+  double way = 0, most = 0;
+  for (int i = 0; i < instants; ++i) {
+    const double time = (i + 0.5) * model.scene.time.end / instants;
+    way += std::fabs(curve_value(curve, time)) * fastest * model.scene.time.end / instants;
+    most = std::max(most, std::fabs(curve_value(displacement, time)));
+  }
+  return way + most * length(motion.displacement);
+}
+
+using HeldNodes = std::map<int, HeldDirections>;
+
+Vec3 doubled_area(const Assembly& assembly, const std::vector<int>& nodes, const std::array<int, 4>& face) {
+  const auto& x = assembly.nodes;
+  return cross(difference(x[nodes[face[2]]], x[nodes[face[0]]]), difference(x[nodes[face[3]]], x[nodes[face[1]]]));
+}
+
+/// Slave nodes of a pair that no force along their normals moves.
+std::vector<int> stiff_slaves(const Model& model, const ContactPair& pair, const HeldNodes& held) {
+  std::vector<Vec3> normal(pair.slave_nodes.size(), Vec3{0, 0, 0});
+  for (const auto& face : pair.slave_facets)
+    for (int corner : face)
+      for (int i = 0; i < 3; ++i) normal[corner][i] += doubled_area(model.assembly, pair.slave_nodes, face)[i];
+  std::vector<int> stiff;
+  for (std::size_t s = 0; s < normal.size(); ++s)
+    if (length(normal[s]) > 0 && force_is_held(held, pair.slave_nodes[s], normal[s])) stiff.push_back(pair.slave_nodes[s]);
+  return stiff;
+}
+
+/// Faces of a pair's master of which no corner moves under a force along the normal, as nodes of the model.
+std::vector<std::array<int, 4>> stiff_faces(const Model& model, const ContactPair& pair, const HeldNodes& held) {
+  std::vector<std::array<int, 4>> stiff;
+  for (std::array<int, 4> face : pair.master_segments) {
+    const Vec3 normal = doubled_area(model.assembly, pair.master_nodes, face);
+    for (int& n : face) n = pair.master_nodes[n];
+    if (std::all_of(face.begin(), face.end(), [&](int n) { return force_is_held(held, n, normal); })) stiff.push_back(face);
+  }
+  return stiff;
+}
+
+/// Whether a node may come to a face that is so far from it, or lies on it.
+bool may_meet(const Model& model, int node, const std::array<int, 4>& face, double travel) {
+  const auto& x = model.assembly.nodes;
+  double away = std::numeric_limits<double>::infinity();
+  for (int second : {1, 2})
+    away = std::min(away, length(difference(nearest_on_triangle(x[face[0]], x[face[second]], x[face[second + 1]], x[node]), x[node])));
+  return away <= travel + 0.01 * length(difference(x[face[2]], x[face[0]]));
+}
+
+/// Multipliers find the force that lets surfaces move as far as they must: between two that no force moves there is none, and it grows
+/// without end. Springs just press as far as they are pressed in.
+void refuse_stiff_multipliers(const Model& model) {
+  if (std::none_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); })) return;
+  const HeldNodes held = held_directions(model.scene, model.assembly);
+  double travel = 0;
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) travel += travel_of(model, motion);
+  for (const ContactPair& pair : model.contacts) {
+    if (pair.has_springs()) continue;
+    const auto slaves = stiff_slaves(model, pair, held);
+    const auto faces = stiff_faces(model, pair, held);
+    const bool wholly = slaves.size() == pair.slave_nodes.size() && faces.size() == pair.master_segments.size();
+    for (int n : slaves)
+      for (const auto& face : faces) {
+        if (!wholly && !may_meet(model, n, face, travel)) continue;
+        refuse(model, "contacts", *pair.contact,
+               fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' along its normal at {} and {} '{}' at {}: no force moves either, "
+                           "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive one of the two bodies at another surface",
+                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]), holder_of(model, face[0]), pair.contact->master,
+                           at(model.assembly.nodes[face[0]])));
+      }
+  }
+}
+
 }  // namespace
 
 void refuse_contradictions(const Model& model) {
@@ -205,6 +300,7 @@ void refuse_contradictions(const Model& model) {
   refuse_coincident_parts(model);
   refuse_empty_connectors(model);
   refuse_held_hammers(model);
+  refuse_stiff_multipliers(model);
 }
 
 }  // namespace railwave

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "mesh/vectors.hpp"
+#include "model/absorbing_layer.hpp"
 #include "model/centre_of_mass.hpp"
+#include "model/initial_overlap.hpp"
 #include "model/outside.hpp"
 #include "model/overlapping_parts.hpp"
 #include "model/rolling.hpp"
@@ -132,15 +134,30 @@ void inner_faces(const Model& model, Doubts& doubts) {
   }
 }
 
+void overlapping_contacts(const Model& model, Doubts& doubts) {
+  for (const InitialOverlap& overlap : initial_overlaps(model)) doubts.push_back(describe(model, overlap));
+}
+
 }  // namespace
+
+std::vector<std::string> mesh_doubts(const Model& model) {
+  Doubts doubts;
+  overlapping_parts(model, doubts);
+  overlapping_contacts(model, doubts);
+  inner_faces(model, doubts);
+  entries_without_effect(model, doubts);
+  return doubts;
+}
 
 std::vector<std::string> scene_doubts(const Model& model) {
   Doubts doubts = rolling_doubts(model);
   unlike_starts(model, doubts);
   overlapping_parts(model, doubts);
+  overlapping_contacts(model, doubts);
   loads_on_held_nodes(model, doubts);
   inner_faces(model, doubts);
   entries_without_effect(model, doubts);
+  for (std::string& doubt : absorbing_doubts(model)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

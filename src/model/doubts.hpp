@@ -8,8 +8,11 @@
 namespace railwave {
 
 /// What in a scene may be meant but more often is a mistake, a line each with the case's entries and lines, and how to mend it: round parts that begin by
-/// sliding, loads on nodes that are held, parts that overlap, initial motions that a prescribed motion contradicts, entries without effect.
+/// sliding, loads on nodes that are held, parts and contact surfaces that overlap, initial motions that a prescribed motion contradicts, entries without effect.
 /// Told by `railwave check`, at a run's start and in its summary.
 std::vector<std::string> scene_doubts(const Model& model);
+
+/// Those of them that concern meshes and what joins them, whatever moves: told by `railwave modes` too.
+std::vector<std::string> mesh_doubts(const Model& model);
 
 }  // namespace railwave

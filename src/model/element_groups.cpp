@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 #include "case/error.hpp"
@@ -241,7 +242,7 @@ PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, cons
   return plastic;
 }
 
-/// Constants of damped parts, and the masses that their patches' nodes have from them.
+/// Constants of damped parts, and the drag of their patches' nodes.
 DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
                              const std::vector<const scene::Part*>& parts, const std::vector<const scene::Material*>& materials) {
   std::vector<DampingConstants> constants;
@@ -251,7 +252,7 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
     const double density = materials[r]->density;
     constants.push_back({part.stiffness_damping * elastic.lambda, part.stiffness_damping * elastic.mu,
                          part.linear_bulk_viscosity * density * materials[r]->dilatational_speed(),
-                         part.quadratic_bulk_viscosity * density, part.mass_damping});
+                         part.quadratic_bulk_viscosity * density});
   }
   const auto row = to_host(group.patches.material);
   std::vector<double> mass(static_cast<std::size_t>(group.patches.count) * group.patches.node_stride, 0.0);
@@ -264,8 +265,23 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
       for (int N = 0; N < 8; ++N) mass[place[corners[N]]] += materials[row(p)]->density * integrals[N];
     }
   }
-  return {to_device("damping constants", constants), to_device("mass of patches' nodes", mass),
+  std::vector<double> drag(mass.size(), 0.0);
+  const auto& layers = model.absorbing.rate;
+  for (int p = 0; p < group.patches.count; ++p)
+    for (std::size_t l = 0; l < nodes[p].size(); ++l) {
+      const std::size_t at = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+      drag[at] = (parts[row(p)]->mass_damping + (layers.empty() ? 0.0 : layers[nodes[p][l]])) * mass[at];
+    }
+  return {to_device("damping constants", constants), to_device("drag of patches' nodes", drag),
           Array<double*>("damping energy", group.patches.count), group.first_partial + group.patches.count * group.patches.node_stride};
+}
+
+/// Whether elements [first, end) have a node that an absorbing layer damps.
+bool in_absorbing_layer(const Model& model, int first, int end) {
+  const auto& rate = model.absorbing.rate;
+  if (rate.empty()) return false;
+  return std::any_of(model.assembly.elements.begin() + first, model.assembly.elements.begin() + end,
+                     [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; }); });
 }
 
 /// The patches' numbers, level by level, so that groups ascend by it.
@@ -300,27 +316,29 @@ void build_elements(Model& model) {
   std::vector<std::vector<const scene::Material*>> materials;
   std::vector<std::vector<const scene::Part*>> parts;
   std::vector<GroupKind> kinds;
-  std::size_t part = 0, group = 0;
-  int part_with_constants = -1;
+  std::size_t part = 0;
+  std::map<std::array<int, 3>, std::array<int, 2>> rows_of;  // by level, part and damping: group, and row of constants in it
   for (const int p : patches_by_level(model.order)) {
     const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
     part = 0;
     while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
     const auto& range = assembly.parts[part];
-    const int key = model.order.level[p] * static_cast<int>(assembly.parts.size()) + static_cast<int>(part);
-    if (key != part_with_constants) {
-      part_with_constants = key;
+    const scene::Part& of_scene = model.scene.parts[part];
+    const bool damped = of_scene.damped() || in_absorbing_layer(model, first, end);
+    const auto [found, is_new] = rows_of.try_emplace({model.order.level[p], static_cast<int>(part), damped ? 1 : 0});
+    int& group = found->second[0];
+    if (is_new) {
       const scene::Material& material = model.scene.materials[range.material];
-      const scene::Part& of_scene = model.scene.parts[part];
-      group = group_of(model, kinds, of_scene, {kind_of(material), of_scene.damped()}, model.order.level[p]);
+      group = group_of(model, kinds, of_scene, {kind_of(material), damped}, model.order.level[p]);
       lists.resize(model.elements.size());
       materials.resize(model.elements.size());
       parts.resize(model.elements.size());
       materials[group].push_back(&material);
       parts[group].push_back(&of_scene);
+      found->second[1] = static_cast<int>(materials[group].size()) - 1;
     }
     append_patch(assembly, model.order, first, end, lanes, lists[group]);
-    lists[group].material.push_back(static_cast<int>(materials[group].size()) - 1);
+    lists[group].material.push_back(found->second[1]);
     for (int slot = 0; slot < patch_size; ++slot) {
       // Slots that only fill up must not dissipate.
       lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);

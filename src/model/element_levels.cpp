@@ -3,6 +3,7 @@
 #include <set>
 #include <limits>
 
+#include "model/absorbing_layer.hpp"
 #include "model/build_steps.hpp"
 #include "model/stable_step.hpp"
 #include "model/subcycling.hpp"
@@ -110,6 +111,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   Model model;
   model.scene = scene;
   model.assembly = assembly;
+  model.absorbing = absorbing_layers(scene, assembly);
   build_elements(model);
   build_contacts(model);
   model.connectors.cells = connector_cells(scene, assembly, model.mass);

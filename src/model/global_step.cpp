@@ -176,6 +176,10 @@ GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_
     damped = damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
     mass_rate = std::fmax(mass_rate, part.mass_damping);
   }
+  for (const AbsorbingLayers::Zone& zone : model.absorbing.zones) {
+    damped = true;
+    mass_rate = std::fmax(mass_rate, zone.rate);
+  }
   for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
   for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
   const double enough = at_most_guess ? 4 / (guess * guess) : 0;

@@ -25,8 +25,8 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
        "of their motion; contact, loads, constraints, settling and the account are in double");
   bool any_damped = false, any_undamped = false;
   for (const auto& part : scene.parts) (part.damped() ? any_damped : any_undamped) = true;
-  note(!any_damped, "damping of parts");
-  note(any_damped && any_undamped, "damping of the other parts: their nodes and elements know nothing of it");
+  note(!any_damped && scene.absorbing_layers.empty(), "damping of parts");
+  note((any_damped || !scene.absorbing_layers.empty()) && any_undamped, "damping of the other parts: their nodes and elements know nothing of it");
   note(scene.contacts.empty(), "contact: the scene has none");
   bool any_frictionless = false;
   for (const auto& contact : scene.contacts) any_frictionless = any_frictionless || contact.friction == 0;
@@ -38,6 +38,7 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   note(scene.constraints.empty(), "constraints");
   note(scene.prescribed_motions.empty(), "prescribed motion");
   note(scene.non_reflecting.empty(), "non-reflecting ends");
+  note(scene.absorbing_layers.empty(), "absorbing layers");
   note(scene.ties.empty(), "ties between meshes");
   note(!scene.settle.active, "settling: the run starts from the undeformed mesh");
   note(!scene.watch.active, "the watch: nobody looks for faults but for values that are not finite");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "case/activity.hpp"
+#include "model/absorbing_layer.hpp"
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact_law.hpp"
@@ -23,6 +24,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   Activity laying("ordering the elements");
   check_elements(model);
   model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
+  model.absorbing = absorbing_layers(scene, model.assembly);
   build_elements(model);
   build_beams(model);
   {
@@ -127,7 +129,7 @@ std::size_t device_bytes(const Model& model) {
     total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
                    p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.patch_energy, group.constants,
                    group.plastic.constants, group.plastic.history, group.plastic.volume, group.plastic.isotropic_share,
-                   group.plastic.back_stress, group.damping.constants, group.damping.node_mass, group.damping.energy,
+                   group.plastic.back_stress, group.damping.constants, group.damping.node_drag, group.damping.energy,
                    group.carried.local, group.carried.arm);
   }
   const CarriedNodes& carried = model.carried;

@@ -153,6 +153,20 @@ struct NonReflectingEnds {
   std::vector<char> alone;             ///< by node of the model: feels no other extra forces; may have a pace of its own
 };
 
+/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see model/absorbing_layer.hpp.
+struct AbsorbingLayers {
+  struct Zone {
+    int layer = 0;                     ///< position in scene.absorbing_layers
+    int part = 0;                      ///< position in assembly.parts
+    Vec3 end{}, outwards{};            ///< m, a point of the end's plane; its normal, of length 1
+    double rate = 0;                   ///< 1/s, at the end
+    double element = 0;                ///< m, the longest element along the normal at the end
+    int nodes = 0;                     ///< of the part that it damps
+  };
+  std::vector<Zone> zones;             ///< in the order of the scene's layers
+  std::vector<double> rate;            ///< 1/s by node; empty: there are none
+};
+
 /// All ties together.
 struct Ties {
   TieArrays arrays;
@@ -221,6 +235,7 @@ struct Model {
   std::shared_ptr<BeamStage> beams;    ///< null in a scene without beams
   std::vector<PrescribedSet> prescribed;
   NonReflectingEnds ends;
+  AbsorbingLayers absorbing;
   Ties ties;
   std::vector<ContactPair> contacts;   ///< of the scene's contacts in order, then the reversed ones
   std::vector<std::string> left_out;   ///< what the scene does not need and the run will not compute

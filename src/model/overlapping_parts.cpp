@@ -2,34 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "mesh/vectors.hpp"
+#include "model/node_grid.hpp"
 
 namespace railwave {
 namespace {
 
-using Bounds = std::array<Vec3, 2>;
-
 constexpr double most_local = 0.9;  ///< of the half edges
 
-void widen(Bounds& bounds, const Vec3& x) {
-  for (int i = 0; i < 3; ++i) {
-    bounds[0][i] = std::min(bounds[0][i], x[i]);
-    bounds[1][i] = std::max(bounds[1][i], x[i]);
-  }
-}
-
-bool holds(const Bounds& bounds, const Vec3& x) {
-  for (int i = 0; i < 3; ++i)
-    if (x[i] < bounds[0][i] || x[i] > bounds[1][i]) return false;
-  return true;
-}
-
-constexpr Bounds nothing{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}};
-
 Bounds bounds_of(const Assembly& assembly, const Assembly::PartRange& part) {
-  Bounds bounds = nothing;
+  Bounds bounds = no_bounds;
   for (int n = part.first_node; n < part.first_node + part.node_count; ++n) widen(bounds, assembly.nodes[n]);
   return bounds;
 }
@@ -73,42 +56,6 @@ bool well_inside(const Assembly& assembly, const std::array<int, 8>& element, co
   return false;
 }
 
-/// The nodes of one part in a grid of cells, to be asked for those within bounds.
-class NodeGrid {
- public:
-  NodeGrid(const Assembly& assembly, std::vector<int> nodes, const Bounds& bounds) : assembly_(assembly), low_(bounds[0]) {
-    double volume = 1;
-    for (int i = 0; i < 3; ++i) volume *= std::max(bounds[1][i] - bounds[0][i], 1e-12);
-    cell_ = std::max(std::cbrt(volume / static_cast<double>(nodes.size())), 1e-9);
-    for (int i = 0; i < 3; ++i) cell_ = std::max(cell_, (bounds[1][i] - bounds[0][i]) / 1000);
-    for (int n : nodes) cells_[key(cell_of(assembly.nodes[n]))].push_back(n);
-  }
-
-  template <class Take>
-  void within(const Bounds& bounds, const Take& take) const {
-    const auto first = cell_of(bounds[0]), last = cell_of(bounds[1]);
-    for (long i = first[0]; i <= last[0]; ++i)
-      for (long j = first[1]; j <= last[1]; ++j)
-        for (long k = first[2]; k <= last[2]; ++k)
-          if (const auto found = cells_.find(key({i, j, k})); found != cells_.end())
-            for (int n : found->second)
-              if (holds(bounds, assembly_.nodes[n])) take(n);
-  }
-
- private:
-  std::array<long, 3> cell_of(const Vec3& x) const {
-    std::array<long, 3> cell{};
-    for (int i = 0; i < 3; ++i) cell[i] = static_cast<long>(std::clamp(std::floor((x[i] - low_[i]) / cell_), -1.0, 1001.0));
-    return cell;
-  }
-  static long key(const std::array<long, 3>& cell) { return ((cell[0] + 1) * 1024 + cell[1] + 1) * 1024 + cell[2] + 1; }
-
-  const Assembly& assembly_;
-  Vec3 low_;
-  double cell_ = 1;  ///< m
-  std::unordered_map<long, std::vector<int>> cells_;
-};
-
 void count_inside(const Assembly& assembly, const Assembly::PartRange& part, const Assembly::PartRange& around, const Bounds& where, PartOverlap& overlap) {
   std::vector<int> nodes;
   for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
@@ -118,7 +65,7 @@ void count_inside(const Assembly& assembly, const Assembly::PartRange& part, con
   const NodeGrid grid(assembly, nodes, where);
   std::vector<char> counted(part.node_count, 0);
   for (int e = around.first_element; e < around.first_element + around.element_count; ++e) {
-    Bounds bounds = nothing;
+    Bounds bounds = no_bounds;
     for (int n : assembly.elements[e]) widen(bounds, assembly.nodes[n]);
     bounds = common(bounds, where);
     if (!(bounds[0][0] <= bounds[1][0] && bounds[0][1] <= bounds[1][1] && bounds[0][2] <= bounds[1][2])) continue;

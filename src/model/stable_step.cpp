@@ -38,6 +38,23 @@ double damped_element_step(const scene::Part& part, const scene::Material& mater
   return step * step / (std::sqrt(step * step + b * b) + b);
 }
 
+/// The same of a mass damping alone: b = alpha dt_0^2 / 4.
+double dragged_element_step(double rate, double step) {
+  const double b = 0.25 * rate * step * step;
+  return step * step / (std::sqrt(step * step + b * b) + b);
+}
+
+/// Shortens elements' steps by absorbing layers, in whose elements the fastest decay counts everywhere.
+void drag(const Model& model, std::vector<double>& steps) {
+  const auto& rate = model.absorbing.rate;
+  if (rate.empty()) return;
+  for (std::size_t e = 0; e < steps.size(); ++e) {
+    double most = 0;
+    for (int n : model.assembly.elements[e]) most = std::fmax(most, rate[n]);
+    if (most > 0) steps[e] = dragged_element_step(most, steps[e]);
+  }
+}
+
 /// Shortens each element's step by its part's damping.
 void damp(const Model& model, std::vector<double>& steps) {
   const double speed = largest_initial_speed(model.scene);
@@ -72,6 +89,7 @@ EigenvalueSteps eigenvalue_steps(const Model& model) {
     }
   }
   damp(model, steps.step);
+  drag(model, steps.step);
   return steps;
 }
 
@@ -87,6 +105,7 @@ std::vector<double> element_steps(const Model& model, const EigenvalueSteps& eig
       steps[e] = model.scene.parts[p].damped() ? eigenvalues.step[e]
                                                : std::fmin(model.element_length[e] / speed, eigenvalues.control[e]);
   }
+  drag(model, steps);
   return steps;
 }
 

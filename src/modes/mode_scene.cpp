@@ -79,7 +79,7 @@ void note_on_stiffness(const scene::Scene& scene, std::vector<std::string>& note
                       std::any_of(scene.connectors.begin(), scene.connectors.end(),
                                   [](const auto& c) { return c.damping != scene::Vec3{}; });
   if (plastic) notes.push_back("materials are elastic");
-  if (damped) notes.push_back("damping is left out");
+  if (damped || !scene.absorbing_layers.empty()) notes.push_back("damping is left out");
   if (!scene.prescribed_motions.empty() || !scene.non_reflecting.empty())
     notes.push_back("sets of prescribed motion and non-reflecting ends are held");
 }
@@ -114,6 +114,7 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   selection.keep(scene.constraints, [&](const auto& c) { return owned(c.target); });
   selection.keep(scene.prescribed_motions, [&](const auto& motion) { return owned(motion.target); });
   selection.keep(scene.non_reflecting, [&](const auto& end) { return owned(end.target); });
+  selection.keep(scene.absorbing_layers, [&](const auto& layer) { return owned(layer.target); });
   selection.keep(scene.ties, [&](const auto& tie) { return owned(tie.slave) && owned(tie.master); });
   const bool tied = !scene.ties.empty();
   selection.keep(scene.contacts,
@@ -133,6 +134,7 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   scene.output.field_sets.clear();
   scene.solver = {};
   note_on_stiffness(scene, result.notes);
+  scene.absorbing_layers.clear();
   return result;
 }
 

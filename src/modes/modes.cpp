@@ -48,11 +48,17 @@ ModeList modes_below(const Model& model, double up_to) {
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     // Of unit modal mass.
     const Eigen::VectorXd motion = unknowns.motion(weight.cwiseProduct(pairs.vectors.col(k)));
-    const auto energy = strain(motion);
+    std::vector<double> hourglass;
+    const auto energy = strain(motion, &hourglass);
+    const double all = std::accumulate(energy.begin(), energy.end(), 0.0);
     Mode mode;
-    mode.frequency = std::sqrt(2 * std::accumulate(energy.begin(), energy.end(), 0.0)) / (2 * M_PI);
+    mode.frequency = std::sqrt(2 * all) / (2 * M_PI);
     mode.rigid = mode.frequency < rigid_share * up_to;
     if (mode.rigid) mode.frequency = 0;
+    if (!mode.rigid && !hourglass.empty()) {
+      mode.hourglass_part = static_cast<int>(std::max_element(hourglass.begin(), hourglass.end()) - hourglass.begin());
+      mode.hourglass_share = hourglass[mode.hourglass_part] / all;
+    }
     const auto moving = kinetic(model, motion, 1);
     const int most = static_cast<int>(std::max_element(moving.begin(), moving.end()) - moving.begin());
     const bool of_part = most < static_cast<int>(model.assembly.parts.size());

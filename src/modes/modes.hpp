@@ -17,6 +17,8 @@ struct Mode {
   std::optional<RoundName> round;  ///< where that part is a body of revolution
   Eigen::VectorXd shape;           ///< 3 values by node, the largest displacement is 1
   double modal_mass = 0;           ///< kg, of that shape
+  int hourglass_part = -1;         ///< that whose hourglass control holds most; -1: of a rigid motion
+  double hourglass_share = 0;      ///< of the mode's whole strain energy that it holds
 };
 
 /// All modes below a frequency, ascending, and what finding them took.

@@ -8,6 +8,8 @@
 
 #include "case/error.hpp"
 #include "modes/mode_file.hpp"
+#include "model/assemble_notes.hpp"
+#include "model/doubts.hpp"
 #include "modes/mode_scene.hpp"
 #include "output/atomic_file.hpp"
 #include "output/run_places.hpp"
@@ -36,6 +38,26 @@ void print(const Model& model, const std::vector<Mode>& modes, bool several, std
         fmt::format("{:>5} {:>11.3f} {:>11.4g}  {:<24}", k + 1, mode.frequency, mode.modal_mass, name_of(mode));
     if (several) line += fmt::format("{} {:.0f} %", part_name(model, mode), 100 * mode.part_share);
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
+  }
+}
+
+/// A line for each part whose hourglass control holds so much of modes' energy that a run's watch would warn of it: their frequencies are those of the
+/// control. The mode with the largest share stands for the others.
+void warn_of_hourglass(const Model& model, const std::vector<Mode>& modes, std::ostream& out) {
+  const double limit = model.scene.watch.hourglass_share;
+  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
+    std::size_t worst = modes.size();
+    int count = 0;
+    for (std::size_t k = 0; k < modes.size(); ++k) {
+      if (modes[k].hourglass_part != static_cast<int>(p) || !(modes[k].hourglass_share > limit)) continue;
+      ++count;
+      if (worst == modes.size() || modes[k].hourglass_share > modes[worst].hourglass_share) worst = k;
+    }
+    if (count == 0) continue;
+    const scene::Part& part = model.scene.parts[p];
+    out << fmt::format("warning: [parts.{}] (line {}) is bent over few elements: its hourglass control holds more than {:.3g} (watch.hourglass_share) of the energy of {} of the {} modes, "
+                       "at most {:.3g} of mode {}'s ({:.1f} Hz), whose frequencies depend on hourglass_coefficient; refine it where these modes bend it (docs/hourglass.md)\n",
+                       part.name, part.line, limit, count, modes.size(), modes[worst].hourglass_share, worst + 1, modes[worst].frequency);
   }
 }
 
@@ -79,7 +101,10 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
   check_files(scene, request);
   const ModeScene wanted = mode_scene(scene, request.parts);
   Model model;
-  build_model(wanted.scene, model);
+  std::vector<std::string> notes;
+  build_model(wanted.scene, assemble(wanted.scene, notes), model);
+  for (const std::string& note : notes) out << "note: " << note << '\n';
+  for (const std::string& doubt : mesh_doubts(model)) out << "warning: " << doubt << '\n';
   out << fmt::format("{} elements, {} nodes\n", model.element_count(), model.node_count());
   for (const std::string& note : wanted.notes) out << "note: " << note << '\n';
   out.flush();  // the rest may take minutes
@@ -91,6 +116,7 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
       std::any_of(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.round.has_value(); });
   if (round) out << "names: direction of most motion (nodal circles, nodal diameters)\n";
   print(model, list.modes, model.scene.parts.size() + model.scene.points.size() > 1, out);
+  warn_of_hourglass(model, list.modes, out);
   const auto rigid = std::count_if(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.rigid; });
   out << fmt::format("all {} modes below {:g} Hz, counted by inertia{}\n", list.modes.size(), request.up_to,
                      rigid > 0 ? fmt::format("; {} of them rigid motions", rigid) : "");

@@ -5,8 +5,13 @@
 namespace railwave {
 namespace {
 
-/// V (mu |eps|^2 + lambda/2 tr^2) and k/2 times the squared hourglass content, see ElementStiffness.
-double element_energy(const ElementStiffness& stiffness, const double (&x)[3][7], const double (&u)[3][7]) {
+/// J, of the mean strain and of the hourglass control.
+struct ElementEnergy {
+  double strain, hourglass;
+};
+
+/// V (mu |eps|^2 + lambda/2 tr^2), and k/2 times the squared hourglass content, see ElementStiffness.
+ElementEnergy element_energy(const ElementStiffness& stiffness, const double (&x)[3][7], const double (&u)[3][7]) {
   double B[3][6], L[3][3];
   mean_gradient<double>(x, B);
   const double volume = along(x[0], B[0]);
@@ -21,8 +26,7 @@ double element_energy(const ElementStiffness& stiffness, const double (&x)[3][7]
     }
   }
   const double trace = L[0][0] + L[1][1] + L[2][2];
-  return volume * (stiffness.mu * strain + 0.5 * stiffness.lambda * trace * trace) +
-         0.5 * stiffness.hourglass * std::cbrt(volume) * hourglass;
+  return {volume * (stiffness.mu * strain + 0.5 * stiffness.lambda * trace * trace), 0.5 * stiffness.hourglass * std::cbrt(volume) * hourglass};
 }
 
 }  // namespace
@@ -30,9 +34,10 @@ double element_energy(const ElementStiffness& stiffness, const double (&x)[3][7]
 StrainEnergy::StrainEnergy(const Model& model, const SpringCollector& springs)
     : model_(model), springs_(springs), stiffness_(mode_stiffness(model)), position_(to_host(model.nodes.position)) {}
 
-std::vector<double> StrainEnergy::operator()(const Eigen::VectorXd& motion) const {
+std::vector<double> StrainEnergy::operator()(const Eigen::VectorXd& motion, std::vector<double>* hourglass) const {
   const auto& parts = model_.assembly.parts;
   std::vector<double> energy(parts.size() + 1, 0.0);
+  if (hourglass) hourglass->assign(parts.size(), 0.0);
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (int e = parts[p].first_element; e < parts[p].first_element + parts[p].element_count; ++e) {
       double x[3][7], u[3][7];
@@ -46,7 +51,9 @@ std::vector<double> StrainEnergy::operator()(const Eigen::VectorXd& motion) cons
         modes_of(place, x[i]);
         modes_of(moved, u[i]);
       }
-      energy[p] += element_energy(stiffness_[p], x, u);
+      const ElementEnergy own = element_energy(stiffness_[p], x, u);
+      energy[p] += own.strain + own.hourglass;
+      if (hourglass) (*hourglass)[p] += own.hourglass;
     }
   for (std::size_t s = 0; s < springs_.count(); ++s) {
     double stretch = 0;

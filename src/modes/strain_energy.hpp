@@ -12,7 +12,8 @@ class StrainEnergy {
 
   /// J, of each part and, behind them, of connectors and beams together.
   /// @param motion of all rows, 3 values each (ModeUnknowns::motion)
-  std::vector<double> operator()(const Eigen::VectorXd& motion) const;
+  /// @param hourglass when given, receives what of that is in each part's hourglass control, J
+  std::vector<double> operator()(const Eigen::VectorXd& motion, std::vector<double>* hourglass = nullptr) const;
 
  private:
   const Model& model_;

@@ -6,7 +6,6 @@
 #include <ostream>
 
 #include "model/contact_law.hpp"
-#include "model/doubts.hpp"
 #include "model/model.hpp"
 #include "solve/settle.hpp"
 
@@ -18,7 +17,6 @@ double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady
 }  // namespace
 
 void Progress::begin(const Model& model) {
-  for (const std::string& doubt : scene_doubts(model)) out_ << "warning: " << doubt << '\n' << std::flush;
   ProgressPlan plan;
   plan.element_count = model.element_count();
   plan.updates_saved = model.subcycling.gain();
@@ -26,6 +24,11 @@ void Progress::begin(const Model& model) {
   plan.interval = model.scene.output.progress_interval;
   for (const auto& contact : model.scene.contacts) plan.contacts.push_back(describe_contact(contact));
   table_ = std::make_unique<ProgressTable>(out_, std::move(plan), wall_seconds);
+}
+
+void Progress::doubts(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) out_ << "warning: " << line << '\n';
+  out_ << std::flush;
 }
 
 void Progress::settling(const Model& model, const SettleReport& so_far) {

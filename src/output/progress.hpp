@@ -13,6 +13,7 @@ class Progress : public RunObserver {
   explicit Progress(std::ostream& out) : out_(out) {}
 
   void begin(const Model& model) override;
+  void doubts(const std::vector<std::string>& lines) override;
   void settling(const Model& model, const SettleReport& so_far) override;
   void settled(const Model& model, const SettleReport& report) override;
   void history(const Model& model, const HistorySample& sample) override;

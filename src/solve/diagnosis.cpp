@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/initial_overlap.hpp"
 #include "solve/diagnosis_step.hpp"
 #include "solve/diagnosis_units.hpp"
 
@@ -111,10 +112,22 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
   }
 }
 
+/// Overlaps as the scene is laid out: deep nodes may press with nothing at first, or be searched on another side of the body, so that no
+/// penetration is seen.
+void overlaps(const Model& model, std::vector<Cause>& causes) {
+  for (const InitialOverlap& overlap : initial_overlaps(model)) {
+    if (!overlap.deep) continue;
+    const Vec3& x = overlap.place;
+    causes.push_back(Cause{"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size, {:.4g} m at ({:.6g}, {:.6g}, {:.6g}) m: {}",
+                                                              overlap.contact->name, overlap.share, overlap.depth, x[0], x[1], x[2], mend_of(overlap)), 80});
+  }
+}
+
 void contacts(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const scene::Contact& contact = *model.contacts[c].contact;
-    if (c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
+    const auto told = [&](const Cause& cause) { return cause.name == "initial penetration"; };
+    if (std::none_of(causes.begin(), causes.end(), told) && c < evidence.first.penetration.size() && evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
       causes.push_back(Cause{"initial penetration", fmt::format("the run begins with contact {} pressed in by {:.3g} of a face's size: move the parts apart, or give "
                                                            "contacts.{}.close_gap", contact.name, evidence.first.penetration[c].value, contact.name), 80});
     if (fault.kind == FaultKind::energy && c < evidence.deepest.size() && evidence.deepest[c] > 0.5 * model.scene.watch.penetration)
@@ -185,6 +198,7 @@ std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const W
   speeds(model, evidence, causes);
   loads(model, causes);
   unheld(model, fault, evidence, causes);
+  overlaps(model, causes);
   contacts(model, fault, evidence, causes);
   hourglass(model, fault, evidence, causes);
   shape(model, fault, evidence, causes);

@@ -106,6 +106,8 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void begin(const Model& /*model*/) {}
+  /// Next: what in the scene may be a mistake (model/doubts.hpp), a line each.
+  virtual void doubts(const std::vector<std::string>& /*lines*/) {}
   /// Every few steps of a dynamic relaxation.
   virtual void settling(const Model& /*model*/, const SettleReport& /*so_far*/) {}
   /// After a dynamic relaxation, before the first step.

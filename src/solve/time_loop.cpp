@@ -162,6 +162,8 @@ void request_stop() { stop_requested = 1; }
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping) {
   Keeper keeper(keeping);
   for (RunObserver* observer : observers) observer->begin(model);
+  const std::vector<std::string> doubts = scene_doubts(model);
+  for (RunObserver* observer : observers) observer->doubts(doubts);
   const bool in_equilibrium = keeping.from || prepare(model, observers, settled);
   const bool prepared = stop_requested == 0;
 
@@ -253,7 +255,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
-  for (const std::string& doubt : scene_doubts(model)) summary.warnings.push_back(doubt);
+  summary.warnings.insert(summary.warnings.end(), doubts.begin(), doubts.end());
   for (const PlacedElements& placed : placed_element_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)

@@ -161,6 +161,10 @@ displacement = [0, 0, 1e-6]
 displacement_curve = "ramp"
 [non_reflecting.end]
 target = "driven.x_max"
+[absorbing_layers.end]
+target = "driven.x_max"
+length = 0.06
+reflection = 0.02
 [settle]
 active = false
 [checkpoint]

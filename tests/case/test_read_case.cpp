@@ -203,6 +203,11 @@ centre = [7, 8, 9]
 [non_reflecting.far]
 target = "wheel.x_max"
 
+[absorbing_layers.far]
+target = "wheel.x_max"
+length = 0.5
+reflection = 0.02
+
 [ties.zone]
 slave = "wheel.tread"
 master = "wheel.rim"
@@ -407,6 +412,10 @@ TEST_CASE("every key reaches its field", "[case]") {
   CHECK(scene.initial_motions[0].centre == Vec3{7, 8, 9});
   REQUIRE(scene.non_reflecting.size() == 1);
   CHECK(scene.non_reflecting[0].target == "wheel.x_max");
+  REQUIRE(scene.absorbing_layers.size() == 1);
+  CHECK(scene.absorbing_layers[0].target == "wheel.x_max");
+  CHECK(scene.absorbing_layers[0].length == 0.5);
+  CHECK(scene.absorbing_layers[0].reflection == 0.02);
   REQUIRE(scene.ties.size() == 1);
   CHECK(scene.ties[0].slave == "wheel.tread");
   CHECK(scene.ties[0].master == "wheel.rim");

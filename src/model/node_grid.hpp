@@ -1,0 +1,68 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+#include "model/assembly.hpp"
+
+namespace railwave {
+
+/// Lowest and highest coordinates, m.
+using Bounds = std::array<Vec3, 2>;
+
+inline constexpr Bounds no_bounds{{{1e300, 1e300, 1e300}, {-1e300, -1e300, -1e300}}};
+
+inline void widen(Bounds& bounds, const Vec3& x) {
+  for (int i = 0; i < 3; ++i) {
+    bounds[0][i] = std::min(bounds[0][i], x[i]);
+    bounds[1][i] = std::max(bounds[1][i], x[i]);
+  }
+}
+
+inline bool holds(const Bounds& bounds, const Vec3& x) {
+  for (int i = 0; i < 3; ++i)
+    if (x[i] < bounds[0][i] || x[i] > bounds[1][i]) return false;
+  return true;
+}
+
+/// Nodes in a grid of cells, to be asked for those within bounds.
+class NodeGrid {
+ public:
+  /// @param bounds that hold all of them
+  NodeGrid(const Assembly& assembly, const std::vector<int>& nodes, const Bounds& bounds) : assembly_(assembly), low_(bounds[0]) {
+    double volume = 1;
+    for (int i = 0; i < 3; ++i) volume *= std::max(bounds[1][i] - bounds[0][i], 1e-12);
+    cell_ = std::max(std::cbrt(volume / static_cast<double>(nodes.size())), 1e-9);
+    for (int i = 0; i < 3; ++i) cell_ = std::max(cell_, (bounds[1][i] - bounds[0][i]) / 1000);
+    for (int n : nodes) cells_[key(cell_of(assembly.nodes[n]))].push_back(n);
+  }
+
+  template <class Take>
+  void within(const Bounds& bounds, const Take& take) const {
+    const auto first = cell_of(bounds[0]), last = cell_of(bounds[1]);
+    for (long i = first[0]; i <= last[0]; ++i)
+      for (long j = first[1]; j <= last[1]; ++j)
+        for (long k = first[2]; k <= last[2]; ++k)
+          if (const auto found = cells_.find(key({i, j, k})); found != cells_.end())
+            for (int n : found->second)
+              if (holds(bounds, assembly_.nodes[n])) take(n);
+  }
+
+ private:
+  std::array<long, 3> cell_of(const Vec3& x) const {
+    std::array<long, 3> cell{};
+    for (int i = 0; i < 3; ++i) cell[i] = static_cast<long>(std::clamp(std::floor((x[i] - low_[i]) / cell_), -1.0, 1001.0));
+    return cell;
+  }
+  static long key(const std::array<long, 3>& cell) { return ((cell[0] + 1) * 1024 + cell[1] + 1) * 1024 + cell[2] + 1; }
+
+  const Assembly& assembly_;
+  Vec3 low_;
+  double cell_ = 1;  ///< m
+  std::unordered_map<long, std::vector<int>> cells_;
+};
+
+}  // namespace railwave

@@ -221,7 +221,7 @@ Section non_reflecting_section() {
   auto section = named_section("non_reflecting", "non-reflecting end", &Scene::non_reflecting,
                                "Surfaces where bodies go on without end: dashpots of the part's own wave impedances (rho C_d along "
                                "the normal, rho C_s across) let plane waves of the continuum out. A slender bar's own waves are slower, and come back in part "
-                               "(a pulse in a steel bar about 15 %, bending more): [absorbing_layers.NAME] before the same end takes these too. While the scene settles their nodes are held, and "
+                               "((C_d - c) / (C_d + c) at least, 7 % in steel, bending more): [absorbing_layers.NAME] before the same end takes these too. While the scene settles their nodes are held, and "
                                "what held them then acts on them as a constant force during the run.");
   section.keys = {key("target", &NonReflecting::target, "where waves leave").names(surface).needed()};
   return section;

@@ -174,9 +174,10 @@ std::vector<std::string> describe_slender_ends(const Model& model) {
     if (!(extents.along > slender * extents.across)) continue;
     const scene::Material& material = model.scene.materials[model.assembly.parts[part].material];
     lines.push_back(fmt::format("[non_reflecting.{}] (line {}) lets out waves of the continuum ({:.0f} and {:.0f} m/s), but part {} is slender ({:.3g} m long, {:.3g} m across): its longitudinal "
-                                "waves go at {:.0f} m/s and come back in part, to about 15 % in steel, and bending waves more; [absorbing_layers.{}] with target = \"{}\" and a length of "
+                                "waves go at {:.0f} m/s and come back by {:.0f} % of their amplitude at least, and bending waves by more; [absorbing_layers.{}] with target = \"{}\" and a length of "
                                 "one or two wavelengths takes these too",
                                 end.name, end.line, material.dilatational_speed(), material.shear_speed(), model.assembly.parts[part].name, extents.along, extents.across, bar_speed(material),
+                                100 * (material.dilatational_speed() - bar_speed(material)) / (material.dilatational_speed() + bar_speed(material)),
                                 end.name, end.target));
   }
   return lines;

@@ -81,7 +81,7 @@ struct ContactForce {
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
 
     Projection now = ContactTrack::where(search, slave, tracked, place, touched, entry.near);
-    if (!touched) first_touch.judge(search, s, entry.node, now);
+    if (!touched) first_touch.judge(search, s, entry.node, tracked, now);
     now = Normals::turned(search, slave, now);
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {

@@ -80,7 +80,7 @@ struct ContactMultiplier {
     const bool touched = status != status_apart;
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
     Projection now = ContactTrack::where(search, slave, tracked, place, touched, near.near);
-    if (!touched) first_touch.judge(search, s, near.node, now);
+    if (!touched) first_touch.judge(search, s, near.node, tracked, now);
     now = Normals::turned(search, slave, now);
     MultiplierRow& r = multipliers.rows(s);
     if constexpr (Normals::curved)

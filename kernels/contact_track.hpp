@@ -68,8 +68,9 @@ struct ContactTrack {
 };
 
 /// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since the node was
-/// last seen apart. What comes in from beside an open surface, or was in the body when it came to be looked at, is turned away
-/// until it has left.
+/// last seen apart; and around a sharp edge, or where the surface was not below before, only through a face that the node was
+/// outside of. What comes in from beside an open surface, or was in the body when it came to be looked at, is turned away until
+/// it has left.
 struct FirstTouch {
   Array<const double* [3]> velocity;  ///< m/s, that led to the present positions
   double elapsed;  ///< s since a node was last moved; 0: no motion has led here, and all is taken in
@@ -77,14 +78,44 @@ struct FirstTouch {
   static constexpr double reserve = 1.25;          ///< on the motion
   static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
 
-  KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, Projection& now) const {
+  /// @param tracked segment that the node was over when it was last seen apart
+  KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, int tracked, Projection& now) const {
     if (!(now.gap < 0) || !(elapsed > 0)) return;
     const double before = search.contact.gap(s);
     if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
     Vector3 way = row(velocity, node);
     for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * search.at_corner(velocity, segment.node[k]);
-    if (-now.gap > reserve * elapsed * norm(way) + rounding_share * norm(search.diagonal(segment))) now.gap = turned_away;
+    way = elapsed * way;
+    const double rounding = rounding_share * norm(search.diagonal(segment)), deepest = reserve * norm(way) + rounding;
+    const Vector3 slave = row(search.position, node);
+    const bool strictly = !is_distance(before) || dot(middle_normal(search, slave, tracked), now.normal) < 0.5;
+    if (-now.gap <= deepest && (!strictly || came_through(now, way, rounding))) return;
+    now.gap = turned_away;
+    // Near an edge the nearest face need not be the one that the node came through.
+    Projection through = now;
+    for (int k = 0; k < 4; ++k) {
+      const int corner = search.contact.segments(now.segment, k);
+      for (int i = search.contact.first_segment(corner); i < search.contact.first_segment(corner + 1); ++i) {
+        const SeenSegment seen = search.see(slave, search.contact.segment_of_node(i));
+        const SegmentPlace place = ContactProjection::nearest_place(seen, {0, 0});
+        if (place.outside() > ContactProjection::on_segment) continue;
+        const Projection found = ContactProjection::at(seen, place);
+        if (found.gap < 0 && -found.gap <= deepest && came_through(found, way, rounding) && (!is_distance(through.gap) || found.gap > through.gap))
+          through = found;
+      }
+    }
+    if (is_distance(through.gap)) now = through;
+  }
+
+ private:
+  /// Whether the node was outside of the face before both moved.
+  KOKKOS_INLINE_FUNCTION static bool came_through(const Projection& now, const Vector3& way, double rounding) {
+    return now.gap - dot(now.normal, way) >= -rounding;
+  }
+
+  KOKKOS_INLINE_FUNCTION static Vector3 middle_normal(const ContactSearch& search, const Vector3& slave, int segment) {
+    return ContactProjection::at(search.see(slave, segment), {0, 0}).normal;
   }
 };
 

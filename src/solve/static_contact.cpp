@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "kernels/static_contact.hpp"
 #include "mesh/vectors.hpp"
@@ -65,6 +66,74 @@ std::vector<double> pressing_forces(const ContactPair& pair) {
   return pressing;
 }
 
+/// Keeps how much each of the master's nodes moves a contact point along the normal, see SmoothNormals::reaction.
+struct KeepWeights {
+  Array<int**> node;
+  Array<double**> weight;
+  Array<int*> count;
+  Segment segment;
+  Vector3 normal;
+  int slave;
+
+  KOKKOS_INLINE_FUNCTION void corners(const Vector3 (&share)[4]) const {
+    for (int k = 0; k < 4; ++k) put(segment.node[k], dot(share[k], normal));
+  }
+  KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const {
+    put(plus, dot(share, normal));
+    put(minus, -dot(share, normal));
+  }
+  KOKKOS_INLINE_FUNCTION void put(int n, double w) const {
+    const int at = count(slave)++;
+    node(slave, at) = n;
+    weight(slave, at) = w;
+  }
+};
+
+struct CurvedWeights {
+  ContactSearch search;
+  Array<int**> node;
+  Array<double**> weight;
+  Array<int*> count;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    const ContactArrays& contact = search.contact;
+    const Vector3 force = row(contact.normal_force, s);
+    const double pressing = norm(force);
+    if (contact.status(s) == status_apart || contact.tracked(s) < 0 || !(pressing > 0)) return;
+    const int segment = contact.tracked(s);
+    const Vector3 normal = (1 / pressing) * force;
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, normal, KeepWeights{node, weight, count, contact.surface(segment), normal, s});
+  }
+};
+
+/// Of each slave node that presses on a curved segment by a spring: what moves the gap, the master's nodes with their weights. Empty for other pairs.
+std::vector<std::map<int, double>> curved_weights(const Model& model, const ContactPair& pair) {
+  if (pair.contact->normals != scene::ContactNormals::smooth || !pair.has_springs()) return {};
+  const auto first = to_host(pair.arrays.first_segment);
+  int most = 0;
+  for (const auto& segment : pair.master_segments) {
+    int around = 0;
+    for (int m : segment) around += first(m + 1) - first(m);
+    most = std::max(most, 4 + 4 * around);
+  }
+  const int slaves = pair.arrays.slave_count;
+  const auto node = unset_array<int**>("nodes of curved segments", slaves, most);
+  const auto weight = unset_array<double**>("weights of curved segments", slaves, most);
+  const Array<int*> count("terms of curved segments", slaves);
+  Kokkos::parallel_for("curved_weights", Range(0, slaves), CurvedWeights{ContactSearch{{pair.arrays, model.nodes.position}}, node, weight, count});
+  const auto nodes = to_host(node);
+  const auto weights = to_host(weight);
+  const auto counts = to_host(count);
+  std::vector<std::map<int, double>> result(slaves);
+  for (int s = 0; s < slaves; ++s)
+    for (int k = 0; k < counts(s); ++k) result[s][nodes(s, k)] += weights(s, k);
+  return result;
+}
+
+/// As the run's multipliers press: along smooth normals, on the segment's own nodes only.
+struct SmoothNormalsOfMultipliers : SmoothNormals {
+  static constexpr bool curved = false;
+};
+
 template <class Normals>
 void press_pair(const Model& model, const ContactPair& pair, const Instant& instant, const AugmentedLaw& law) {
   const SpreadRange range(0, pair.window.count);
@@ -120,8 +189,13 @@ void StaticContact::press() {
     if (pair.has_springs()) continue;
     keep_window(model_, pair, instant);
     const AugmentedLaw law(kept_[p].multiplier, stiffening);
+<<<<<<< HEAD
     if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, instant, law);
     else press_pair<FacetNormals>(model_, pair, instant, law);
+=======
+    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormalsOfMultipliers>(model_, pair, law);
+    else press_pair<FacetNormals>(model_, pair, law);
+>>>>>>> 35f34a3 (Newton's tangent of springs on curved segments; settling multipliers press as they do in the run; figures in docs)
   }
 }
 
@@ -132,6 +206,7 @@ void StaticContact::add_springs(SpringCollector& springs) const {
     const auto place = to_host(pair.arrays.place);
     const auto normal_force = to_host(pair.arrays.normal_force);
     const auto gap = to_host(pair.arrays.gap);
+    const auto curved = curved_weights(model_, pair);
     for (std::size_t s = 0; s < pair.slave_nodes.size(); ++s) {
       if (status(s) == status_apart || tracked(s) < 0) continue;
       const auto& segment = pair.master_segments[tracked(s)];
@@ -149,7 +224,18 @@ void StaticContact::add_springs(SpringCollector& springs) const {
       // Of a spring whose stiffness grows straight from its start.
       const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0 ? std::max(spring, -2 * pressing / gap(s) - spring) : spring;
       const double across = !(pair.arrays.friction > 0) ? 0 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
-      springs.add_spring(nodes, weights, normal, stiffness - across);
+      if (curved.empty()) {
+        springs.add_spring(nodes, weights, normal, stiffness - across);
+      } else {
+        std::vector<int> felt{pair.slave_nodes[s]};
+        std::vector<double> by{1};
+        for (const auto& [n, weight] : curved[s]) {
+          felt.push_back(n);
+          by.push_back(-weight);
+        }
+        springs.add_spring(felt, by, normal, stiffness);
+        if (across > 0) springs.add_spring(nodes, weights, normal, -across);
+      }
       if (across > 0)
         for (const Vec3& axis : axes) springs.add_spring(nodes, weights, axis, across);
     }

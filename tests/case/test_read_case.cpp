@@ -521,3 +521,17 @@ TEST_CASE("an override can mend a mistake of the file", "[case]") {
   CHECK(mistakes_of(file.path()) == file.path() + ":12: [time] step_scale: is 2, must be above 0 and at most 1");
   CHECK(read_case(file.path(), {"time.step_scale=0.9"}).time.step_scale == 0.9);
 }
+
+TEST_CASE("a contact's master is one surface or several") {
+  const auto masters = [](const std::string& written) {
+    const TemporaryCase file(small_case + "[parts.other]\nmesh = \"cube\"\nmaterial = \"steel\"\n[parts.third]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
+                                          "[contacts.touch]\nslave = \"cube.z_min\"\nmaster = " + written + "\n");
+    return read_case(file.path()).contacts.at(0).master;
+  };
+  CHECK(masters("\"other.z_max\"") == "other.z_max");
+  CHECK(masters("[\"other.z_max\"]") == "other.z_max");
+  const scene::SurfaceNames two = masters("[\"third.z_max\", \"other.z_max\"]");
+  CHECK(two.list() == std::vector<std::string>{"third.z_max", "other.z_max"});
+  CHECK(two.text() == "third.z_max, other.z_max");
+  CHECK(two == scene::SurfaceNames{"third.z_max", "other.z_max"});
+}

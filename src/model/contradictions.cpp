@@ -285,7 +285,7 @@ void refuse_stiff_multipliers(const Model& model) {
         refuse(model, "contacts", *pair.contact,
                fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' along its normal at {} and {} '{}' at {}: no force moves either, "
                            "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive one of the two bodies at another surface",
-                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]), holder_of(model, face[0]), pair.contact->master,
+                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]), holder_of(model, face[0]), pair.contact->master.text(),
                            at(model.assembly.nodes[face[0]])));
       }
   }

@@ -176,7 +176,7 @@ std::string describe(const Model& model, const InitialOverlap& overlap) {
   const Vec3& x = overlap.place;
   const std::string what = fmt::format("[contacts.{}] (line {}): {} node{} of '{}' lie{} inside the body of '{}' when the run begins, the deepest {:.4g} m ({:.3g} of the size of a face there) at "
                                        "({:.6g}, {:.6g}, {:.6g}) m",
-                                       contact.name, contact.line, overlap.nodes, overlap.nodes == 1 ? "" : "s", contact.slave, overlap.nodes == 1 ? "s" : "", contact.master,
+                                       contact.name, contact.line, overlap.nodes, overlap.nodes == 1 ? "" : "s", contact.slave, overlap.nodes == 1 ? "s" : "", contact.master.text(),
                                        overlap.depth, overlap.share, x[0], x[1], x[2]);
   if (overlap.deep) return fmt::format("{}: more than a contact can push apart without a blow; {}", what, mend_of(overlap));
   return fmt::format("{}: {}", what, model.scene.settle.active ? "settling pushes them apart" : "its forces push them apart in the first steps, and both bodies ring a little");

@@ -68,6 +68,7 @@ std::vector<double> pressing_forces(const ContactPair& pair) {
 
 /// Keeps how much each of the master's nodes moves a contact point along the normal, see SmoothNormals::reaction.
 struct KeepWeights {
+  ContactArrays contact;
   Array<int**> node;
   Array<double**> weight;
   Array<int*> count;
@@ -84,7 +85,7 @@ struct KeepWeights {
   }
   KOKKOS_INLINE_FUNCTION void put(int n, double w) const {
     const int at = count(slave)++;
-    node(slave, at) = n;
+    node(slave, at) = contact.node_of(n);
     weight(slave, at) = w;
   }
 };
@@ -101,7 +102,7 @@ struct CurvedWeights {
     if (contact.status(s) == status_apart || contact.tracked(s) < 0 || !(pressing > 0)) return;
     const int segment = contact.tracked(s);
     const Vector3 normal = (1 / pressing) * force;
-    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, normal, KeepWeights{node, weight, count, contact.surface(segment), normal, s});
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, normal, KeepWeights{contact, node, weight, count, contact.surface(segment), normal, s});
   }
 };
 
@@ -189,13 +190,8 @@ void StaticContact::press() {
     if (pair.has_springs()) continue;
     keep_window(model_, pair, instant);
     const AugmentedLaw law(kept_[p].multiplier, stiffening);
-<<<<<<< HEAD
-    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormals>(model_, pair, instant, law);
+    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormalsOfMultipliers>(model_, pair, instant, law);
     else press_pair<FacetNormals>(model_, pair, instant, law);
-=======
-    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormalsOfMultipliers>(model_, pair, law);
-    else press_pair<FacetNormals>(model_, pair, law);
->>>>>>> 35f34a3 (Newton's tangent of springs on curved segments; settling multipliers press as they do in the run; figures in docs)
   }
 }
 

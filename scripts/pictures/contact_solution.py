@@ -53,7 +53,19 @@ class Contact:
     def patches(self, index):
         """The patches at output time number `index`, the one with the largest normal force first."""
         rows = self._tables["patches"]
-        return [Patch(self, row) for row in np.flatnonzero((rows["time"] == self.times[index]) & (rows["patch"] > 0))]
+        found = np.flatnonzero((rows["time"] == self.times[index]) & (rows["patch"] > 0))
+        return [Patch(self, row) for row in sorted(found, key=lambda row: -rows["normal_force"][row])]
+
+    def numbers(self):
+        """The numbers of all patches that were there at some output time: a patch keeps its own."""
+        numbers = np.unique(self._tables["patches"]["patch"])
+        return [int(number) for number in numbers if number > 0]
+
+    def small(self, number):
+        """By output time: whether that patch has fewer nodes than show its shape. Files of older programs list only one such patch, and do not say so."""
+        if "small" not in self._tables["patches"]:
+            return self.history("nodes_in_contact", number) < 4
+        return self.history("small", number) > 0
 
     def history(self, column, patch=0):
         """A column of the patches' table against time: of one patch, 0: of all together. NaN where there is none."""
@@ -83,6 +95,8 @@ class Patch:
         _, facets = contact.of_row("facets", row)
         _, self._cuts = contact.of_row("cuts", row)
         self.time, self.number = self.row["time"], int(self.row["patch"])
+        self.nodes = int(self.row["nodes_in_contact"])
+        self.small = self.nodes < 4
         self.centre = 1e3 * np.array([self.row[f"centre_{c}"] for c in "xyz"])
         self.normal_force, self.creep_force, self.lateral_force = (1e-3 * self.row[f"{f}_force"] for f in ("normal", "creep", "lateral"))
         self.traction_coefficient = self.row["traction_coefficient"]

@@ -9,6 +9,9 @@ from .panels import (Fine, draw_arrows, draw_cut, draw_letters, draw_parting, dr
                      draw_stick_boundary, parting_levels, pressure_levels, set_window, top_of)
 
 
+MOST_PATCHES = 10  # that one picture tells apart
+
+
 def _forces(patch):
     return (
         f"normal {patch.normal_force:.1f} kN, longitudinal {patch.creep_force:+.2f} kN, lateral {patch.lateral_force:+.2f} kN, "
@@ -48,7 +51,9 @@ def draw_patch(title, contact, patch):
     """One instant: the cut along the centre, the patch with its stresses, the micro-slip. Returns a figure."""
     half, fine, cut = patch.half_size(), Fine(patch), patch.cut()
     figure, (line, stress, slip) = _places(half[1] / half[0])
-    which = f"contact {contact.name}" + (f", patch {patch.number}" if patch.number > 1 else "")
+    which = f"contact {contact.name}" + (f", patch {patch.number}" if len(contact.numbers()) > 1 else "")
+    if patch.small:
+        which += f" of {patch.nodes} node{'s' if patch.nodes > 1 else ''}, too few for the mesh to show its shape"
     figure.suptitle(f"{title}\n{which}, stresses on {contact.surface}, t = {1e3 * patch.time:.4f} ms\n{_forces(patch)}\n{_creepages(patch)}", fontsize=style.TEXT)
 
     draw_cut(line, cut, half[0], top_of(cut))
@@ -118,6 +123,33 @@ def draw_row(title, contact, count=6, indices=None):
     grid[0, 0].set_ylabel("stress, MPa")
     figure.colorbar(pressure_colours, ax=grid[1, :], label="pressure, MPa")
     figure.colorbar(parting_colours, ax=grid[2, :], label="surfaces part (+),\napproach (-), m/s")
+    return figure
+
+
+def draw_patches(title, contact):
+    """Where each of several patches is, its normal force and its creepage along the rolling direction, against time; hollow marks: fewer than four nodes.
+    Returns a figure, or None where there never was more than one patch."""
+    numbers = contact.numbers()
+    if len(numbers) < 2:
+        return None
+    shown = sorted(sorted(numbers, key=lambda n: -np.nanmax(contact.history("normal_force", n)))[:MOST_PATCHES])
+    figure, panels = plt.subplots(4, 1, figsize=(8, 9), sharex=True, constrained_layout=True)
+    more = f"; the {MOST_PATCHES} with the largest forces of {len(numbers)}" if len(numbers) > MOST_PATCHES else ""
+    figure.suptitle(f"{title}\ncontact {contact.name}, patches by number{more}; hollow: fewer than four nodes", fontsize=style.TITLE)
+    columns = (("centre_x", 1e3, "centre x, mm"), ("centre_y", 1e3, "centre y, mm"), ("normal_force", 1e-3, "normal force, kN"), ("longitudinal_creepage", 100, "creepage along, %"))
+    colours = plt.get_cmap(style.LIST)
+    for k, number in enumerate(shown):
+        small = contact.small(number)
+        for axes, (column, scale, _) in zip(panels, columns):
+            values = scale * contact.history(column, number)
+            (line,) = axes.plot(1e3 * contact.times, values, color=colours(k % 10), linewidth=0.8, label=f"patch {number}")
+            axes.plot(1e3 * contact.times[~small], values[~small], "o", markersize=3, color=line.get_color())
+            axes.plot(1e3 * contact.times[small], values[small], "o", markersize=3, color=line.get_color(), markerfacecolor="white")
+    for axes, (_, _, label) in zip(panels, columns):
+        axes.set_ylabel(label)
+        axes.grid(alpha=0.3)
+    panels[0].legend(fontsize=style.SMALL, ncols=min(5, len(shown)), loc="lower left", bbox_to_anchor=(0, 1.0))
+    panels[-1].set_xlabel("time, ms")
     return figure
 
 

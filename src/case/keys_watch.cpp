@@ -23,6 +23,8 @@ Section watch_section() {
           .within(inside(0, 1)),
       key("speed", &Watch::speed, "of a node").in("m/s").within(above(0)).unlimited(),
       key("fatal_speed", &Watch::fatal_speed, "of a node, at which the run stops").in("m/s").within(above(0)).unlimited(),
+      key("contact_edge", &Watch::contact_edge, "normal force of a contact node at the end of its surface, beyond which the other body goes on, over the contact's largest").within(above(0)),
+      key("fine_zone", &Watch::fine_zone, "normal force of a contact node outside the fine zone of a wheel, rail, roller or crowned block, over the contact's largest").within(above(0)),
       key("chatter", &Watch::chatter, "times that a contact node was seen to open and to close again").within(at_least(1)),
       key("box", &Watch::box, "half the edge of the box about a fatal fault that is written; 0 is six times the element's size")
           .in("m")

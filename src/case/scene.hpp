@@ -322,6 +322,8 @@ struct Watch {
   double volume_ratio = 0.3;         ///< smallest Jacobian of an element over its undeformed one; the run stops at 0
   double speed = 500;                ///< m/s, of a node
   double fatal_speed = 20000;        ///< m/s; the run stops
+  double contact_edge = 0.1;         ///< normal force of a contact node at an end of its surface over the contact's largest
+  double fine_zone = 0.1;            ///< the same outside the fine zone of a part
   int chatter = 10;                  ///< times that a contact node was seen to open and to close again
   double box = 0;                    ///< m, half the edge of what is written about a fault; 0: six times the element's size
 };

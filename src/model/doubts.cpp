@@ -8,6 +8,7 @@
 #include "mesh/vectors.hpp"
 #include "model/absorbing_layer.hpp"
 #include "model/centre_of_mass.hpp"
+#include "model/contact_paths.hpp"
 #include "model/initial_overlap.hpp"
 #include "model/outside.hpp"
 #include "model/overlapping_parts.hpp"
@@ -157,6 +158,7 @@ std::vector<std::string> scene_doubts(const Model& model) {
   loads_on_held_nodes(model, doubts);
   inner_faces(model, doubts);
   entries_without_effect(model, doubts);
+  for (std::string& path : path_doubts(model)) doubts.push_back(std::move(path));
   for (std::string& doubt : absorbing_doubts(model)) doubts.push_back(std::move(doubt));
   return doubts;
 }

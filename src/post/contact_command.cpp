@@ -9,7 +9,7 @@
 #include "post/contact_file.hpp"
 #include "post/contact_tables.hpp"
 #include "post/own_file.hpp"
-#include "post/patch_velocity.hpp"
+#include "post/patch_ways.hpp"
 #include "post/results_reader.hpp"
 
 namespace railwave {
@@ -52,7 +52,7 @@ void print_row(std::ostream& out, const Table& t, std::size_t row) {
   out << fmt::format(
       "{:>10.5f} {:>5} {:>6} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f} {:>9} {:>9} {:>7.3f} {:>7.3f} {:>5} {:>5} {:>5} "
       "{:>6} {:>9} {:>9} {:>9}\n",
-      value("time", 1e3), all ? "all" : fmt::format("{}", value("patch")), value("nodes_in_contact"), value("area", 1e6),
+      value("time", 1e3), all ? "all" : fmt::format("{}{}", value("patch"), value("small") > 0 ? "*" : ""), value("nodes_in_contact"), value("area", 1e6),
       value("peak_nodal_pressure", 1e-6), value("peak_facet_pressure", 1e-6), value("peak_shear", 1e-6), value("normal_force", 1e-3),
       value("creep_force", 1e-3), value("lateral_force", 1e-3), value("traction_coefficient"), number_or_dash(value("centre_x", 1e3), 3),
       number_or_dash(value("centre_y", 1e3), 3), value("semi_axis_along", 1e3), value("semi_axis_across", 1e3), value("slipping_by_force"),
@@ -64,12 +64,15 @@ void print_row(std::ostream& out, const Table& t, std::size_t row) {
 /// Row 0, of all patches together, says nothing new where there is one.
 void print(std::ostream& out, const Table& patches) {
   print_heading(out);
+  bool any_small = false;
   for (std::size_t row = 0; row < patches.row_count(); ++row) {
     const bool all = patches.at(row, "patch") == 0;
     const bool last_of_instant = row + 1 == patches.row_count() || patches.at(row + 1, "patch") == 0;
     const bool followed_by_one = !last_of_instant && (row + 2 == patches.row_count() || patches.at(row + 2, "patch") == 0);
     if (!all || !(followed_by_one && patches.at(row, "stray_nodes") == 0)) print_row(out, patches, row);
+    any_small = any_small || patches.at(row, "small") > 0;
   }
+  if (any_small) out << fmt::format("* fewer than {} nodes: too few for the mesh to show its shape, stress and slip\n", smallest_patch);
 }
 
 ContactTables solve(const ResultsReader& results, const std::string& contact, const ContactRequest& request) {
@@ -81,26 +84,24 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
   options.rolling = Vector(request.rolling_direction.data());
   options.ring = {request.ring[0], request.ring[1]};
 
-  std::vector<PatchInstant> instants;
+  PatchWays ways(options.rolling);
+  std::vector<double> chosen;
   const std::vector<double> times = results.contact_times(contact);
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < request.from || times[i] > request.to) continue;
     const ContactState state = results.contact_state(contact, i);
     const ContactSolution solution = contact_solution(state, options);
-    tables.add(times[i], state, solution);
-    const ContactPatch& whole = solution.whole;
-    instants.push_back({times[i], !whole.touching.empty(), whole.frame.centre, whole.ellipse.semi_axis_along});
+    tables.add(times[i], state, solution, ways.add(times[i], solution));
+    chosen.push_back(times[i]);
   }
-  if (instants.empty() && !times.empty())
+  if (chosen.empty() && !times.empty())
     throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact, request.from, request.to, times.front(), times.back()));
   if (request.rolling_velocity) {
     tables.set_rolling_velocity(*request.rolling_velocity);
   } else if (request.axle) {
-    std::vector<double> chosen;
-    for (const PatchInstant& instant : instants) chosen.push_back(instant.time);
     tables.set_patch_velocity(results.set_velocity(*request.axle, chosen));
   } else {
-    tables.set_patch_velocity(patch_velocity(instants));
+    tables.set_velocity_of_rows(ways.velocity_of_rows());
   }
   return tables;
 }

@@ -66,6 +66,10 @@ void find_slip(const ContactSurfaces& surfaces, ContactPatch& patch) {
 
 }  // namespace
 
+double ContactPatch::size() const { return std::max(length(), ellipse.semi_axis_across); }
+
+double ContactPatch::length() const { return small() ? std::max(ellipse.semi_axis_along, std::sqrt(area_by_count / M_PI)) : ellipse.semi_axis_along; }
+
 ContactSurfaces::ContactSurfaces(const ContactState& contact_state)
     : state(contact_state),
       around_slave(state.slave),
@@ -85,7 +89,7 @@ ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<in
   find_facet_stress(slave, pressure, patch);
   patch.area = patch_area(slave, surfaces.around_slave, pressure);
   find_slip(surfaces, patch);
-  patch.rigid_slip = rigid_slip(surfaces.state, patch.frame, std::max(patch.ellipse.semi_axis_along, patch.ellipse.semi_axis_across), options.ring);
+  patch.rigid_slip = rigid_slip(surfaces.state, patch.frame, patch.size(), options.ring);
   return patch;
 }
 

@@ -7,6 +7,9 @@
 
 namespace railwave {
 
+/// Touching nodes that hang together are a patch; with fewer than this number, a facet's corners, a small one.
+inline constexpr int smallest_patch = 4;
+
 /// One patch of contact at one instant, from the nodal forces of the slave surface (thesis 3.4). Forces and stresses are
 /// those on the slave.
 struct ContactPatch {
@@ -32,6 +35,13 @@ struct ContactPatch {
   double traction_coefficient = 0;     ///< tangential over normal force
   double slip_difference = 0;          ///< m/s, largest distance of the micro-slip found here from the run's own
   RigidSlip rigid_slip;
+
+  /// Fewer nodes than that: such as chatter leaves at an edge, or a mesh too coarse for the contact.
+  bool small() const { return touching.size() < smallest_patch; }
+  /// m: the larger semi-axis of the ellipse; of a small patch, whose ellipse may be a point, no less than the radius of its nodes' areas.
+  double size() const;
+  /// m: the semi-axis along, likewise.
+  double length() const;
 };
 
 /// What the user may choose.

@@ -24,10 +24,9 @@ ContactSolution contact_solution(const ContactState& state, const PatchOptions& 
   const auto large = [](const std::vector<int>& nodes) { return nodes.size() >= smallest_patch; };
   const bool any_large = std::any_of(parts.begin(), parts.end(), large);
   for (const std::vector<int>& nodes : parts) {
-    if (large(nodes) || (!any_large && solution.patches.empty())) {
-      solution.patches.push_back(parts.size() == 1 ? solution.whole : contact_patch(surfaces, nodes, options));
-      continue;
-    }
+    const bool stray = !large(nodes) && (any_large || !solution.patches.empty());
+    solution.patches.push_back(parts.size() == 1 ? solution.whole : contact_patch(surfaces, nodes, options));
+    if (!stray) continue;
     solution.stray_nodes += static_cast<int>(nodes.size());
     solution.stray_force += normal_force_of(surfaces, nodes);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "post/facet_stress.hpp"
 
@@ -24,7 +25,8 @@ const std::vector<Column> patch_columns = {
     {"rigid_slip_along", "m/s"}, {"rigid_slip_across", "m/s"}, {"rigid_slip_spin", "rad/s"},
     {"ring_nodes_slave", "1"}, {"ring_nodes_master", "1"}, {"mean_velocity_along", "m/s"}, {"rolling_velocity", "m/s"},
     {"longitudinal_creepage", "1"}, {"lateral_creepage", "1"}, {"spin_creepage", "1/m"},
-    {"longitudinal_creepage_spread", "1"}, {"lateral_creepage_spread", "1"}, {"spin_creepage_spread", "1/m"}};
+    {"longitudinal_creepage_spread", "1"}, {"lateral_creepage_spread", "1"}, {"spin_creepage_spread", "1/m"},
+    {"small", "1"}};
 
 const std::vector<Column> node_columns = {
     {"row", "row"}, {"time", "s"}, {"patch", "1"}, {"node", "1"}, {"x", "m"}, {"y", "m"}, {"z", "m"},
@@ -62,11 +64,17 @@ FileKind cut_table_kind() { return kind_of("a table of 'railwave contact --cuts'
 
 ContactTables::ContactTables() : patches(patch_columns), nodes(node_columns), facets(facet_columns), cuts(cut_columns) {}
 
-void ContactTables::add(double time, const ContactState& state, const ContactSolution& solution) {
+void ContactTables::add(double time, const ContactState& state, const ContactSolution& solution, std::vector<int> numbers) {
   add_patch(time, 0, solution, solution.whole);
-  int number = 0;
-  for (const ContactPatch& patch : solution.patches) {
-    add_patch(time, ++number, solution, patch);
+  std::vector<int> order(solution.patches.size());
+  std::iota(order.begin(), order.end(), 0);
+  if (numbers.empty())
+    for (const int p : order) numbers.push_back(p + 1);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return numbers[a] < numbers[b]; });
+  for (const int p : order) {
+    const ContactPatch& patch = solution.patches[p];
+    const int number = numbers[p];
+    add_patch(time, number, solution, patch);
     const std::size_t first_node = nodes.row_count();
     if (with_nodes || with_facets) add_nodes(time, number, state, patch);
     if (with_facets) add_facets(state, patch, first_node);
@@ -82,7 +90,8 @@ void ContactTables::add_patch(double time, int number, const ContactSolution& so
   const RigidSlip& s = p.rigid_slip;
   const bool touches = !p.touching.empty();
   // Of several patches together there is no one tangent plane, and so no creepage.
-  const bool creeps = touches && s.known && (number > 0 || solution.patches.size() == 1);
+  const auto large = std::count_if(solution.patches.begin(), solution.patches.end(), [](const ContactPatch& one) { return !one.small(); });
+  const bool creeps = touches && s.known && (number > 0 || large == 1 || solution.patches.size() == 1);
   const auto if_creeps = [&](double value) { return creeps ? value : unknown; };
   const auto if_touches = [&](double value) { return touches ? value : unknown; };
   patches.add_row({time, static_cast<double>(number), static_cast<double>(p.touching.size()), p.area_by_count, p.area,
@@ -100,15 +109,22 @@ void ContactTables::add_patch(double time, int number, const ContactSolution& so
                    number == 0 ? solution.stray_nodes : 0.0, number == 0 ? solution.stray_force : 0.0,
                    if_creeps(s.along), if_creeps(s.across), if_creeps(s.spin),
                    static_cast<double>(s.slave.nodes), static_cast<double>(s.master.nodes), if_creeps(s.mean_along), unknown,
-                   unknown, unknown, unknown, if_creeps(s.spread_along), if_creeps(s.spread_across), if_creeps(s.spread_spin)});
+                   unknown, unknown, unknown, if_creeps(s.spread_along), if_creeps(s.spread_across), if_creeps(s.spread_spin),
+                   number > 0 && p.small() ? 1.0 : 0.0});
   instants_.push_back(instant_count_);
 }
 
 void ContactTables::set_patch_velocity(const std::vector<Vector>& velocities) {
+  std::vector<Vector> of_rows;
+  for (const int instant : instants_) of_rows.push_back(velocities[instant]);
+  set_velocity_of_rows(of_rows);
+}
+
+void ContactTables::set_velocity_of_rows(const std::vector<Vector>& velocities) {
   for (std::size_t row = 0; row < patches.row_count(); ++row) {
     const Vector along(patches.at(row, "along_x"), patches.at(row, "along_y"), patches.at(row, "along_z"));
     // What passes through the patch: its own velocity less the mean of the two surfaces'.
-    set_creepages(row, std::fabs(velocities[instants_[row]].dot(along) - patches.at(row, "mean_velocity_along")));
+    set_creepages(row, std::fabs(velocities[row].dot(along) - patches.at(row, "mean_velocity_along")));
   }
 }
 

@@ -20,11 +20,15 @@ class ContactTables {
   /// Which of the larger ones are wanted.
   bool with_nodes = false, with_facets = false, with_cuts = false;
 
-  /// Adds one instant: row 0 of all patches together, then a row for each.
-  void add(double time, const ContactState& state, const ContactSolution& solution);
+  /// Adds one instant: row 0 of all patches together, then a row for each, by their numbers.
+  /// @param numbers of the solution's patches, see PatchIdentities; empty: from 1 in the solution's order
+  void add(double time, const ContactState& state, const ContactSolution& solution, std::vector<int> numbers = {});
 
-  /// Fills the creepages once it is known how fast the patch moves over ground: m/s, by instant, NaN where it is not.
+  /// Fills the creepages once it is known how fast the patches move over ground: m/s, by instant, NaN where it is not.
   void set_patch_velocity(const std::vector<Vector>& velocities);
+
+  /// The same by row of `patches`: each patch has a velocity of its own.
+  void set_velocity_of_rows(const std::vector<Vector>& velocities);
 
   /// The same with one rolling velocity for all instants, m/s.
   void set_rolling_velocity(double velocity);

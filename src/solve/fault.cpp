@@ -18,6 +18,9 @@ const char* name_of(FaultKind kind) {
     case FaultKind::material: return "wave speed of a material, m/s";
     case FaultKind::yield: return "yield stress of a material over its Young's modulus";
     case FaultKind::size: return "mean size of a part's elements, m";
+    case FaultKind::contact_edge: return "a contact's patch is at the end of its surface: largest nodal force there over the contact's largest";
+    case FaultKind::contact_zone: return "a contact's patch is outside the fine mesh: largest nodal force there over the contact's largest";
+    case FaultKind::contact_lost: return "a closed contact has lost all its nodes over the end of its surface";
     case FaultKind::shape: return "an element badly shaped before anything moves: its smallest Jacobian at a corner over the mean";
   }
   return "";
@@ -33,6 +36,9 @@ const char* key_of(FaultKind kind) {
     case FaultKind::hourglass_distortion: return "hourglass_distortion";
     case FaultKind::penetration: return "penetration";
     case FaultKind::chatter: return "chatter";
+    case FaultKind::contact_edge: return "contact_edge";
+    case FaultKind::contact_zone: return "fine_zone";
+    case FaultKind::contact_lost:
     case FaultKind::not_finite:
     case FaultKind::material:
     case FaultKind::yield:
@@ -44,8 +50,9 @@ const char* key_of(FaultKind kind) {
 
 std::string Fault::told() const {
   std::string text = name_of(kind);
-  if (kind != FaultKind::not_finite) text += fmt::format(": {:.4g}, limit {:.4g}", value, limit);
+  if (kind != FaultKind::not_finite && kind != FaultKind::contact_lost) text += fmt::format(": {:.4g}, limit {:.4g}", value, limit);
   text += fmt::format("; at t = {:.6g} s, step {}", time, step);
+  if (!contact.empty()) text += fmt::format(", contact {}", contact);
   if (!part.empty()) text += fmt::format(", part {}", part);
   if (element_in_part >= 0) text += fmt::format(", element {}", element_in_part);
   if (element >= 0 || node >= 0) text += fmt::format(" near ({:.4g}, {:.4g}, {:.4g}) m", place[0], place[1], place[2]);

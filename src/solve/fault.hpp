@@ -8,9 +8,9 @@
 namespace railwave {
 
 /// What the watch looks at.
-enum class FaultKind { not_finite, inversion, energy, speed, kinetic, hourglass_share, hourglass_distortion, penetration, chatter, material, yield, size, shape };
+enum class FaultKind { not_finite, inversion, energy, speed, kinetic, hourglass_share, hourglass_distortion, penetration, chatter, material, yield, size, shape, contact_edge, contact_zone, contact_lost };
 
-inline constexpr int fault_kinds = 13;
+inline constexpr int fault_kinds = 16;
 
 /// What may have brought a fault about, and how to mend it.
 struct Cause {
@@ -27,6 +27,7 @@ struct Fault {
   long step = 0;
   double value = 0, limit = 0; ///< in the unit of what is watched
   std::string part;            ///< of the culprit; empty: no part
+  std::string contact;         ///< that it is about; each contact is told by itself; empty: none
   int element = -1;            ///< number among the model's elements, -1: none
   int element_in_part = -1;    ///< number within its part
   int node = -1;               ///< number among the model's nodes, -1: none

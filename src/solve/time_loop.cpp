@@ -203,6 +203,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     instant.advancing = !looked_at;
     if (looked_at && !asked_for) looks.begin();
     for (const Stage& stage : stages) stage.run(instant);
+    watch.glance();
 
     if (looked_at) {
       HistorySample sample = (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
@@ -250,6 +251,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   summary.warnings = watch.told();
   summary.account = watch.account_told();
   summary.watched = watch.worst_told();
+  for (const std::string& apart : watch.never_closed()) summary.warnings.push_back(apart);
   for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
   if (keeping.checkpoints)
     if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);

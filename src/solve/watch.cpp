@@ -82,6 +82,23 @@ Watch::Watch(const Model& model) : model_(model) {
   evidence_.worst_shape = arrays_->worst_shape();
   energy_of_rounding_ = energy_of_rounding(model);
   parts_.resize(model.assembly.parts.size());
+  if (!model.contacts.empty()) ends_ = std::make_unique<EndWatch>(model);
+}
+
+void Watch::glance() {
+  static_assert(EndWatch::steps_between % (1L << (most_levels - 1)) == 0);
+  if (!ends_ || model_.step % EndWatch::steps_between != 0) return;
+  ends_->look(model_, false);
+  for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
+    const EndSighting& seen = ends_->sightings()[c];
+    const std::string& name = model_.scene.contacts[c].name;
+    wants_look_ = wants_look_ || (seen.at_end > model_.scene.watch.contact_edge && !knows(FaultKind::contact_edge, name)) ||
+                  (seen.outside_zone > model_.scene.watch.fine_zone && !knows(FaultKind::contact_zone, name)) || seen.lost;
+  }
+}
+
+bool Watch::knows(FaultKind kind, const std::string& contact) const {
+  return std::any_of(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind && one.contact == contact; });
 }
 
 bool Watch::due(long step) const { return whole_due(step) || (arrays_ && energies_due(step)); }
@@ -96,7 +113,7 @@ bool Watch::whole_due(long step) const {
   if (regular(step)) return true;
   if (!arrays_) return false;
   const bool power_of_two = (step & (step - 1)) == 0;
-  return (step < most_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
+  return wants_look_ || (step < most_between_looks && power_of_two) || (odd_ && step % steps_when_odd == 0);
 }
 
 bool Watch::regular(long step) const {
@@ -119,6 +136,7 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   }
   if (finite(sample)) weigh_energies(sample);
   const bool whole = whole_due(sample.step) || !finite(sample) || share_ > model_.scene.watch.fatal_energy_error;
+  wants_look_ = false;
   if (whole) {
     WatchMeasures now = arrays_->measure(model_);
     if (!begun_) evidence_.first = now;
@@ -131,7 +149,10 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   if (!begun_) look_at_beginning(sample);
   begun_ = true;
   evidence_.touching.clear();
-  for (const ContactTotals& contact : sample.contacts) evidence_.touching.push_back(contact.nodes_in_contact);
+  for (const ContactTotals& contact : sample.contacts) {
+    if (ends_ && contact.nodes_in_contact > 0) ends_->note_closed(evidence_.touching.size());
+    evidence_.touching.push_back(contact.nodes_in_contact);
+  }
   const double work = std::fabs(sample.energy.external_work);
   evidence_.kinetic_share = work > 0 ? sample.energy.kinetic / work : 0;
   if (!finite(sample)) {
@@ -140,7 +161,8 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   }
   if (whole) look_at_model(sample);
   look_at_energies(sample);
-  if (whole_due(sample.step) && by_part_.size() == parts_.size()) look_at_parts(sample);
+  if (whole && ends_) look_at_ends(sample);
+  if (whole_asked && by_part_.size() == parts_.size()) look_at_parts(sample);
   return new_;
 }
 
@@ -185,6 +207,35 @@ void Watch::weigh_energies(const HistorySample& sample) {
   share_ = scale > 0 ? beyond / scale : 0;
   blown_up_ = beyond > model_.scene.watch.fatal_energy_error * std::max(scale, given_);
   kinetic_share_ = scale > 0 ? std::max(0.0, energy.kinetic - given_ - floor) / scale : 0;
+}
+
+void Watch::look_at_ends(const HistorySample& sample) {
+  const scene::Watch& limit = model_.scene.watch;
+  ends_->look(model_, regular(sample.step));
+  for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
+    const EndSighting& seen = ends_->sightings()[c];
+    judge_contact(FaultKind::contact_edge, false, seen.at_end, limit.contact_edge, sample, c, seen.end_node, seen.end);
+    judge_contact(FaultKind::contact_zone, false, seen.outside_zone, limit.fine_zone, sample, c, seen.zone_node, seen.zone);
+    if (seen.lost) judge_contact(FaultKind::contact_lost, true, 1, 0, sample, c, seen.end_node, seen.end);
+  }
+}
+
+void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, std::size_t contact, int node, const std::string& told) {
+  Worst& worst = worst_[static_cast<int>(kind)];
+  if (!fatal && (!worst.seen || value > worst.value)) worst = {value, limit, sample.time, true};
+  const std::string& name = model_.scene.contacts[contact].name;
+  if (!(value > limit) || knows(kind, name)) return;
+  Fault fault;
+  fault.kind = kind;
+  fault.fatal = fatal;
+  fault.time = sample.time;
+  fault.step = sample.step;
+  fault.value = value;
+  fault.limit = limit;
+  fault.contact = name;
+  place_at_node(fault, node);
+  fault.causes.push_back(Cause{"end of a contact surface", told, 97});
+  add(std::move(fault));
 }
 
 void Watch::look_at_energies(const HistorySample& sample) {
@@ -272,7 +323,7 @@ void Watch::note(FaultKind kind, bool fatal, double value, double limit, const H
 
 void Watch::add(Fault fault) {
   new_.push_back(fault);
-  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == fault.kind; });
+  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == fault.kind && one.contact == fault.contact; });
   if (known != found_.end()) *known = std::move(fault);
   else found_.push_back(std::move(fault));
 }
@@ -328,6 +379,8 @@ std::string Watch::account_told() const {
   const double most = std::max(worst_[static_cast<int>(FaultKind::energy)].value, share_), limit = model_.scene.watch.fatal_energy_error;
   return fmt::format("energy account {}: error at most {:.2g} of what deformation held and dissipated, limit {:g}", most > limit ? "broken" : "kept", most, limit);
 }
+
+std::vector<std::string> Watch::never_closed() const { return ends_ ? ends_->never_closed(model_) : std::vector<std::string>(); }
 
 std::string Watch::worst_told() const {
   std::string line;

@@ -29,6 +29,7 @@ void archive_fault(Archive& archive, const std::string& of, Fault& fault) {
   archive.value(of + "value", fault.value);
   archive.value(of + "limit", fault.limit);
   archive_text(archive, of + "part", fault.part);
+  archive_text(archive, of + "contact", fault.contact);
   archive.value(of + "element", fault.element);
   archive.value(of + "element_in_part", fault.element_in_part);
   archive.value(of + "node", fault.node);
@@ -77,6 +78,9 @@ void Watch::archive_all(Archive& archive) {
   archive_measures(archive, "watch_last_", evidence_.last);
   archive.values("watch_deepest", evidence_.deepest);
   arrays_->archive(archive);
+  if (!ends_) return;
+  ends_->archive(archive);
+  archive.value("watch_wants_look", wants_look_);
 }
 
 template void Watch::archive_all(StateTaker&);

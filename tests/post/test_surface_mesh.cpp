@@ -45,27 +45,33 @@ TEST_CASE("touching nodes that share a facet hang together") {
   CHECK(sizes == std::vector<std::size_t>{1, 2, 4, 10});
 }
 
-TEST_CASE("small islands are strays, the rest patches by force") {
+TEST_CASE("all islands are patches by force, those of few nodes small ones") {
   const ContactState state = made_up_state(pressed(two_patches_and_strays), grid(), 0.4);
   const ContactSolution solution = contact_solution(state);
-  REQUIRE(solution.patches.size() == 2);
-  CHECK(solution.patches[0].touching.size() == 10);
-  CHECK(solution.patches[1].touching.size() == 4);
+  REQUIRE(solution.patches.size() == 4);
+  const int sizes[] = {10, 4, 2, 1};
+  for (int p = 0; p < 4; ++p) {
+    CHECK(solution.patches[p].touching.size() == static_cast<std::size_t>(sizes[p]));
+    CHECK(solution.patches[p].small() == (p > 1));
+    CHECK(solution.patches[p].size() > 0);
+  }
   CHECK(solution.stray_nodes == 3);
   CHECK(solution.whole.touching.size() == 17);
   double in_patches = 0;
-  for (const ContactPatch& patch : solution.patches) in_patches += patch.normal_force;
-  CHECK(std::fabs(solution.whole.normal_force - in_patches - solution.stray_force) < 1e-9 * solution.whole.normal_force);
-  CHECK(solution.stray_force > 0);
+  double in_small = 0;
+  for (const ContactPatch& patch : solution.patches) (patch.small() ? in_small : in_patches) += patch.normal_force;
+  CHECK(std::fabs(solution.whole.normal_force - in_patches - in_small) < 1e-9 * solution.whole.normal_force);
+  CHECK(std::fabs(solution.stray_force - in_small) < 1e-9 * in_small);
 }
 
-TEST_CASE("where only a node or two touch, they are the patch") {
+TEST_CASE("where only a node or two touch, the largest island is the patch, the others are strays") {
   const ContactState state = made_up_state(pressed({"............", "............", "............", "...x........", "............", "............",
                                                     "............", ".......xx...", "............"}),
                                            grid(), 0.4);
   const ContactSolution solution = contact_solution(state);
-  REQUIRE(solution.patches.size() == 1);
+  REQUIRE(solution.patches.size() == 2);
   CHECK(solution.patches[0].touching.size() == 2);
+  CHECK(solution.patches[1].touching.size() == 1);
   CHECK(solution.stray_nodes == 1);
 }
 

@@ -126,8 +126,9 @@ struct Met {
 /// Follows a place over one surface, from where the run begins.
 /// @param place place(t): the patch's or node's place among the surface's undeformed nodes
 /// @param ahead how many elements beyond it count
+/// @return the end of the fine zone, if it passes that, and of the surface
 template <class Place>
-std::optional<Met> follow(const Model& model, const SurfaceEnds& ends, const std::string& part, double ahead, const Place& place) {
+std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::string& part, double ahead, const Place& place) {
   const double end_time = model.scene.time.end, wanted = finest_wanted(model.scene, part);
   int facet = nearest_facet(model, ends, place(0)), side = -1;
   const Way way = way_over(model, ends);
@@ -144,7 +145,8 @@ std::optional<Met> follow(const Model& model, const SurfaceEnds& ends, const std
   double travelled = 0;
   constexpr int coarse_steps = 200;
   for (int i = 0; i < coarse_steps; ++i) travelled += length(difference(place(end_time * (i + 1) / coarse_steps), place(end_time * i / coarse_steps)));
-  if (travelled < least_way * size) return std::nullopt;
+  std::vector<Met> met;
+  if (travelled < least_way * size) return met;
   const int steps = static_cast<int>(std::min<double>(most_steps, std::max<double>(coarse_steps, travelled / size)));
   for (int i = 0; i < steps; ++i) {
     const double before = end_time * i / steps, time = end_time * (i + 1) / steps;
@@ -154,16 +156,22 @@ std::optional<Met> follow(const Model& model, const SurfaceEnds& ends, const std
     if (!over) arrive(here);
     if (!over) continue;
     if (way.leads_out(as_vector(here), least_way * side_of(model, ends.corners[facet]), facet, side)) {
-      return Met{time, here, true, static_cast<Beyond>(ends.beyond[facet][side])};
+      met.push_back({time, here, true, static_cast<Beyond>(ends.beyond[facet][side])});
+      return met;
     }
-    if (side >= 0) return std::nullopt;  // over a gap, or too far to be followed
+    if (side >= 0) return met;  // over a gap, or too far to be followed
     const double own_size = side_of(model, ends.corners[facet]);
     const Vec3 foremost = sum(here, times(ahead * own_size / moved, step));
     int last = facet;
-    if (ahead > 0 && way.leads_out(as_vector(foremost), least_way * own_size, last, side)) return Met{time, foremost, true, static_cast<Beyond>(ends.beyond[last][side])};
-    if (fine && longest_side(model.assembly.nodes, ends.corners[last]) > wanted) return Met{time, foremost, false};
+    if (ahead > 0 && way.leads_out(as_vector(foremost), least_way * own_size, last, side)) {
+      met.push_back({time, foremost, true, static_cast<Beyond>(ends.beyond[last][side])});
+      return met;
+    }
+    if (!fine || longest_side(model.assembly.nodes, ends.corners[last]) <= wanted) continue;
+    met.push_back({time, foremost, false});
+    fine = false;  // told once
   }
-  return std::nullopt;
+  return met;
 }
 
 std::string told(const Model& model, const scene::Contact& contact, const std::string& surface, const std::string& part, const Met& met) {
@@ -244,18 +252,22 @@ class PairPath {
     const auto other_round = round_part(model_, other);
     const Vec3 other_place = other_round ? sum(other_round->origin, times(dot(difference(place, other_round->origin), other_round->axis), other_round->axis)) : place;
     const BodyWay carried(model_, other, other_place);
-    std::optional<Met> first;
-    std::string line;
+    // Of both surfaces what comes first, end and zone apart.
+    std::optional<Met> first[2];
+    std::string line[2];
     for (const bool own : {false, true}) {
       const bool of_master = own == round_is_master;
       const BodyWay& body = own ? carrier : carried;
-      const auto met = follow(model_, ends_[of_master], own ? round.part->name : other, elements_ahead,
+      const auto all = follow(model_, ends_[of_master], own ? round.part->name : other, elements_ahead,
                               [&](double time) { return body.material(sum(place, carrier.travel(time)), time); });
-      if (!met || (first && first->time <= met->time)) continue;
-      first = met;
-      line = told(model_, contact_, surface(of_master), own ? round.part->name : other, *met);
+      for (const Met& met : all) {
+        if (first[met.end] && first[met.end]->time <= met.time) continue;
+        first[met.end] = met;
+        line[met.end] = told(model_, contact_, surface(of_master), own ? round.part->name : other, met);
+      }
     }
-    if (first) doubts.push_back(line);
+    for (const int end : {0, 1})
+      if (first[end]) doubts.push_back(line[end]);
   }
 
   void tell_sliding(std::vector<std::string>& doubts) const {
@@ -297,8 +309,8 @@ class PairPath {
     if (foremost < 0) return;
     const Vec3 from = model_.assembly.nodes[foremost];
     const bool over_master = !master_is_short;
-    if (const auto met = follow(model_, ends, over_master ? master_ : slave_, 0, [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
-      doubts.push_back(told(model_, contact_, surface(over_master), over_master ? master_ : slave_, *met));
+    for (const Met& met : follow(model_, ends, over_master ? master_ : slave_, 0, [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
+      doubts.push_back(told(model_, contact_, surface(over_master), over_master ? master_ : slave_, met));
   }
 
   const Model& model_;

@@ -150,7 +150,11 @@ class Run:
             limits = ["--from", f"{start * self.times()[-1]:.9g}", "--to", f"{end * self.times()[-1] + 1e-6:.9g}"]
             subprocess.run([self.program, "contact", self.path, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL)
             with open(table, encoding="utf-8") as file:
-                rows = [row for row in csv.DictReader(file) if row["patch"] == "1"]
+                largest = {}  # by time: numbers stay with patches, whatever their forces
+                for row in csv.DictReader(file):
+                    if row["patch"] != "0" and float(row["normal_force"]) > float(largest.get(row["time"], {"normal_force": 0})["normal_force"]):
+                        largest[row["time"]] = row
+                rows = list(largest.values())
         return np.array([[float(row[f"{which}_creepage"]) for which in ("longitudinal", "lateral", "spin")] for row in rows])
 
     def history(self):

@@ -135,7 +135,8 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
     rate_at_start_ = largest_rate(model_);
   }
   if (finite(sample)) weigh_energies(sample);
-  const bool whole = whole_due(sample.step) || !finite(sample) || share_ > model_.scene.watch.fatal_energy_error;
+  const bool whole_asked = whole_due(sample.step);
+  const bool whole = whole_asked || !finite(sample) || share_ > model_.scene.watch.fatal_energy_error;
   wants_look_ = false;
   if (whole) {
     WatchMeasures now = arrays_->measure(model_);

@@ -20,12 +20,8 @@ class Watch {
   explicit Watch(const Model& model);
 
   /// Whether it wants to look at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every 4096; at
-<<<<<<< HEAD
-  /// the first powers of two; every 32 while something odd grows; and at the energies alone 24 times at least, but no oftener than every
-  /// 32 steps.
-=======
-  /// the first powers of two; every 32 while something odd grows; and after a glance that saw a contact come to an end of its surface.
->>>>>>> 5db4b29 (Ends of contact surfaces are foreseen, told and fatal; patches keep their numbers and have creepages of their own)
+  /// the first powers of two; every 32 while something odd grows; after a glance that saw a contact come to an end of its surface; and at
+  /// the energies alone 24 times at least, but no oftener than every 32 steps.
   bool due(long step) const;
 
   /// Where a sample's part energies are wanted; null: nowhere.
@@ -45,13 +41,11 @@ class Watch {
   /// Lines for the summary: everything found, the first of each kind with the worst since.
   std::vector<std::string> told() const;
 
-<<<<<<< HEAD
   /// How well the energy account was kept: what a run that completes may claim.
   std::string account_told() const;
-=======
+
   /// A line for each contact that never closed.
   std::vector<std::string> never_closed() const;
->>>>>>> 5db4b29 (Ends of contact surfaces are foreseen, told and fatal; patches keep their numbers and have creepages of their own)
 
   /// The worst value of each kind and its limit, whether passed or not, under the names that the keys of [watch] have.
   std::string worst_told() const;
@@ -87,13 +81,10 @@ class Watch {
   void weigh_energies(const HistorySample& sample);
   void look_at_energies(const HistorySample& sample);
   void look_at_parts(const HistorySample& sample);
-<<<<<<< HEAD
   void judge_lasting(FaultKind kind, double value, Limits limits, Lasting& lasting, const HistorySample& sample);
-=======
   void look_at_ends(const HistorySample& sample);
   void judge_contact(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, std::size_t contact, int node, const std::string& told);
   bool knows(FaultKind kind, const std::string& contact) const;
->>>>>>> 5db4b29 (Ends of contact surfaces are foreseen, told and fatal; patches keep their numbers and have creepages of their own)
   void judge(FaultKind kind, double value, Limits limits, const HistorySample& sample, Extreme where, bool at_element = false);
   void note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where, bool at_element);
   void add(Fault fault);
@@ -111,7 +102,7 @@ class Watch {
   WatchEvidence evidence_;
   std::unique_ptr<EndWatch> ends_;       ///< null in an inactive watch, and without contacts
   bool begun_ = false, odd_ = false;
-<<<<<<< HEAD
+  bool wants_look_ = false;                ///< a glance saw something new
   double given_at_start_ = 0, given_ = 0;  ///< J: what the run began with, and that with the most that loads have worked
   double deformation_ = 0;                 ///< J, the most so far that deformation held and had dissipated, less what the balance says was made
   double impacts_ = 0;                     ///< J, the most so far that impacts on multipliers had taken
@@ -122,11 +113,6 @@ class Watch {
   double share_before_ = 0;                ///< the first, at the last of the regular looks
   bool blown_up_ = false;                  ///< the error is as large beside all that was given, travel included
   Lasting lasting_error_, lasting_growth_;
-=======
-  bool wants_look_ = false;                ///< a glance saw something new
-  double given_at_start_ = 0, given_ = 0;  ///< J
-  double error_before_ = 0;                ///< of the balance, at the last of the regular looks
->>>>>>> 5db4b29 (Ends of contact surfaces are foreseen, told and fatal; patches keep their numbers and have creepages of their own)
   std::array<Worst, fault_kinds> worst_;   ///< by kind
   std::vector<PartEnergy> by_part_;
   std::vector<WatchedPart> parts_;

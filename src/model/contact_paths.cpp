@@ -226,7 +226,7 @@ class PairPath {
            std::any_of(model_.scene.prescribed_motions.begin(), model_.scene.prescribed_motions.end(), [&](const auto& motion) { return named(motion.target); });
   }
 
-  const std::string& surface(bool of_master) const { return of_master != pair_.reversed ? contact_.master : contact_.slave; }
+  std::string surface(bool of_master) const { return of_master != pair_.reversed ? contact_.master.text() : contact_.slave; }
 
   /// Where the round part stands on the other; where it does not stand on that first of all, its nearest place on anything.
   std::optional<Vec3> where_it_rolls(const RoundPart& round) const {

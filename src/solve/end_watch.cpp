@@ -286,7 +286,7 @@ void EndWatch::place_outside_zone(const Model& model, std::size_t number, int sl
 
 std::string EndWatch::told_end(const ContactPair& pair, const Memory& memory) const {
   const scene::Contact& contact = *pair.contact;
-  const std::string &slave = pair.reversed ? contact.master : contact.slave, &master = pair.reversed ? contact.slave : contact.master;
+  const std::string masters = contact.master.text(), &slave = pair.reversed ? masters : contact.slave, &master = pair.reversed ? contact.slave : masters;
   const bool at_slave = memory.facet < 0;
   const std::string& surface = at_slave ? slave : master;
   const std::string where = at_slave ? std::string() : fmt::format(" towards {}", direction_name({memory.out[0], memory.out[1], memory.out[2]}));

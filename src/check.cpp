@@ -10,6 +10,7 @@
 #include "mesh/quality.hpp"
 #include "model/absorbing_layer.hpp"
 #include "model/doubts.hpp"
+#include "model/initial_overlap.hpp"
 #include "model/output_times.hpp"
 #include "model/place_element_sets.hpp"
 #include "model/place_sets.hpp"
@@ -86,6 +87,12 @@ void describe_ends(const Model& model, std::ostream& out) {
   for (const std::string& line : describe_slender_ends(model)) out << "note: " << line << '\n';
 }
 
+/// Small overlaps of contacts, as cases have that press bodies together by their places: the deep ones are doubts.
+void describe_overlaps(const Model& model, std::ostream& out) {
+  for (const InitialOverlap& overlap : initial_overlaps(model))
+    if (!overlap.deep) out << "note: " << describe(model, overlap) << '\n';
+}
+
 /// What rolls, and at what rate; then all that may be a mistake.
 void describe_motions(const Model& model, std::ostream& out) {
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
@@ -123,6 +130,7 @@ void describe_run(Model& model, std::ostream& out) {
     out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
   describe_places(model, out);
   describe_ends(model, out);
+  describe_overlaps(model, out);
   describe_motions(model, out);
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;

@@ -136,7 +136,8 @@ void inner_faces(const Model& model, Doubts& doubts) {
 }
 
 void overlapping_contacts(const Model& model, Doubts& doubts) {
-  for (const InitialOverlap& overlap : initial_overlaps(model)) doubts.push_back(describe(model, overlap));
+  for (const InitialOverlap& overlap : initial_overlaps(model))
+    if (overlap.deep) doubts.push_back(describe(model, overlap));
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ namespace {
 constexpr double noticed = 1e-5;
 /// The same: springs as stiff as the elements under them press with about a hundredth of Young's modulus then, beyond what steel bears.
 constexpr double deep_share = 0.01;
+/// The same where the scene settles first, by statics: as the watch's limit of a penetration.
+constexpr double deep_share_settled = 0.1;
+/// Cosine of the angle between the way to a face and its normal: what lies farther beside it is under another surface of the body.
+constexpr double beside = 0.7;
 /// Natural coordinates by which rounding may put a node outside both elements on whose common side it lies.
 constexpr double on_a_side = 1e-9;
 /// m/s with which multipliers throw nodes out: they close a gap within a step. As of a hard impact.
@@ -105,13 +109,20 @@ Faces master_of(const ContactPair& pair) {
   return faces;
 }
 
+/// Whether a node inside the body lies under the face, seen along its normal.
+bool is_under(const Assembly& assembly, const std::array<int, 4>& c, const Vec3& node, const Vec3& point) {
+  const auto& x = assembly.nodes;
+  const Vec3 normal = cross(difference(x[c[2]], x[c[0]]), difference(x[c[3]], x[c[1]])), way = difference(point, node);
+  return dot(way, normal) >= beside * length(way) * length(normal);
+}
+
 double size_of(const Assembly& assembly, const std::array<int, 4>& c) {
   const auto& x = assembly.nodes;
   return std::sqrt(facet_area(x[c[0]], x[c[1]], x[c[2]], x[c[3]]));
 }
 
 bool is_deep(const Model& model, const InitialOverlap& overlap) {
-  if (overlap.share > deep_share) return true;
+  if (overlap.share > (model.scene.settle.active ? deep_share_settled : deep_share)) return true;
   return overlap.contact->algorithm == scene::ContactAlgorithm::multiplier && !model.scene.settle.active && overlap.depth > thrown * model.step_size;
 }
 
@@ -133,7 +144,7 @@ void look(const Model& model, const ContactPair& pair, double sign, InitialOverl
     const Vec3& x = assembly.nodes[n];
     const auto found = faces.find(x);
     const double size = size_of(assembly, master[found.face]);
-    if (found.distance <= noticed * size) continue;
+    if (found.distance <= noticed * size || !is_under(assembly, master[found.face], x, found.point)) continue;
     ++overlap.nodes;
     if (found.distance <= overlap.depth) continue;
     overlap.depth = found.distance;

@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-/// Finds which slave nodes of the window can touch before the next look, at times many steps apart; and brings every
-/// node's gap and tracked segment up to date. A node is far when its distance from the master is larger than what both can
+/// Finds which slave nodes of the window can touch before the next look, at times many steps apart; and brings the
+/// gaps and tracked segments of those near, and at times of all, up to date. A node is far when its distance from the master is larger than what both can
 /// move until then: their present speeds and a quarter more, and `sudden` for what waves and loads can add.
 struct ContactLook {
   ContactSearch search;
@@ -14,6 +14,7 @@ struct ContactLook {
   double interval;      ///< s until the next look
   double sudden;        ///< m
   bool first;           ///< no look was before: all that penetrates does so from the beginning
+  bool thorough;        ///< far nodes are located too
   Array<int*> missed;   ///< one: nodes found penetrating that the look before had called far
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -24,7 +25,7 @@ struct ContactLook {
     const bool was_near = entry.near != 0;
     entry.near = near_one_sheet;
     const Vector3 slave = row(search.position, entry.node);
-    if (!touching && !search.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
+    if (!touching && !thorough && !search.comes_within(slave, 1.25 * interval * norm(row(velocity, entry.node)) + sudden)) {
       entry.near = 0;
     } else if (!touching) {
       double beyond;

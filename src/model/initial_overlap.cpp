@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <limits>
 
 #include "mesh/hexahedron.hpp"
@@ -76,12 +77,22 @@ class NearestFace {
   double reach_ = 0;                           ///< m, half the longest face along x
 };
 
-/// Nodes within elements of that part, ascending; not those of which they are corners.
+/// How much of a small ball around a place lies in an element, were its corners square: all inside, half at a face, a quarter at an edge.
+double share_in(const Vec3& natural) {
+  double share = 1;
+  for (double c : natural) {
+    if (!(std::fabs(c) <= 1 + on_a_side)) return 0;
+    if (std::fabs(c) >= 1 - on_a_side) share *= 0.5;
+  }
+  return share;
+}
+
+/// Nodes within elements of that part, ascending; not those of which they are corners, nor those on the part's outer faces.
 std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& nodes, const Assembly::PartRange& part) {
   Bounds where = no_bounds;
   for (int n : nodes) widen(where, assembly.nodes[n]);
   const NodeGrid grid(assembly, nodes, where);
-  std::vector<int> inside;
+  std::map<int, double> share;
   for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
     const auto& corners = assembly.elements[e];
     Bounds bounds = no_bounds;
@@ -91,11 +102,12 @@ std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& 
     if (apart) continue;
     grid.within(bounds, [&](int n) {
       if (std::find(corners.begin(), corners.end(), n) != corners.end()) return;
-      if (largest_natural_coordinate(corners_of(assembly.nodes, corners), assembly.nodes[n]) <= 1 + on_a_side) inside.push_back(n);
+      if (const double here = share_in(natural_coordinates(corners_of(assembly.nodes, corners), assembly.nodes[n])); here > 0) share[n] += here;
     });
   }
-  std::sort(inside.begin(), inside.end());
-  inside.erase(std::unique(inside.begin(), inside.end()), inside.end());
+  std::vector<int> inside;
+  for (const auto& [n, all] : share)
+    if (all > 0.7) inside.push_back(n);
   return inside;
 }
 

@@ -110,7 +110,8 @@ Vec3 element_centre(const Assembly& assembly, int element) {
   return centre;
 }
 
-double largest_natural_coordinate(const std::array<Vec3, 8>& corners, const Vec3& place) {
+Vec3 natural_coordinates(const std::array<Vec3, 8>& corners, const Vec3& place) {
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
   const auto& sign = hexahedron_corner_signs;
   constexpr int most_iterations = 30;
   Eigen::Vector3d xi = Eigen::Vector3d::Zero();
@@ -128,11 +129,17 @@ double largest_natural_coordinate(const std::array<Vec3, 8>& corners, const Vec3
     const Eigen::Vector3d more = slope.partialPivLu().solve(missed);
     if (!more.allFinite()) break;
     xi += more;
-    if (more.lpNorm<Eigen::Infinity>() < 1e-12) return xi.lpNorm<Eigen::Infinity>();
+    if (more.lpNorm<Eigen::Infinity>() < 1e-12) return {xi[0], xi[1], xi[2]};
     if (xi.lpNorm<Eigen::Infinity>() > 1e3) break;
   }
   // Right at rounding Newton's method may not settle any further.
-  return xi.allFinite() && xi.lpNorm<Eigen::Infinity>() < 1e3 ? xi.lpNorm<Eigen::Infinity>() : std::numeric_limits<double>::infinity();
+  if (!xi.allFinite() || xi.lpNorm<Eigen::Infinity>() >= 1e3) return {nowhere, nowhere, nowhere};
+  return {xi[0], xi[1], xi[2]};
+}
+
+double largest_natural_coordinate(const std::array<Vec3, 8>& corners, const Vec3& place) {
+  const Vec3 xi = natural_coordinates(corners, place);
+  return std::max({std::fabs(xi[0]), std::fabs(xi[1]), std::fabs(xi[2])});
 }
 
 void add_element_sets(const scene::Scene& scene, Assembly& assembly) {

@@ -26,8 +26,11 @@ std::vector<PlacedElements> placed_element_sets(const scene::Scene& scene, const
 /// Mean of an element's corners, m.
 Vec3 element_centre(const Assembly& assembly, int element);
 
-/// Natural coordinates (-1 to 1 inside) of a place in a trilinear hexahedron: Newton's method on x(xi) = sum N_k(xi) x_k.
-/// @return the largest of their sizes: at most 1 inside; infinity where the map can't be inverted there
+/// Natural coordinates (-1 to 1 inside) of a place in a trilinear hexahedron: Newton's method on x(xi) = sum N_k(xi) x_k; infinite where
+/// the map can't be inverted there.
+Vec3 natural_coordinates(const std::array<Vec3, 8>& corners, const Vec3& place);
+
+/// The largest of their sizes: at most 1 inside.
 double largest_natural_coordinate(const std::array<Vec3, 8>& corners, const Vec3& place);
 
 }  // namespace railwave

@@ -265,7 +265,8 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
-                                   static_cast<double>(steps) * instant.step, static_cast<double>(steps) * sudden, first, pair.missed});
+                                   static_cast<double>(steps) * instant.step, static_cast<double>(steps) * sudden, first,
+                                   first || look, pair.missed});
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {

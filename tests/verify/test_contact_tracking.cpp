@@ -48,6 +48,7 @@ struct Verdict {
   double deepest = 0;                  ///< gap under the segment that holds it, 0: none
   double nearest_outside = 1e300;      ///< of the segments near
   double gap_there = 1e300;
+  double distance = 1e300;             ///< from the nearest side
   std::vector<double> gaps;            ///< over every segment that holds it
 
   /// Over a fold no segment may hold a node; what is hardly outside counts (ContactSearch::outside_tolerance).
@@ -66,6 +67,11 @@ Verdict search_all(const Vec3& slave, const std::vector<std::array<Vec3, 4>>& se
     const double size = std::max(norm(x[2] - x[0]), norm(x[3] - x[1]));
     // A node over a segment and less than half its size away is at most its size from its centre.
     if (norm(slave - 0.25 * (x[0] + x[1] + x[2] + x[3])) > 1.1 * size) continue;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 way = x[(k + 1) % 4] - x[k];
+      const double share = std::max(0.0, std::min(1.0, dot(slave - x[k], way) / dot(way, way)));
+      verdict.distance = std::min(verdict.distance, norm(slave - (x[k] + share * way)));
+    }
     const Standing here = stand(slave, x);
     if (std::fabs(here.gap) > 0.5 * size) continue;
     if (here.outside <= 1e-9) {
@@ -106,7 +112,8 @@ Count compare(Model& model) {
       count.touching += touches;
       if (touches != verdict.touches()) ++(verdict.doubtful() ? count.doubtful : count.different);
       if (touches) {
-        double nearest = std::fabs(gap(s) - verdict.gap_there);
+        // Over a fold that no segment holds the nearest side is as far as the gap.
+        double nearest = verdict.gaps.empty() ? std::fabs(-gap(s) - verdict.distance) : 1e300;
         for (double g : verdict.gaps) nearest = std::min(nearest, std::fabs(gap(s) - g));
         count.wrong_gap += !(nearest < 1e-12);
       }

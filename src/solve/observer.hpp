@@ -20,13 +20,13 @@ struct EnergyAccount {
   double internal = 0;       ///< elastic, of solids and beams
   double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
   double contact = 0;        ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
-  double impacts = 0;        ///< of `contact`, what nodes' impacts on multipliers took out
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
   double damping = 0;        ///< dissipated in dashpots and by contact damping
   double plastic = 0;        ///< dissipated by plastic flow
   double external_work = 0;  ///< by loads and gravity
   double balance_error = 0;
+  double impacts = 0;        ///< of `contact`, what nodes' impacts on multipliers took out
 };
 
 /// Sums over one contact pair, on the slave, N, global axes.

@@ -68,11 +68,11 @@ class Said(unittest.TestCase):
             written = sorted(str(p.relative_to(folder)) for p in pathlib.Path(folder).rglob("*") if p.is_file())
         return done.returncode, done.stdout, done.stderr, written
 
-    def assert_all_say(self, text, wanted, commands=("check", "mesh", "run")):
+    def assert_all_say(self, text, wanted, commands=("check", "mesh", "run"), may_end_as_fault=False):
         for command in commands:
             with self.subTest(command):
                 code, out, error, _ = self.railwave(text, command)
-                self.assertEqual(code, 0, error)
+                self.assertIn(code, (0, 3) if may_end_as_fault and command == "run" else (0,), error)
                 self.assertIn(wanted, out)
 
     def assert_refused(self, text, pattern):
@@ -103,7 +103,7 @@ class Said(unittest.TestCase):
                                     "warning: [contacts.touch] (line 21): 16 nodes of 'up.z_min' lie inside the body of 'low.z_max' when the run begins, the deepest 0.001 m (0.4 of the size of a "
                                     "face there) at (0.0003, 0.0002, 0.009) m: more than a contact can push apart without a blow; shift parts.up.position by [0, 0, 0.001] m, or place it "
                                     "farther off and give contacts.touch.close_gap = [0, 0, -1]" if "symmetric" not in contact else
-                                    "the deepest 0.001 m (0.4 of the size of a face there)", ("check", "run"))
+                                    "the deepest 0.001 m (0.4 of the size of a face there)", ("check", "run"), may_end_as_fault=True)
 
     def test_the_mends_work(self):
         shifted = boxes(0.009).replace("position = [0.0003, 0.0002, 0.009]", "position = [0.0003, 0.0002, 0.01]")

@@ -69,7 +69,7 @@ struct ContactTrack {
 
 /// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since the node was
 /// last seen apart; and around a sharp edge, or where the surface was not below before, only through a face that the node was
-/// outside of. What comes in from beside an open surface, or was in the body when it came to be looked at, is turned away until
+/// outside of. What comes in deep from beside an open surface, or was in the body when it came to be looked at, is turned away until
 /// it has left.
 struct FirstTouch {
   Array<const double* [3]> velocity;  ///< m/s, that led to the present positions
@@ -77,6 +77,9 @@ struct FirstTouch {
 
   static constexpr double reserve = 1.25;          ///< on the motion
   static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
+  /// So deep, of a segment's diagonal, a node may come in beside an open surface: one body's surface rises beside what presses it down, and a
+  /// node that goes from one contact's surface to the next one's has been pressed in.
+  static constexpr double shallow_share = 0.01;
 
   /// @param tracked segment that the node was over when it was last seen apart
   KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, int tracked, Projection& now) const {
@@ -87,7 +90,8 @@ struct FirstTouch {
     Vector3 way = row(velocity, node);
     for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * search.at_corner(velocity, segment.node[k]);
     way = elapsed * way;
-    const double rounding = rounding_share * norm(search.diagonal(segment)), deepest = reserve * norm(way) + rounding;
+    const double size = norm(search.diagonal(segment)), rounding = rounding_share * size, deepest = reserve * norm(way) + rounding;
+    if (before == beside_surface && -now.gap <= shallow_share * size) return;
     const Vector3 slave = row(search.position, node);
     const bool strictly = !is_distance(before) || dot(middle_normal(search, slave, tracked), now.normal) < 0.5;
     if (-now.gap <= deepest && (!strictly || came_through(now, way, rounding))) return;

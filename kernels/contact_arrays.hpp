@@ -63,6 +63,7 @@ struct ContactArrays {
   Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
   Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far;
                                        ///< beside_surface, turned_away
+  Array<double*> entry_depth;          ///< m: how deep the node was when it came in beside an open surface; its gap counts from there
   Array<double* [3]> normal_force;     ///< N on the slave
   Array<double* [3]> tangential_force; ///< N on the slave
   Array<double*> friction_energy;      ///< J dissipated so far

@@ -83,6 +83,7 @@ struct ContactForce {
     Projection now = ContactTrack::where(search, slave, tracked, place, touched, entry.near);
     if (!touched) first_touch.judge(search, s, entry.node, tracked, now);
     now = Normals::turned(search, slave, now);
+    FirstTouch::count_from_entry(contact, s, now);
     const int previous = touched ? tracked : -1;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;

@@ -82,6 +82,7 @@ struct ContactMultiplier {
     Projection now = ContactTrack::where(search, slave, tracked, place, touched, near.near);
     if (!touched) first_touch.judge(search, s, near.node, tracked, now);
     now = Normals::turned(search, slave, now);
+    FirstTouch::count_from_entry(contact, s, now);
     MultiplierRow& r = multipliers.rows(s);
     if constexpr (Normals::curved)
       if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));

@@ -77,24 +77,26 @@ struct FirstTouch {
 
   static constexpr double reserve = 1.25;          ///< on the motion
   static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
-  /// So deep, of a segment's diagonal, a node may come in beside an open surface: one body's surface rises beside what presses it down, and a
-  /// node that goes from one contact's surface to the next one's has been pressed in.
-  static constexpr double shallow_share = 0.01;
+  /// So deep, of a segment's diagonal, a node may come in beside an open surface and touch: one body's surface rises beside what presses it
+  /// down, and a node that goes from one contact's surface to the next one's has been pressed in. Its gap counts from there, so
+  /// that no spring is pressed in that nobody has pressed.
+  static constexpr double shallow_share = 0.05;
 
   /// @param tracked segment that the node was over when it was last seen apart
   KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, int tracked, Projection& now) const {
     if (!(now.gap < 0) || !(elapsed > 0)) return;
     const double before = search.contact.gap(s);
+    if (search.contact.entry_depth(s) > 0) return;
     if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
     Vector3 way = row(velocity, node);
     for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * search.at_corner(velocity, segment.node[k]);
     way = elapsed * way;
     const double size = norm(search.diagonal(segment)), rounding = rounding_share * size, deepest = reserve * norm(way) + rounding;
-    if (before == beside_surface && -now.gap <= shallow_share * size) return;
     const Vector3 slave = row(search.position, node);
     const bool strictly = !is_distance(before) || dot(middle_normal(search, slave, tracked), now.normal) < 0.5;
     if (-now.gap <= deepest && (!strictly || came_through(now, way, rounding))) return;
+    const double depth = -now.gap;
     now.gap = turned_away;
     // Near an edge the nearest face need not be the one that the node came through.
     Projection through = now;
@@ -109,7 +111,20 @@ struct FirstTouch {
           through = found;
       }
     }
-    if (is_distance(through.gap)) now = through;
+    if (is_distance(through.gap)) {
+      now = through;
+    } else if (before == beside_surface && depth <= shallow_share * size) {
+      search.contact.entry_depth(s) = depth;
+      now.gap = -depth;
+    }
+  }
+
+  /// A gap from where the node came in.
+  KOKKOS_INLINE_FUNCTION static void count_from_entry(const ContactArrays& contact, int s, Projection& now) {
+    const double depth = contact.entry_depth(s);
+    if (!(depth > 0)) return;
+    if (now.gap < 0) now.gap += depth;
+    else contact.entry_depth(s) = 0;
   }
 
  private:

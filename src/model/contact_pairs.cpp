@@ -158,6 +158,7 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   arrays.tracked = Array<int*>("tracked", arrays.slave_count);
   arrays.place = Array<double* [2]>("place", arrays.slave_count);
   arrays.gap = Array<double*>("gap", arrays.slave_count);
+  arrays.entry_depth = Array<double*>("entry depth", arrays.slave_count);
   arrays.normal_force = Array<double* [3]>("normal force", arrays.slave_count);
   arrays.tangential_force = Array<double* [3]>("tangential force", arrays.slave_count);
   arrays.status = Array<int*>("status", arrays.slave_count);

@@ -171,6 +171,7 @@ struct EnterOrLeave {
     contact.tracked(s) = -1;
     contact.status(s) = status_apart;
     contact.gap(s) = beside_surface;
+    contact.entry_depth(s) = 0;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = contact.tangential_force(s, k) = 0;
   }
 };

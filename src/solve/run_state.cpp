@@ -102,6 +102,7 @@ void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   one("place", contact.place);
   one("status", contact.status);
   one("gap", contact.gap);
+  one("entry_depth", contact.entry_depth);
   one("normal_force", contact.normal_force);
   one("tangential_force", contact.tangential_force);
   one("friction_energy", contact.friction_energy);

@@ -48,11 +48,12 @@ end = {end}
 history_interval = {interval}
 """
 TOP, ALL = '"low.z_max"', '["low.z_max", "low.y_max", "low.x_max", "low.x_min", "low.y_min"]'
-# Where the upper body begins, where it goes: from beside under the top's edge; through the edge; through the corner.
+# Where the upper body begins, where it goes: from beside under the top's edge; through the edge; through the corner; from beside, but 0.1 um under the top.
 WAYS = {
     "beside": ([0.0003, 0.0101, 0.0095], [0, -1, 0]),
     "edge": ([0.0003, 0.01 + 2e-5, 0.01 + 2e-5], [0, -1, -1]),
     "corner": ([0.01 + 2e-5, 0.01 + 2e-5, 0.01 + 2e-5], [-1, -1, -1]),
+    "along the top": ([0.0003, 0.0101, 0.01 - 1e-7], [0, -1, 0]),
 }
 
 

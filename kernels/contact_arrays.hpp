@@ -16,9 +16,9 @@ struct alignas(16) Segment {
   KOKKOS_INLINE_FUNCTION bool folds(int side) const { return link[side] >= 0 && (link[side] & over_fold) != 0; }
 };
 
-/// A corner at the mouth of a crack, slot or gap that is crossed: half of a node of this lip, half of the place of the other lip that is
-/// nearest, between two nodes. Both lips meet there, so that the surface goes on from one to the other without a step, what presses
-/// there presses on both, and no energy is lost over the mouth.
+/// A corner at the mouth of a crack, slot or gap that is crossed: half of a node of this lip, half of the place of the
+/// other lip that is nearest, between two nodes. Both lips meet there, so that the surface goes on from one to the other
+/// without a step, what presses there presses on both, and no energy is lost over the mouth.
 struct alignas(16) MouthCorner {
   static constexpr int pieces = 3;
   int node[pieces];       ///< of the model: of this lip, then two of the other
@@ -27,8 +27,8 @@ struct alignas(16) MouthCorner {
   double widest;          ///< m; from that to twice that between the lips, the corner goes back to its node
 };
 
-/// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of sixteen
-/// leaves, in an order in which neighbours are near each other. They hold until the next look.
+/// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of
+/// sixteen leaves, in an order in which neighbours are near each other. They hold until the next look.
 struct SegmentBoxes {
   static constexpr int leaf_size = 8, branch_size = 16;
   Array<int*> order;            ///< of the segments
@@ -55,7 +55,9 @@ struct ContactArrays {
   Array<double*> segment_stiffness;    ///< N/m, eq. 2.26d
 
   /// A corner's node; at a mouth that of its own lip.
-  KOKKOS_INLINE_FUNCTION int node_of(int corner) const { return corner >= 0 ? corner : mouth_corners(-1 - corner).node[0]; }
+  KOKKOS_INLINE_FUNCTION int node_of(int corner) const {
+    return corner >= 0 ? corner : mouth_corners(-1 - corner).node[0];
+  }
 
   /// What the pair does now, by slave node.
   Array<int*> tracked;                 ///< segment that the node was last seen over, touched or not; -1: none yet
@@ -63,7 +65,8 @@ struct ContactArrays {
   Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
   Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far;
                                        ///< beside_surface, turned_away
-  Array<double*> entry_depth;          ///< m: how deep the node was when it came in beside an open surface; its gap counts from there
+  Array<double*> entry_depth;          ///< m: how deep the node was when it came in beside an open surface; its gap
+                                       ///< counts from there
   Array<double* [3]> normal_force;     ///< N on the slave
   Array<double* [3]> tangential_force; ///< N on the slave
   Array<double*> friction_energy;      ///< J dissipated so far
@@ -73,7 +76,8 @@ struct ContactArrays {
 struct alignas(16) WindowEntry {
   int slave;  ///< position among the pair's slave nodes
   int node;   ///< model node number
-  int near;   ///< it can touch until the next look, and is projected at each step: near_one_sheet, near_several_sheets; 0: far
+  int near;   ///< near_one_sheet, near_several_sheets: it can touch until the next look, and is projected at each step;
+              ///< 0: far
   int unused;
 };
 
@@ -87,8 +91,8 @@ struct ContactWindow {
 
 inline constexpr int status_apart = 0, status_sticks = 1, status_slips = 2;
 
-/// What a node in the window can meet: one stretch of the surface, over which it is followed, or several that face different ways,
-/// so that at each step the nearest is searched for.
+/// What a node in the window can meet: one stretch of the surface, over which it is followed, or several that face
+/// different ways, so that at each step the nearest is searched for.
 inline constexpr int near_one_sheet = 1, near_several_sheets = 2;
 
 /// Gaps of nodes that have none, m: beside the surface; in the body, but not come through the surface.

@@ -114,7 +114,7 @@ struct ContactProjection {
   }
 
   /// The nearest place of a segment, wherever the slave is. Where the projection lies outside, one of the four straight sides
-  /// has it: which one can't be told from xi and eta on a slanted segment.
+  /// has it: xi and eta do not show which one on a slanted segment.
   KOKKOS_INLINE_FUNCTION static NearestPlace nearest_within(const SeenSegment& seen) {
     const SegmentPlace projected = nearest_place(seen, {0, 0});
     NearestPlace best{projected, 0, projected.outside()};

@@ -76,7 +76,7 @@ std::map<long, std::vector<LayerFace>> layers_within(const Crack& crack, const M
       for (int n : nodes)
         for (int i = 0; i < 3; ++i) face.centre[i] += mesh.nodes[n][i] / 4;
       if (!crack.has(face)) continue;
-      face.area = 0.5 * length(cross(difference(mesh.nodes[nodes[2]], mesh.nodes[nodes[0]]), difference(mesh.nodes[nodes[3]], mesh.nodes[nodes[1]])));
+      face.area = 0.5 * length(doubled_area(mesh.nodes, nodes));
       std::sort(nodes.begin(), nodes.end());
       const auto other = open.find(nodes);
       if (other == open.end()) {

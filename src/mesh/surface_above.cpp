@@ -36,9 +36,7 @@ Vec3 centre_of(const Mesh& mesh, const std::array<int, 4>& corners) {
 
 SurfaceAbove::SurfaceAbove(const Mesh& mesh) : mesh_(mesh) {
   for (const Face& face : FaceTable(mesh).exterior()) {
-    const auto c = mesh.face_nodes(face);
-    const Vec3 p = difference(mesh.nodes[c[2]], mesh.nodes[c[0]]), q = difference(mesh.nodes[c[3]], mesh.nodes[c[1]]);
-    if (cross(p, q)[2] > 0) faces_.push_back(face);
+    if (doubled_area(mesh.nodes, mesh.face_nodes(face))[2] > 0) faces_.push_back(face);
   }
 }
 

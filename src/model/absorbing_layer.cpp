@@ -27,12 +27,6 @@ using Zone = AbsorbingLayers::Zone;
   throw InputError(fmt::format("{}:{}: [absorbing_layers.{}] {}", scene.path, layer.line, layer.name, what));
 }
 
-/// Twice a face's area along its normal, m2.
-Vec3 doubled_area(const Assembly& assembly, const Face& face) {
-  const auto c = assembly.face_nodes(face);
-  return cross(difference(assembly.nodes[c[2]], assembly.nodes[c[0]]), difference(assembly.nodes[c[3]], assembly.nodes[c[1]]));
-}
-
 struct Plane {
   Vec3 middle{0, 0, 0}, normal{0, 0, 0};
 };
@@ -42,7 +36,7 @@ Plane plane_of(const Assembly& assembly, const std::vector<Face>& surface) {
   Plane plane;
   double area = 0;
   for (const Face& face : surface) {
-    const Vec3 own = doubled_area(assembly, face);
+    const Vec3 own = doubled_area(assembly.nodes, assembly.face_nodes(face));
     area += length(own);
     for (int n : assembly.face_nodes(face))
       for (int i = 0; i < 3; ++i) plane.middle[i] += 0.25 * length(own) * assembly.nodes[n][i];
@@ -58,11 +52,6 @@ Plane plane_of(const Assembly& assembly, const std::vector<Face>& surface) {
 
 double distance_from(const Plane& plane, const Vec3& x) { return dot(difference(plane.middle, x), plane.normal); }
 
-int part_under(const Assembly& assembly, const Face& face) {
-  const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const auto& range) { return face.element < range.first_element + range.element_count; });
-  return static_cast<int>(part - assembly.parts.begin());
-}
-
 /// How far the elements at an end reach from it, m: the most of them.
 double element_at(const Assembly& assembly, const std::vector<Face>& surface, const Plane& plane) {
   double most = 0;
@@ -76,11 +65,11 @@ Zone zone_of(const scene::Scene& scene, const Assembly& assembly, int number, st
   const auto& surface = find_surface(scene, assembly, layer, "target", layer.target);
   const Plane plane = plane_of(assembly, surface);
   for (const Face& face : surface)
-    if (const Vec3 own = doubled_area(assembly, face); !(dot(own, plane.normal) > leaning * length(own)))
+    if (const Vec3 own = doubled_area(assembly.nodes, assembly.face_nodes(face)); !(dot(own, plane.normal) > leaning * length(own)))
       refuse(scene, layer, fmt::format("target: '{}' is no plane: its faces lean from each other by more than 10 degrees, so that no distance from it is meant; name a plane end", layer.target));
   Zone zone;
   zone.layer = number;
-  zone.part = part_under(assembly, surface[0]);
+  zone.part = part_of_element(assembly, surface[0].element);
   zone.end = plane.middle;
   zone.outwards = plane.normal;
   zone.element = element_at(assembly, surface, plane);
@@ -121,7 +110,7 @@ struct Extents {
 
 Extents extents_of(const Assembly& assembly, const std::vector<Face>& surface, const Plane& plane) {
   Extents extents;
-  const auto& part = assembly.parts[part_under(assembly, surface[0])];
+  const auto& part = assembly.parts[part_of_element(assembly, surface[0].element)];
   for (int n = part.first_node; n < part.first_node + part.node_count; ++n) extents.along = std::max(extents.along, distance_from(plane, assembly.nodes[n]));
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (int n : surface_nodes(assembly, surface))
@@ -166,7 +155,7 @@ std::vector<std::string> describe_slender_ends(const Model& model) {
   std::vector<std::string> lines;
   for (const scene::NonReflecting& end : model.scene.non_reflecting) {
     const auto& surface = find_surface(model.scene, model.assembly, end, "target", end.target);
-    const int part = part_under(model.assembly, surface[0]);
+    const int part = part_of_element(model.assembly, surface[0].element);
     const Plane plane = plane_of(model.assembly, surface);
     const auto covers = [&](const Zone& zone) { return zone.part == part && dot(zone.outwards, plane.normal) > leaning && std::fabs(distance_from(plane, zone.end)) < zone.element; };
     if (std::any_of(model.absorbing.zones.begin(), model.absorbing.zones.end(), covers)) continue;

@@ -218,6 +218,18 @@ std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assemb
   return faces;
 }
 
+int part_of_element(const Assembly& assembly, int element) {
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    if (const int within = element - assembly.parts[p].first_element; within >= 0 && within < assembly.parts[p].element_count) return static_cast<int>(p);
+  return -1;
+}
+
+int part_of_node(const Assembly& assembly, int node) {
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    if (const int within = node - assembly.parts[p].first_node; within >= 0 && within < assembly.parts[p].node_count) return static_cast<int>(p);
+  return -1;
+}
+
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
   std::vector<int> nodes;
   for (const Face& face : surface)

@@ -67,6 +67,10 @@ Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, con
 /// Nodes of a surface, ascending, each once.
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface);
 
+/// Position in assembly.parts of the part that an element, or a node, belongs to; -1: none.
+int part_of_element(const Assembly& assembly, int element);
+int part_of_node(const Assembly& assembly, int node);
+
 /// The complaint about a set that does not exist.
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
                         const std::string& name, const std::vector<std::string>& known);

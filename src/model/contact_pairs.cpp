@@ -28,9 +28,7 @@ std::vector<std::array<int, 4>> local_facets(const Assembly& assembly, const std
 }
 
 const scene::Material& material_of(const Model& model, int element) {
-  for (const auto& part : model.assembly.parts)
-    if (element < part.first_element + part.element_count) return model.scene.materials[part.material];
-  return model.scene.materials.front();
+  return model.scene.materials[model.assembly.parts[part_of_element(model.assembly, element)].material];
 }
 
 /// k = f_SI K A^2 / V of the element under the segment, thesis eq. 2.26d.
@@ -55,8 +53,7 @@ std::map<int, Vec3> normals_at_nodes(const Assembly& assembly, const std::vector
   std::map<int, Vec3> normals;
   for (const Face& face : surface) {
     const auto corner = assembly.face_nodes(face);
-    const auto& x = assembly.nodes;
-    const Vec3 normal = cross(difference(x[corner[2]], x[corner[0]]), difference(x[corner[3]], x[corner[1]]));
+    const Vec3 normal = doubled_area(assembly.nodes, corner);
     for (int n : corner)
       for (int i = 0; i < 3; ++i) normals[n][i] += normal[i];
   }

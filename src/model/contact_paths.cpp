@@ -21,12 +21,9 @@ constexpr double least_way = 0.25;       ///< of a facet's side: less is no way
 constexpr int most_steps = 20000;
 constexpr double near_share = 1e-3;      ///< of the radius: as near as the nearest place of a round part
 
-Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-Vec3 times(double f, const Vec3& a) { return {f * a[0], f * a[1], f * a[2]}; }
-
 Vec3 turned(const Vec3& x, const Vec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
-  return sum(sum(times(c, x), times(s, cross(axis, x))), times((1 - c) * dot(axis, x), axis));
+  return sum(sum(scaled(c, x), scaled(s, cross(axis, x))), scaled((1 - c) * dot(axis, x), axis));
 }
 
 /// How a part goes on as a rigid body.
@@ -38,7 +35,7 @@ class BodyWay {
     for (int i = 0; i < 3; ++i) {
       Vec3 unit{0, 0, 0};
       unit[i] = 1;
-      spin_ = sum(spin_, times(0.5, cross(unit, difference(initial_velocity(model, part, sum(place, unit)), velocity_))));
+      spin_ = sum(spin_, scaled(0.5, cross(unit, difference(initial_velocity(model, part, sum(place, unit)), velocity_))));
     }
     for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
       if (part_of_name(motion.target) == part) prescribed_ = &motion;
@@ -54,12 +51,12 @@ class BodyWay {
 
   /// m, of the centre
   Vec3 travel(double time) const {
-    Vec3 way = times(time, velocity_);
+    Vec3 way = scaled(time, velocity_);
     if (prescribed_ == nullptr) return way;
-    const Vec3 wanted = sum(times(curve_integral(curve_of(model_.scene, prescribed_->curve), time), prescribed_velocity_),
-                            times(prescribed_->displacement_curve.empty() ? 0 : curve_value(curve_of(model_.scene, prescribed_->displacement_curve), time), prescribed_->displacement));
+    const Vec3 wanted = sum(scaled(curve_integral(curve_of(model_.scene, prescribed_->curve), time), prescribed_velocity_),
+                            scaled(prescribed_->displacement_curve.empty() ? 0 : curve_value(curve_of(model_.scene, prescribed_->displacement_curve), time), prescribed_->displacement));
     for (int a = 0; a < 3; ++a)
-      if (prescribed_->directions[a]) way = sum(way, times(dot(difference(wanted, way), prescribed_->axes[a]), prescribed_->axes[a]));
+      if (prescribed_->directions[a]) way = sum(way, scaled(dot(difference(wanted, way), prescribed_->axes[a]), prescribed_->axes[a]));
     return way;
   }
 
@@ -67,7 +64,7 @@ class BodyWay {
   Vec3 material(const Vec3& x, double time) const {
     const Vec3 arm = difference(difference(x, centre_), travel(time));
     const double speed = length(spin_), angle = speed * (spin_curve_ != nullptr ? curve_integral(spin_curve_, time) : time);
-    return sum(centre_, speed > 0 ? turned(arm, times(1 / speed, spin_), -angle) : arm);
+    return sum(centre_, speed > 0 ? turned(arm, scaled(1 / speed, spin_), -angle) : arm);
   }
 
  private:
@@ -94,7 +91,7 @@ Vector3 as_vector(const Vec3& x) { return {{x[0], x[1], x[2]}}; }
 
 Vec3 middle_of(const Model& model, const std::array<int, 4>& corners) {
   Vec3 middle{0, 0, 0};
-  for (int n : corners) middle = sum(middle, times(0.25, model.assembly.nodes[n]));
+  for (int n : corners) middle = sum(middle, scaled(0.25, model.assembly.nodes[n]));
   return middle;
 }
 
@@ -161,7 +158,7 @@ std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::
     }
     if (side >= 0) return met;  // over a gap, or too far to be followed
     const double own_size = side_of(model, ends.corners[facet]);
-    const Vec3 foremost = sum(here, times(ahead * own_size / moved, step));
+    const Vec3 foremost = sum(here, scaled(ahead * own_size / moved, step));
     int last = facet;
     if (ahead > 0 && way.leads_out(as_vector(foremost), least_way * own_size, last, side)) {
       met.push_back({time, foremost, true, static_cast<Beyond>(ends.beyond[last][side])});
@@ -246,11 +243,11 @@ class PairPath {
 
   void tell_rolling(const RoundPart& round, bool round_is_master, const Vec3& place, std::vector<std::string>& doubts) const {
     // Abreast of the contact.
-    const Vec3 on_axis = sum(round.origin, times(dot(difference(place, round.origin), round.axis), round.axis));
+    const Vec3 on_axis = sum(round.origin, scaled(dot(difference(place, round.origin), round.axis), round.axis));
     const BodyWay carrier(model_, round.part->name, on_axis);
     const std::string& other = round_is_master ? slave_ : master_;
     const auto other_round = round_part(model_, other);
-    const Vec3 other_place = other_round ? sum(other_round->origin, times(dot(difference(place, other_round->origin), other_round->axis), other_round->axis)) : place;
+    const Vec3 other_place = other_round ? sum(other_round->origin, scaled(dot(difference(place, other_round->origin), other_round->axis), other_round->axis)) : place;
     const BodyWay carried(model_, other, other_place);
     // Of both surfaces what comes first, end and zone apart.
     std::optional<Met> first[2];
@@ -273,7 +270,7 @@ class PairPath {
   void tell_sliding(std::vector<std::string>& doubts) const {
     const auto mean = [&](const std::vector<int>& nodes) {
       Vec3 middle{0, 0, 0};
-      for (int n : nodes) middle = sum(middle, times(1.0 / static_cast<double>(nodes.size()), model_.assembly.nodes[n]));
+      for (int n : nodes) middle = sum(middle, scaled(1.0 / static_cast<double>(nodes.size()), model_.assembly.nodes[n]));
       return middle;
     };
     const BodyWay ways[2] = {{model_, slave_, mean(pair_.slave_nodes)}, {model_, master_, mean(pair_.master_nodes)}};
@@ -285,12 +282,12 @@ class PairPath {
       if (length(now) > length(way)) way = now;
     }
     if (!(length(way) > 0)) return;
-    way = times(1 / length(way), way);
+    way = scaled(1 / length(way), way);
     const bool master_is_short = extent(model_, pair_.master_nodes, way) < extent(model_, pair_.slave_nodes, way);
     const auto& nodes = master_is_short ? pair_.master_nodes : pair_.slave_nodes;
     const SurfaceEnds& ends = ends_[!master_is_short];
     const BodyWay &carrier = ways[master_is_short], &under = ways[!master_is_short];
-    const Vec3 forward = master_is_short ? times(-1, way) : way;
+    const Vec3 forward = master_is_short ? scaled(-1, way) : way;
     // The foremost of the nodes that lie over the other surface.
     const Way over = way_over(model_, ends);
     int foremost = -1;

@@ -44,9 +44,8 @@ std::string what_sets_step(const Model& model) {
   if (least(contact)) return "contact springs, by penalty_scale and damping";
   if (least(stable.beam)) return "beams, by their sections, lengths and material";
   const int element = heights ? stable.element : stable.eigenvalue_element;
-  for (const auto& part : model.assembly.parts)
-    if (element >= part.first_element && element < part.first_element + part.element_count)
-      return fmt::format("elements of part {} by their size, material and damping{}", part.name, near(model, element));
+  if (const int part = part_of_element(model.assembly, element); part >= 0)
+    return fmt::format("elements of part {} by their size, material and damping{}", model.assembly.parts[part].name, near(model, element));
   return "the scene as a whole";
 }
 

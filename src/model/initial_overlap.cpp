@@ -4,14 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <limits>
+#include <map>
 
 #include "mesh/hexahedron.hpp"
 #include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
 #include "model/node_grid.hpp"
 #include "model/place_element_sets.hpp"
+#include "model/round_part.hpp"
 
 namespace railwave {
 namespace {
@@ -123,8 +124,7 @@ Faces master_of(const ContactPair& pair) {
 
 /// Whether a node inside the body lies under the face, seen along its normal.
 bool is_under(const Assembly& assembly, const std::array<int, 4>& c, const Vec3& node, const Vec3& point) {
-  const auto& x = assembly.nodes;
-  const Vec3 normal = cross(difference(x[c[2]], x[c[0]]), difference(x[c[3]], x[c[1]])), way = difference(point, node);
+  const Vec3 normal = doubled_area(assembly.nodes, c), way = difference(point, node);
   return dot(way, normal) >= beside * length(way) * length(normal);
 }
 
@@ -185,7 +185,7 @@ std::vector<InitialOverlap> initial_overlaps(const Model& model) {
 
 std::string mend_of(const InitialOverlap& overlap) {
   const scene::Contact& contact = *overlap.contact;
-  const std::string part = contact.slave.substr(0, contact.slave.find('.'));
+  const std::string part = part_of_name(contact.slave);
   const Vec3 shift = {overlap.depth * overlap.outwards[0], overlap.depth * overlap.outwards[1], overlap.depth * overlap.outwards[2]};
   const double up = 1.0 / std::max({std::fabs(overlap.outwards[0]), std::fabs(overlap.outwards[1]), std::fabs(overlap.outwards[2])});
   const auto rounded = [&](double component) { return std::round(1e3 * -up * component) / 1e3 + 0.0; };

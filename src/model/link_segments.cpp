@@ -19,15 +19,12 @@ constexpr double one_surface = 0.866;
 /// Lips may overlap by this share of the widest mouth: the two sides of a closed crack are not quite where they were meshed.
 constexpr double overlap = 0.05;
 
-Vec3 scaled(double factor, const Vec3& v) { return {factor * v[0], factor * v[1], factor * v[2]}; }
-Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vec3 unit(const Vec3& v) { return scaled(1 / length(v), v); }
 
 /// Outward unit normal, and the centre.
 struct Facet {
   Vec3 normal{}, centre{};
-  Facet(const std::vector<Vec3>& x, const std::array<int, 4>& corner)
-      : normal(unit(cross(difference(x[corner[2]], x[corner[0]]), difference(x[corner[3]], x[corner[1]])))) {
+  Facet(const std::vector<Vec3>& x, const std::array<int, 4>& corner) : normal(unit(doubled_area(x, corner))) {
     for (int k = 0; k < 4; ++k)
       for (int i = 0; i < 3; ++i) centre[i] += 0.25 * x[corner[k]][i];
   }

@@ -5,6 +5,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/history_sets.hpp"
@@ -55,8 +56,6 @@ struct Collector {
 
   int contributions() const { return static_cast<int>(contribution_node.size()); }
 };
-
-Vec3 scaled(double s, const Vec3& v) { return {s * v[0], s * v[1], s * v[2]}; }
 
 /// Amplitudes of a load whose direction never turns.
 std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {

@@ -19,10 +19,7 @@ namespace {
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 const scene::Material& material_under(const Model& model, const Face& face) {
-  const auto& parts = model.assembly.parts;
-  const auto part = std::find_if(parts.begin(), parts.end(),
-                                 [&](const auto& range) { return face.element < range.first_element + range.element_count; });
-  return model.scene.materials[part->material];
+  return model.scene.materials[model.assembly.parts[part_of_element(model.assembly, face.element)].material];
 }
 
 /// Adds a face's dashpots, rho A (C_s I + (C_d - C_s) n n^T), a quarter on each corner.

@@ -33,7 +33,6 @@ Vec3 centre_of(const Model& model, const scene::InitialMotion& motion, const std
   return centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
 }
 
-Vec3 sum(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
 /// The angular velocity about its axis with which one part rolls, and from what it was found.
 struct Rolling {

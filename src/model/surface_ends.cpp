@@ -23,7 +23,7 @@ Edge edge_of(const Corners& corners, int side) {
 }
 
 Vec3 normal_of(const std::vector<Vec3>& x, const Corners& c) {
-  const Vec3 n = cross(difference(x[c[2]], x[c[0]]), difference(x[c[3]], x[c[1]]));
+  const Vec3 n = doubled_area(x, c);
   const double size = length(n);
   return size > 0 ? Vec3{n[0] / size, n[1] / size, n[2] / size} : n;
 }
@@ -164,12 +164,6 @@ std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair
   }
   return {surface_ends(assembly, facets_of(pair.slave_nodes, pair.slave_facets), others[0]),
           surface_ends(assembly, facets_of(pair.master_nodes, pair.master_segments), others[1])};
-}
-
-int part_of_node(const Assembly& assembly, int node) {
-  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
-    if (node >= assembly.parts[p].first_node && node < assembly.parts[p].first_node + assembly.parts[p].node_count) return static_cast<int>(p);
-  return -1;
 }
 
 double finest_wanted(const scene::Scene& scene, const std::string& part) {

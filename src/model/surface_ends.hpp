@@ -29,9 +29,6 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
 /// Both surfaces of one of the model's contact pairs, in the order slave, master; what other contacts of one's part touch continues the other.
 std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair);
 
-/// Position in assembly.parts of the part that a node belongs to; -1: none.
-int part_of_node(const Assembly& assembly, int node);
-
 /// The direction in which a surface ends at a facet's side, unit: in the facet's plane, away from it.
 Vec3 outward(const std::vector<Vec3>& place, const std::array<int, 4>& corners, int side);
 

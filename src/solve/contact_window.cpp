@@ -239,14 +239,11 @@ double sudden_motion(const Model& model, const ContactPair& pair, const Instant&
   return sudden_share * fastest * instant.step;
 }
 
-long near_interval(const Instant& instant) { return instant.settling ? steps_between_near_looks_settling : steps_between_near_looks; }
-
-void lay_boxes(const Model& model, ContactPair& pair, const Instant& instant) {
+/// @param interval s, @param sudden m, until the next look
+void lay_boxes(const Model& model, ContactPair& pair, double interval, double sudden) {
   const SegmentBoxes& boxes = pair.arrays.boxes;
-  const auto steps = static_cast<double>(near_interval(instant));
   Kokkos::parallel_for("leaf_boxes", SpreadRange(0, boxes.leaf_count()),
-                       LeafBoxes{{pair.arrays, model.nodes.position}, model.nodes.velocity, steps * instant.step,
-                                 steps * sudden_motion(model, pair, instant)});
+                       LeafBoxes{{pair.arrays, model.nodes.position}, model.nodes.velocity, interval, sudden});
   Kokkos::parallel_for("branch_boxes", SpreadRange(0, boxes.branch_count()), BranchBoxes{boxes});
   pair.boxed = true;
 }
@@ -255,19 +252,21 @@ void lay_boxes(const Model& model, ContactPair& pair, const Instant& instant) {
 
 void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   const bool look = model.step >= pair.next_look;
-  // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
-  if (!look && model.step < pair.next_near_look) return pair.boxed ? void() : lay_boxes(model, pair, instant);
+  const bool near_look = look || model.step >= pair.next_near_look;
+  if (!near_look && pair.boxed) return;
   const double sudden = sudden_motion(model, pair, instant);
+  const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  const double interval = static_cast<double>(steps) * instant.step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || instant.settling;
   if (look) renew_window(model, pair, instant.step, sudden);
-  const long steps = near_interval(instant);
+  lay_boxes(model, pair, interval, sudden_until_then);
+  // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
+  if (!near_look) return;
   pair.next_near_look = model.step + steps;
-  lay_boxes(model, pair, instant);
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
-                                   static_cast<double>(steps) * instant.step, static_cast<double>(steps) * sudden, first,
-                                   first || look, pair.missed});
+                                   interval, sudden_until_then, first, first || look, pair.missed});
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {
@@ -276,21 +275,11 @@ FirstTouch first_touch(const Model& model, const Instant& instant) {
   return {model.nodes.velocity, instant.settling ? 0.0 : static_cast<double>(pace) * instant.elapsed};
 }
 
-namespace {
-
-struct CountTurnedAway {
-  Array<const double*> gap;
-  KOKKOS_INLINE_FUNCTION void operator()(const int s, int& count) const { count += gap(s) == turned_away ? 1 : 0; }
-};
-
-}  // namespace
-
 std::vector<std::string> late_contacts(const Model& model) {
   std::vector<std::string> lines;
   for (const ContactPair& pair : model.contacts) {
-    int inside = 0;
-    Kokkos::parallel_reduce("turned_away", Range(0, pair.arrays.slave_count), CountTurnedAway{pair.arrays.gap}, inside);
-    if (inside > 0)
+    const auto gaps = to_vector(pair.arrays.gap);
+    if (const auto inside = std::count(gaps.begin(), gaps.end(), turned_away); inside > 0)
       lines.push_back(fmt::format("contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
                                   "beside its surface {}, not through it; name the faces that they came through in the contact too, "
                                   "as a list of masters",

@@ -309,7 +309,7 @@ std::vector<std::string> EndWatch::never_closed(const Model& model) const {
         if (tracked(s) >= 0 && gap(s) > 0) least = std::min(least, gap(s));
     }
     lines.push_back(fmt::format("contact {} never closed, as far as glances every {} steps and histories saw{}: see where its parts are and move, unless that is meant", model.scene.contacts[c].name, steps_between,
-                                least < 1e299 ? fmt::format("; at the end its surfaces are {:.3g} m apart", least) : std::string()));
+                                is_distance(least) ? fmt::format("; at the end its surfaces are {:.3g} m apart", least) : std::string()));
   }
   return lines;
 }

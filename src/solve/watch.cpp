@@ -44,6 +44,18 @@ double magnitude(const EnergyAccount& energy) {
          std::fabs(energy.plastic);
 }
 
+/// What is seen at an instant, without its place and causes.
+Fault seen_at(const HistorySample& sample, FaultKind kind, bool fatal, double value, double limit) {
+  Fault fault;
+  fault.kind = kind;
+  fault.fatal = fatal;
+  fault.time = sample.time;
+  fault.step = sample.step;
+  fault.value = value;
+  fault.limit = limit;
+  return fault;
+}
+
 /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its angular velocity, of
 /// what travels nothing.
 double largest_rate(const Model& model) {
@@ -226,13 +238,7 @@ void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit
   if (!fatal && (!worst.seen || value > worst.value)) worst = {value, limit, sample.time, true};
   const std::string& name = model_.scene.contacts[contact].name;
   if (!(value > limit) || knows(kind, name)) return;
-  Fault fault;
-  fault.kind = kind;
-  fault.fatal = fatal;
-  fault.time = sample.time;
-  fault.step = sample.step;
-  fault.value = value;
-  fault.limit = limit;
+  Fault fault = seen_at(sample, kind, fatal, value, limit);
   fault.contact = name;
   place_at_node(fault, node);
   fault.causes.push_back(Cause{"end of a contact surface", told, 97});
@@ -309,13 +315,7 @@ void Watch::note(FaultKind kind, bool fatal, double value, double limit, const H
   // What has become fatal is told anew.
   const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind; });
   if (known != found_.end() && (known->fatal || !fatal)) return;
-  Fault fault;
-  fault.kind = kind;
-  fault.fatal = fatal;
-  fault.time = sample.time;
-  fault.step = sample.step;
-  fault.value = value;
-  fault.limit = limit;
+  Fault fault = seen_at(sample, kind, fatal, value, limit);
   if (at_element) place_at_element(fault, where.place);
   else place_at_node(fault, where.place);
   fault.causes = likely_causes(model_, fault, evidence_);

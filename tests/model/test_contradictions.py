@@ -10,13 +10,11 @@ import tempfile
 import unittest
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from roller_and_block import MESHES  # noqa: E402
+from two_blocks import STEEL  # noqa: E402
 
-BLOCKS = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-[meshes.block]
+BLOCKS = STEEL + """[meshes.block]
 type = "box"
 size = [0.03, 0.03, 0.03]
 divisions = [3, 3, 3]
@@ -158,26 +156,7 @@ TABLE.update({
     "pressure on an interior surface": (COLUMN + section("loads.push", type="pressure", target="column.inner", pressure=1), "told: [loads.push] (line .*) target: 1 of the 1 faces of 'column.inner'"),
 })
 
-ROLLER = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-[meshes.roller]
-type = "roller"
-radius = 0.4
-bore_radius = 0.36
-arc_start = -0.03
-arc_end = 0.03
-zone_size = 0.004
-coarse_size = 0.02
-zone_layers = 2
-[meshes.block]
-type = "box"
-origin = [-0.05, -0.05, -0.02]
-size = [0.1, 0.1, 0.02]
-divisions = [5, 5, 1]
-[meshes.bar]
+ROLLER = STEEL + MESHES + """[meshes.bar]
 type = "cylinder"
 [parts.roller]
 mesh = "roller"

@@ -11,13 +11,10 @@ import h5py
 import numpy as np
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from roller_and_block import MESHES  # noqa: E402
+from two_blocks import STEEL  # noqa: E402
 
-STEEL = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-"""
 # One plate of 60 mm and two of 30 mm, with the same nodes; rigid, so that all that matters is on which faces the slider's nodes lie.
 ONE = """
 [meshes.plate]
@@ -205,22 +202,7 @@ class SeveralMasters(unittest.TestCase):
             self.assertIn("contacts are left out: slide", done.stdout)
 
     def test_a_roller_rolls_on_the_nearest_of_its_masters_whose_gap_it_closes(self):
-        text = STEEL + """
-[meshes.roller]
-type = "roller"
-radius = 0.4
-bore_radius = 0.36
-arc_start = -0.03
-arc_end = 0.03
-zone_size = 0.004
-coarse_size = 0.02
-zone_layers = 2
-[meshes.block]
-type = "box"
-origin = [-0.05, -0.05, -0.02]
-size = [0.1, 0.1, 0.02]
-divisions = [5, 5, 1]
-[parts.roller]
+        text = STEEL + MESHES + """[parts.roller]
 mesh = "roller"
 material = "steel"
 position = [0, 0, 0.401]

@@ -11,12 +11,9 @@ import unittest
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 
-STEEL = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-"""
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from two_blocks import STEEL  # noqa: E402
+
 PLATE = STEEL + """
 [meshes.plate]
 type = "box"

@@ -90,8 +90,6 @@ bool work(const Options& options, Records& records) {
       scene.settle.active = options.settle_steps > 0;
       scene.settle.method = scene::SettleMethod::relaxation;
       scene.settle.max_steps = options.settle_steps;
-      // Pressed in and hardly settled, its first steps are no sound run: the energy check would end it.
-      scene.watch.active = false;
     }
     Assembly assembly = assemble(scene);
     if (!options.settle) press_wheel(scene, assembly, options.overlap);

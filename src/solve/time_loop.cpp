@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <functional>
 
 #include "model/doubts.hpp"
 #include "model/place_element_sets.hpp"
@@ -56,13 +57,13 @@ class Schedule {
 };
 
 /// @return whether the run begins in equilibrium
-bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled) {
+bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const std::function<bool()>& go_on) {
   refuse_moving_held_nodes(model);
   bool in_equilibrium = false;
   if (model.scene.settle.active) {
     const SettleReport report = come_to_rest(model, settled, [&](const SettleReport& so_far) {
       for (RunObserver* observer : observers) observer->settling(model, so_far);
-      return stop_requested == 0;
+      return go_on();
     });
     for (RunObserver* observer : observers) observer->settled(model, report);
     in_equilibrium = report.settled;
@@ -71,9 +72,9 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
   return in_equilibrium;
 }
 
-std::string while_settling(const Model& model) {
+std::string while_settling(const Model& model, bool out_of_time) {
   const bool kept = model.scene.settle.cache && !model.scene.static_text.empty();
-  return std::string("interrupted while the scene settled") + (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
+  return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" + (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
 }
 
 /// What the loop itself remembers from one step to the next.
@@ -164,8 +165,9 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   for (RunObserver* observer : observers) observer->begin(model);
   const std::vector<std::string> doubts = scene_doubts(model);
   for (RunObserver* observer : observers) observer->doubts(doubts);
-  const bool in_equilibrium = keeping.from || prepare(model, observers, settled);
-  const bool prepared = stop_requested == 0;
+  const auto go_on = [&] { return stop_requested == 0 && !keeper.out_of_time(); };
+  const bool in_equilibrium = keeping.from || prepare(model, observers, settled, go_on);
+  const bool prepared = keeping.from || !model.scene.settle.active || go_on();
 
   LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size()),
                     Watch(model)};
@@ -199,7 +201,9 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     if (control.renew()) due.step_changed(step_before);
     instant.step = model.step_size;
     const bool asked_for = due.history() || due.fields() || stopping;
-    const bool looked_at = asked_for || (watch.due(model.step) && model.subcycling.in_phase(model.step));
+    // A run that goes on with a model that has run before begins at a later step.
+    const bool first = !keeping.from && model.step == summary.first_step;
+    const bool looked_at = asked_for || first || (watch.due(model.step) && model.subcycling.in_phase(model.step));
     instant.advancing = !looked_at;
     if (looked_at && !asked_for) looks.begin();
     for (const Stage& stage : stages) stage.run(instant);
@@ -207,7 +211,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
 
     if (looked_at) {
       HistorySample sample = (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
-      if (model.step == 0) total_at_start = balance_total(sample.energy);
+      if (first) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
       if (asked_for) looks.begin();
       const std::vector<Fault> found = watch.look(sample);
@@ -232,7 +236,7 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     }
     if (due.last()) break;
     if (stopping) {
-      if (!prepared) summary.reason = while_settling(model);
+      if (!prepared) summary.reason = while_settling(model, summary.out_of_time);
       else summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s", summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
                                    model.step_count, model.time);
       break;

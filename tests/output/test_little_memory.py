@@ -5,7 +5,6 @@ moment, or is little for a command that reads, the program says so and leaves no
 import concurrent.futures
 import pathlib
 import re
-import resource
 import subprocess
 import sys
 import unittest
@@ -95,7 +94,7 @@ class LittleMemory(Folder):
                 with self.subTest(command=name, megabytes=megabytes):
                     for made in self.folder.glob("a.*"):
                         made.unlink()
-                    run = self.start(*command, preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
+                    run = self.start(*command, before=limited("as", megabytes << 20))
                     said, complaint = run.communicate(timeout=120)
                     self.nothing_half_written()
                     if run.returncode != 127:

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """What ends a run from outside, at any of its stages: a signal, a limit of processor time or of file size, a closed terminal."""
 
-import resource
 import signal
 import sys
 import time
@@ -9,7 +8,7 @@ import unittest
 import pathlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from faults import LONG, Folder, arrays_of  # noqa: E402
+from faults import LONG, Folder, arrays_of, limited  # noqa: E402
 
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGXCPU, signal.SIGUSR1, signal.SIGUSR2)
 FINE = ("divisions = [3, 3, 2]", "divisions = [180, 180, 120]")  # some seconds to mesh and to set up
@@ -88,14 +87,14 @@ class Signals(Folder):
                     self.assertEqual(self.everything(), before)
 
     def test_processor_time(self):
-        run = self.long_run(preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (2, 100)))
+        run = self.long_run(before=limited("cpu", 2, 100))
         self.ends(run, 130)
         self.assertTrue(self.checkpoint.exists())
 
     def test_file_size(self):
         """`ulimit -f`: told as a full disk is; what was written before is there, and the checkpoint."""
         self.case(end=LONG, more='[checkpoint]\ninterval = 0.2\n')
-        run = self.start("run", "case.toml", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3 << 20, 3 << 20)))
+        run = self.start("run", "case.toml", before=limited("fsize", 3 << 20))
         complaint, said = self.ends(run, 1)
         self.assertIn("File too large; files there, or of this shell (ulimit -f), may not be so large", complaint)
         self.assertTrue(arrays_of(self.results))

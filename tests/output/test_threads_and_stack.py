@@ -4,14 +4,13 @@ nothing ends by a signal."""
 
 import os
 import pathlib
-import resource
 import subprocess
 import sys
 import tempfile
 import unittest
 
 try:
-    from faults import CASE, PROGRAM, sanitized
+    from faults import CASE, PROGRAM, limited, sanitized
 except SystemExit:
     sys.exit(77)
 
@@ -40,10 +39,8 @@ class Environment(unittest.TestCase):
     def run_case(self, *words, stack=None, **variables):
         environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "KOKKOS_", "GOMP_"))}
         environment.update({"OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive"}, **variables)
-        def limit():
-            resource.setrlimit(resource.RLIMIT_STACK, (stack, stack))
-        return subprocess.run([PROGRAM, *words], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120,
-                              preexec_fn=limit if stack else None)
+        before = limited("stack", stack) if stack else []
+        return subprocess.run([*before, PROGRAM, *words], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
 
     def numbers(self):
         done = self.run_case("contact", "results.h5", "--csv", "t.csv")

@@ -122,6 +122,20 @@ double deformation(const Meddler& meddler) { return deformation_energy(meddler.b
 
 }  // namespace
 
+TEST_CASE("a run that goes on with a model that has run before balances from where it goes on") {
+  Model model;
+  build_model(pressed_pair(scene::ContactAlgorithm::penalty), model);
+  model.step_count = 500;
+  REQUIRE(run(model, {}).completed);
+  model.scene.initial_motions.clear();
+  model.step_count = 1000;
+  Meddler second;
+  second.model = &model;
+  run(model, {&second});
+  CHECK(second.said() == "");
+  CHECK(second.summary.completed);
+}
+
 TEST_CASE("energy that is made beside a fast heavy mass ends the run within a twentieth of it, whatever makes it") {
   for (const auto algorithm : both_algorithms) {
     INFO(name_of(algorithm));

@@ -1,4 +1,5 @@
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <sstream>
 
@@ -87,6 +88,11 @@ TEST_CASE("railwave modes refuses what it can't serve", "[modes]") {
   } catch (const InputError& error) {
     CHECK_THAT(error.what(), ContainsSubstring("[parts.upper] hourglass_coefficient: is 0"));
   }
+  const TemporaryCase held(std::string(two_blocks).replace(two_blocks.find("[4, 4, 4]"), 9, "[1, 1, 1]") +
+                           "[constraints.head]\ntarget = \"lower.z_max\"\nfixed = [\"x\", \"y\", \"z\"]\n");
+  request = {};
+  request.parts = {"lower"};
+  CHECK_THROWS_WITH(told(held, request), ContainsSubstring("nothing can move: all nodes are held"));
   request = {};
   request.shapes = (file.folder() / "no" / "modes.h5").string();
   CHECK_FALSE(complaint(request).empty());

@@ -35,7 +35,10 @@ class Desk:
         self._nothing_to_install()
         tools = os.path.join(self._folder.name, "tools")
         os.makedirs(tools)
-        os.symlink(sys.executable, os.path.join(tools, "python3"))
+        # No link: a virtual environment's Python knows its modules by the folder that it is called from.
+        with open(os.path.join(tools, "python3"), "w", encoding="utf-8") as file:
+            file.write(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
+        os.chmod(os.path.join(tools, "python3"), 0o755)
         # One thread: models of some hundred elements gain nothing from a second, and wait for it where the machine is busy.
         self.environment = dict(os.environ, OMP_NUM_THREADS="1", PATH=os.pathsep.join([tools, BIN, os.environ.get("PATH", "/usr/bin:/bin")]), MPLCONFIGDIR=self._folder.name)
 

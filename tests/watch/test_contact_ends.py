@@ -61,8 +61,9 @@ def slab(position, size, divisions, velocity, end):
             + f'[contacts.c]\nslave = "up.z_min"\nmaster = "low.z_max"\n[initial_motion.go]\nparts = ["up"]\nvelocity = {velocity}\n[time]\nend = {end}\n')
 
 
-def roller(master, end, keys=""):
-    """A roller of 50 mm that rolls over a crowned block to its end at x = 30 mm; the block's fine zone reaches to 14 mm."""
+def roller(master, end, keys="", slave="roller.tread", aside=0):
+    """A roller of 50 mm that rolls over a crowned block to its end at x = 30 mm; the block's fine zone reaches to 14 mm. Its own fine zone reaches
+    4 mm to both sides of its middle, which may be `aside` of the block's crown, m."""
     return STEEL + f"""
 [meshes.roller]
 type = "roller"
@@ -91,13 +92,13 @@ coarse_size = 0.008
 [parts.roller]
 mesh = "roller"
 material = "s"
-position = [0, 0, 0.05]
+position = [0, {aside}, 0.05]
 [parts.block]
 mesh = "block"
 material = "s"
 {held("block.bottom")}{held("roller.bore", ["y"], "axle")}
 [contacts.roll]
-slave = "roller.tread"
+slave = "{slave}"
 master = "{master}"
 close_gap = [0, 0, -1]
 [gravity]
@@ -128,6 +129,8 @@ SCENES = {
     "rolls off a block": (roller("block.top", 1.6e-3), 3, {FORESEEN}, {FORESEEN, AT_END, OUTSIDE, LOST}),
     "rolls out of a set": (roller("block.zone", 0.8e-3), 3, {FORESEEN}, {FORESEEN, AT_END, LOST}),
     "rolls within the zone": (roller("block.top", 0.1e-3), 0, set(), set()),
+    "rolls beside the fine zone": (roller("block.top", 0.1e-3, aside=0.022).replace("side_start = -0.008", "side_start = -0.04").replace("coarse_size = 0.003", "coarse_size = 0.01"), 0, set(), {OUTSIDE}),
+    "rolls on the side of a set": (roller("block.top", 0.07e-3, slave="roller.zone", aside=0.004), 0, set(), {AT_END}),
 }
 
 

@@ -93,7 +93,7 @@ struct ContactForce {
     contact.gap(s) = now.gap;
     if (law.apart(contact, s, now)) {
       if (touched) {
-        part(s, previous);
+        part(s, entry.node, slave, previous, place, now);
         law.part(contact, s, entry.node, now);
       }
       return;
@@ -105,7 +105,7 @@ struct ContactForce {
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
     if constexpr (Friction) {
-      const Vector3 tangential = rub(s, slave, previous, place, now, stiffness, pressing, status);
+      const Vector3 tangential = rub(s, entry.node, slave, previous, place, now, stiffness, pressing, status);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
       force = force + tangential;
     }
@@ -114,11 +114,12 @@ struct ContactForce {
     else push(entry.node, contact.surface(now.segment), now, force);
   }
 
-  KOKKOS_INLINE_FUNCTION void part(int s, int previous) const {
+  /// What the spring still held is lost, but for what it has worked in the step that ends in no contact.
+  KOKKOS_INLINE_FUNCTION void part(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now) const {
     const ContactArrays& contact = search.contact;
     if constexpr (Friction) {
-      const Vector3 held = row(contact.tangential_force, s);
-      contact.friction_energy(s) += 0.5 * dot(held, held) / contact.segment_stiffness(previous);
+      const Vector3 held = row(contact.tangential_force, s), moved = first_touch.last.template slid<Normals>(search, node, slave, previous, place, now, false);
+      contact.friction_energy(s) += 0.5 * dot(held, held) / contact.segment_stiffness(previous) - 0.5 * dot(held, moved);
     }
     contact.status(s) = status_apart;
     for (int k = 0; k < 3; ++k) {
@@ -127,13 +128,13 @@ struct ContactForce {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now,
+  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now,
                                      double stiffness, double pressing, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
     if (previous >= 0) {
-      moved = now.offset - Normals::point(search, slave, previous, place);
+      moved = first_touch.last.template slid<Normals>(search, node, slave, previous, place, now, true);
       held = row(contact.tangential_force, s);
     }
     Vector3 trial = held - stiffness * moved;

@@ -54,7 +54,6 @@ struct ContactMultiplier {
   FreeMotion free_motion;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
-  double elapsed = 0;  ///< s since the instant before; 0: there is none, or time has no meaning
 
   static constexpr double crowd_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
@@ -86,7 +85,6 @@ struct ContactMultiplier {
     MultiplierRow& r = multipliers.rows(s);
     if constexpr (Normals::curved)
       if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));
-    r.moved = touched ? now.offset - Normals::point(search, slave, tracked, place) : Vector3{{0, 0, 0}};
     r.normal = now.normal;
     r.gap = now.gap;
     if (now.segment >= 0) {
@@ -96,6 +94,7 @@ struct ContactMultiplier {
     }
     const Segment segment = contact.surface(now.segment);
     r.active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
+    r.moved = touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0) : Vector3{{0, 0, 0}};
     r.force = r.pending = Vector3{{0, 0, 0}};
     r.pressing = r.compliance = 0;
     r.slips = 1;
@@ -228,11 +227,7 @@ struct ContactMultiplier {
   /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does not tell: they bend
   /// with the nodes around them, to which multipliers hand no force.
   KOKKOS_INLINE_FUNCTION void book_work(int s, int node, int tracked, const SegmentPlace& place, const Vector3& force) const {
-    const Array<double* [3]>& velocity = free_motion.acceleration.force.nodes.velocity;
-    const Segment segment = search.contact.surface(tracked);
-    Vector3 relative = row(velocity, node);
-    for (int k = 0; k < 4; ++k) relative = relative - segment_shape(k, place.xi, place.eta) * search.at_corner(velocity, segment.node[k]);
-    multipliers.impact_energy(s) -= 0.5 * elapsed * dot(force, relative);
+    multipliers.impact_energy(s) -= 0.5 * dot(force, first_touch.last.relative_motion(search, node, tracked, place));
   }
 
   /// m, of one of a multiplier's nodes under the contact forces handed to it so far.

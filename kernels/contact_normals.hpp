@@ -15,6 +15,38 @@ struct FacetNormals {
   KOKKOS_INLINE_FUNCTION static Vector3 point(const ContactSearch& search, const Vector3& slave, int segment, const SegmentPlace& place) {
     return search.see(slave, segment).point(place);
   }
+  /// What moves the contact point at a place that stays where it is in the segment, of the nodes' `field`: m of displacements, m/s of velocities.
+  template <class Field>
+  KOKKOS_INLINE_FUNCTION static Vector3 carried(const ContactSearch& search, int segment, const SegmentPlace& place, const Field& field) {
+    const Segment s = search.contact.surface(segment);
+    Vector3 result{{0, 0, 0}};
+    for (int k = 0; k < 4; ++k) result = result + segment_shape(k, place.xi, place.eta) * search.at_corner(field, s.node[k]);
+    return result;
+  }
+};
+
+/// The step that led to the present positions.
+struct LastStep {
+  Array<const double* [3]> velocity;  ///< m/s
+  double elapsed;                     ///< s; 0: no motion has led here
+
+  /// How a node has moved relative to the place of a segment that it was over, m.
+  template <class Normals = FacetNormals>
+  KOKKOS_INLINE_FUNCTION Vector3 relative_motion(const ContactSearch& search, int node, int segment, const SegmentPlace& place) const {
+    return elapsed * (row(velocity, node) - Normals::carried(search, segment, place, velocity));
+  }
+
+  /// How far a node in contact has slid over the master, m: de of the contact point (thesis eq. 2.28). A contact point that is clamped to an open
+  /// side stays behind its node, and where the node is off now there is none.
+  template <class Normals>
+  KOKKOS_INLINE_FUNCTION Vector3 slid(const ContactSearch& search, int node, const Vector3& slave, int segment, const SegmentPlace& place,
+                                      const Projection& now, bool touches) const {
+    if (elapsed > 0 && (!touches || search.at_open_side(segment, place) || search.at_open_side(now.segment, now.place))) {
+      const Vector3 way = relative_motion<Normals>(search, node, segment, place);
+      return touches ? way - dot(way, now.normal) * now.normal : way;
+    }
+    return now.offset - Normals::point(search, slave, segment, place);
+  }
 };
 
 /// A segment curved between its corners such that it is normal to a given direction at each. Its sides are cubic: at corner k the

@@ -81,6 +81,13 @@ struct ContactProjection {
     return at_corner(position, segment.node[2]) - at_corner(position, segment.node[0]);
   }
 
+  /// Whether a place lies at a side beyond which there is no surface, or may have been clamped to it.
+  KOKKOS_INLINE_FUNCTION bool at_open_side(int segment, const SegmentPlace& p) const {
+    if (segment < 0 || std::fmax(std::fabs(p.xi), std::fabs(p.eta)) < 1) return false;
+    const Segment s = contact.surface(segment);
+    return (p.eta <= -1 && s.link[0] < 0) || (p.xi >= 1 && s.link[1] < 0) || (p.eta >= 1 && s.link[2] < 0) || (p.xi <= -1 && s.link[3] < 0);
+  }
+
   KOKKOS_INLINE_FUNCTION SeenSegment see(const Vector3& slave, int segment) const {
     const Segment s = contact.surface(segment);
     Vector3 corner[4];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/contact_search.hpp"
+#include "kernels/contact_normals.hpp"
 
 namespace railwave {
 
@@ -72,8 +72,8 @@ struct ContactTrack {
 /// outside of. What comes in deep from beside an open surface, or was in the body when it came to be looked at, is turned away until
 /// it has left.
 struct FirstTouch {
-  Array<const double* [3]> velocity;  ///< m/s, that led to the present positions
-  double elapsed;  ///< s since a node was last moved; 0: no motion has led here, and all is taken in
+  LastStep last;  ///< no time elapsed: all is taken in
+  double paces;   ///< how many steps the slowest node's own step takes (subcycling)
 
   static constexpr double reserve = 1.25;          ///< on the motion
   static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
@@ -84,14 +84,12 @@ struct FirstTouch {
 
   /// @param tracked segment that the node was over when it was last seen apart
   KOKKOS_INLINE_FUNCTION void judge(const ContactSearch& search, int s, int node, int tracked, Projection& now) const {
-    if (!(now.gap < 0) || !(elapsed > 0)) return;
+    if (!(now.gap < 0) || !(last.elapsed > 0)) return;
     const double before = search.contact.gap(s);
     if (search.contact.entry_depth(s) > 0) return;
     if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
-    Vector3 way = row(velocity, node);
-    for (int k = 0; k < 4; ++k) way = way - segment_shape(k, now.place.xi, now.place.eta) * search.at_corner(velocity, segment.node[k]);
-    way = elapsed * way;
+    const Vector3 way = paces * last.relative_motion(search, node, now.segment, now.place);
     const double size = norm(search.diagonal(segment)), rounding = rounding_share * size, deepest = reserve * norm(way) + rounding;
     const Vector3 slave = row(search.position, node);
     const bool strictly = !is_distance(before) || dot(middle_normal(search, slave, tracked), now.normal) < 0.5;

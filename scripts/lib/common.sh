@@ -60,9 +60,10 @@ build_preset() {
 
 # run_tests PRESET [arguments of ctest...]: the tests that the preset has built, side by side.
 run_tests() {
-    local preset=$1 jobs=$((($(nproc) + 1) / 2))
+    local preset=$1 jobs
+    jobs=$(nproc)
     shift
     cd "$project_root" || return
-    # Each test takes two threads. Threads that wait awake would keep each other from a busy machine's processors.
+    # Tests take one or two threads. Threads that wait awake would keep each other from a busy machine's processors.
     OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive} ctest --preset "$preset" -j "$jobs" "$@"
 }

@@ -29,9 +29,8 @@ template <class Normals>
 AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const Instant& instant) {
   const ContactSearch search{{pair.arrays, model.nodes.position}};
   const FreeMotion motion = free_motion(model, instant);
-  const double elapsed = instant.settling ? 0.0 : instant.elapsed;
-  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant), elapsed};
-  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant), elapsed};
+  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
+  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
 }
 
 AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {

@@ -270,9 +270,7 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {
-  // A node at a slower pace of its own has moved for as long as that.
-  const long pace = 1L << (model.subcycling.levels - 1);
-  return {model.nodes.velocity, instant.settling ? 0.0 : static_cast<double>(pace) * instant.elapsed};
+  return {{model.nodes.velocity, instant.settling ? 0.0 : instant.elapsed}, static_cast<double>(1L << (model.subcycling.levels - 1))};
 }
 
 std::vector<std::string> late_contacts(const Model& model) {

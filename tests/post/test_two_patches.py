@@ -90,9 +90,8 @@ class TwoPatches(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="railwave-") as folder:
             (pathlib.Path(folder) / "feet.inp").write_text(feet())
             (pathlib.Path(folder) / "case.toml").write_text(case())
-            environment = dict(os.environ, OMP_NUM_THREADS="2")
             for arguments in (["run", "case.toml"], ["contact", "run.h5", "--csv", "patches.csv"]):
-                result = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, env=environment, check=False)
+                result = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, check=False)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
             with open(pathlib.Path(folder) / "patches.csv") as file:
                 rows = [{key: float(value) if value and key != "contact" else value for key, value in row.items()} for row in csv.DictReader(file)]

@@ -56,6 +56,23 @@ class Crossings(unittest.TestCase):
         self.assertLess(abs(force / swapped - 1), 0.05)
         self.assertLess(error, 5e-3)
 
+    def test_rolling_of_a_soft_roller(self):
+        """All that yields is the roller's: the force is that without a mouth. Its sides hang over the plate's and slide there, and its nodes touch and part
+        many times, all of which the account of friction has to tell."""
+        for algorithm, strip, mouth, gap in (("penalty", True, "crack", 0.0), ("multiplier", True, "gap", 1e-3), ("multiplier", False, "crack", 0.0)):
+            with self.subTest(algorithm=algorithm, strip=strip, mouth=mouth):
+                made = [crossings.roll(*one, algorithm, 0.01, strip, soft=True) for one in ((mouth, gap), ("none", 0.0))]
+                force, nodes, error = self.crossed("roll", *made, 0.01)
+                self.assertGreaterEqual(nodes[0], nodes[1])
+                self.assertLess(abs(force - 1), 0.05)
+                self.assertLess(error, 5e-3)
+
+    def test_undamped_springs_that_are_struck(self):
+        """They throw light nodes about, which makes energy (docs/watch.md), but no more than that: what a spring held when it parted was booked whole as
+        friction, also what it had given back, 0.5 of the elastic energy."""
+        error = self.crossed("roll", *2 * [crossings.roll("none", 0.0, "penalty", 0.01, True, soft=True).replace("damping = 0.2", "")], 0.01)[2]
+        self.assertLess(error, 0.05)
+
 
 if __name__ == "__main__":
     unittest.main()

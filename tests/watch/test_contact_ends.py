@@ -135,8 +135,7 @@ SCENES = {
 
 
 def railwave(folder, *arguments):
-    environment = dict(os.environ, OMP_NUM_THREADS="2")
-    return subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, env=environment, check=False)
+    return subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, check=False)
 
 
 class Ends(unittest.TestCase):

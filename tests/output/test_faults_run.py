@@ -15,30 +15,30 @@ from faults import LONG, Folder, arrays_of, limited, sanitized  # noqa: E402
 @unittest.skipIf(sanitized(), "the address space can't be limited under AddressSanitizer")
 class Memory(Folder):
     def test_too_large(self):
-        """Whatever it is that finds no memory: a message, no abort, and older results stay."""
+        """Whatever it is that finds no memory before a run begins: a message, no abort, and older results stay. With less the mesh is refused by its size,
+        with more the run begins."""
         self.run_case()
         before = self.everything()
         text = (self.folder / "case.toml").read_text()
-        for size in (60, 120, 200):
-            (self.folder / "large.toml").write_text(text.replace("divisions = [3, 3, 2]", f"divisions = [{size}, {size}, {size}]"))
-            for megabytes in (200, 300, 450):
-                with self.subTest(size=size, megabytes=megabytes):
-                    run = self.start("run", "large.toml", before=limited("as", megabytes << 20))
-                    try:
-                        said, complaint = run.communicate(timeout=60)
-                    except Exception:
-                        run.kill()
-                        raise
-                    if "out of memory" not in complaint:
-                        continue
+        (self.folder / "large.toml").write_text(text.replace("divisions = [3, 3, 2]", "divisions = [60, 60, 60]"))
+        told = 0
+        for megabytes in range(100, 3200, 25):
+            with self.subTest(megabytes=megabytes):
+                run = self.start("run", "large.toml", before=limited("as", megabytes << 20))
+                begun = run.stdout.readline()  # a line of the settings comes when all is built
+                if "step" in begun:
+                    run.kill()
+                    break
+                said, complaint = run.communicate(timeout=60)
+                if run.returncode == 2:
+                    self.assertIn("need about", complaint)
+                elif run.returncode != 127:
                     self.assertEqual(run.returncode, 1, complaint)
-                    self.assertRegex(complaint, r"(?m)^railwave: out of memory: \S+ \S+ .*could not be had; this machine has .*, this process may take .*; take a coarser mesh")
+                    self.assertRegex(complaint, r"(?m)^railwave: out of memory: .*; this machine has .*, this process may take .*; take a coarser mesh")
                     self.told("out of memory", 1, complaint)
-                    self.seen = True
-                    (self.folder / "large.toml").unlink(missing_ok=True)
-                    self.assertEqual(self.everything(), before)
-                    return
-        self.fail("memory was never short")
+                    told += 1
+                self.assertEqual({**self.everything(), "large.toml": ""}, {**before, "large.toml": ""})
+        self.assertGreater(told, 0, "memory was never short")
 
     hangs = False
 

@@ -33,6 +33,7 @@ class Desk:
         os.makedirs(os.path.join(self.folder, "build", "release"))
         os.symlink(BIN, os.path.join(self.folder, "build", "release", "bin"))
         self._nothing_to_install()
+        self._with_this_python()
         tools = os.path.join(self._folder.name, "tools")
         os.makedirs(tools)
         # No link: a virtual environment's Python knows its modules by the folder that it is called from.
@@ -48,6 +49,17 @@ class Desk:
             file.write("#!/bin/sh\n")
         with open(os.path.join(self.folder, "scripts", "lib", "common.sh"), "a", encoding="utf-8") as file:
             file.write("\nbuild_preset() { :; }\n")
+
+    def _with_this_python(self):
+        """Scripts begin with Debian's own Python; on another system that need not have the modules."""
+        for folder, _, names in os.walk(os.path.join(self.folder, "scripts")):
+            for name in names:
+                path = os.path.join(folder, name)
+                with open(path, encoding="utf-8") as file:
+                    text = file.read()
+                if text.startswith("#!/usr/bin/python3\n"):
+                    with open(path, "w", encoding="utf-8") as file:
+                        file.write(text.replace("/usr/bin/python3", sys.executable, 1))
 
     def type(self, section, ends=(0,)):
         """All blocks of a section. Returns what they print; throws AssertionError when a command ends with another code than `ends`."""

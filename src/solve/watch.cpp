@@ -86,6 +86,20 @@ double energy_of_rounding(const Model& model) {
   return energy;
 }
 
+/// J, elastic, of what the rounding of places strains elements by: what a scene at rest has of energies, and takes in a step.
+double energy_of_rest(const Model& model) {
+  double largest = 0, energy = 0;
+  for (const Vec3& place : model.assembly.nodes)
+    for (double x : place) largest = std::max(largest, std::fabs(x));
+  for (const auto& part : model.assembly.parts)
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
+      const double strain = 8 * 0.5 * std::numeric_limits<double>::epsilon() * largest / model.element_length[e];
+      energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain * strain *
+                hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+    }
+  return energy;
+}
+
 }  // namespace
 
 Watch::Watch(const Model& model) : model_(model) {
@@ -93,6 +107,7 @@ Watch::Watch(const Model& model) : model_(model) {
   arrays_ = std::make_unique<WatchArrays>(model);
   evidence_.worst_shape = arrays_->worst_shape();
   energy_of_rounding_ = energy_of_rounding(model);
+  energy_of_rest_ = energy_of_rest(model);
   parts_.resize(model.assembly.parts.size());
   if (!model.contacts.empty()) ends_ = std::make_unique<EndWatch>(model);
 }
@@ -204,7 +219,7 @@ double Watch::floor_of_error(const HistorySample& sample) const {
   const double turn = rate_at_start_ * model_.step_size, steps = steps_of_sums + static_cast<double>(sample.step);
   double floor = given_ * (rounding_of_step * steps + turning * turn * turn) + work_ * turning * turned_by_loads * turned_by_loads;
   if (model_.scene.solver.precision == scene::Precision::single_precision) floor += rounding_of_single_step * steps * work_;
-  return floor + std::min(energy_of_rounding_, rounding_of_single_step * given_);
+  return floor + steps * energy_of_rest_ + std::min(energy_of_rounding_, rounding_of_single_step * given_);
 }
 
 /// The error against what deforms (docs/watch.md): rigid travel is in kinetic energy and in the work of loads alone, so it counts in the floor only.

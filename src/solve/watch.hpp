@@ -108,6 +108,7 @@ class Watch {
   double impacts_ = 0;                     ///< J, the most so far that impacts on multipliers had taken
   double work_ = 0;                        ///< J, the most that loads have worked
   double energy_of_rounding_ = 0;          ///< J, of elements in single precision
+  double energy_of_rest_ = 0;              ///< J, of rounded places, in a step
   double rate_at_start_ = 0;               ///< 1/s, at which the fastest turning body begins to turn
   double share_ = 0, kinetic_share_ = 0;   ///< error of the balance, and kinetic energy beyond what was given, beyond what they can't help, over `deformation_`
   double share_before_ = 0;                ///< the first, at the last of the regular looks

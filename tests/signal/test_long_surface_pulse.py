@@ -41,7 +41,7 @@ class SurfacePulse(unittest.TestCase):
         case = os.path.join(SOURCE_DIR, "cases", "surface_pulse.toml")
         run = subprocess.run([PROGRAM, "run", case], cwd=cls.folder.name, capture_output=True, text=True)
         assert run.returncode == 0, run.stderr
-        cls.results = os.path.join(cls.folder.name, "surface_pulse.h5")
+        cls.results = os.path.join(cls.folder.name, "results", "surface_pulse", "surface_pulse.h5")
         cls.speed, cls.ratio = rayleigh()
 
     @classmethod

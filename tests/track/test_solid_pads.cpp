@@ -207,7 +207,9 @@ Response struck(const std::string& sleeper) {
   Model model;
   build_model(scene, model);
   Recorder recorder;
-  REQUIRE(run(model, {&recorder}).completed);
+  const RunSummary summary = run(model, {&recorder});
+  INFO(summary.reason);
+  REQUIRE(summary.completed);
   Response response;
   for (const HistorySample& sample : recorder.samples) {
     response.times.push_back(sample.time);

@@ -122,6 +122,21 @@ double deformation(const Meddler& meddler) { return deformation_energy(meddler.b
 
 }  // namespace
 
+TEST_CASE("a scene at rest far from the origin, damped and not loaded yet, makes no energy worth a word") {
+  TwoBlocks blocks;
+  scene::Scene scene = blocks.scene(1);
+  for (scene::Part& part : scene.parts) {
+    part.stiffness_damping = 1e-7;
+    for (double& x : part.position) x += 1.37;
+  }
+  hold(scene, "lower.z_min", {true, true, true});
+  press(scene, "upper.z_max", 1e7).curve = "late";
+  add_ramp(scene, "late", 1, 1e-4);
+  const Meddler meddler = run_with(scene, {}, 500);
+  CHECK(meddler.said() == "");
+  CHECK(meddler.summary.completed);
+}
+
 TEST_CASE("a run that goes on with a model that has run before balances from where it goes on") {
   Model model;
   build_model(pressed_pair(scene::ContactAlgorithm::penalty), model);

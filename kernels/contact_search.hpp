@@ -22,8 +22,8 @@ struct ContactSearch : ContactProjection {
   ///               nothing is outside
   KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
     SeenSegment best = see(slave, start);
-    // That segment's middle is no nearer than its nearest place.
-    double limit = dot(best.middle, best.middle) * (1 + 1e-12);
+    // Mostly it is that one, and then hardly a box is opened.
+    double limit = nearest_within(best).squared;
     NearestPlace place{{0, 0}, 1e300, 1e300};
     Vector3 sum{{0, 0, 0}}, weighted{{0, 0, 0}};
     Vector3 there{{0, 0, 0}};

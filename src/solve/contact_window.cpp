@@ -258,7 +258,7 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
   const double interval = static_cast<double>(steps) * instant.step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || instant.settling;
-  if (look) renew_window(model, pair, instant.step, sudden);
+  const bool laid_out = look && renew_window(model, pair, instant.step, sudden);
   lay_boxes(model, pair, interval, sudden_until_then);
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_look) return;
@@ -266,7 +266,7 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
                        ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
-                                   interval, sudden_until_then, first, first || look, pair.missed});
+                                   interval, sudden_until_then, first, first || laid_out, pair.missed});
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {

@@ -83,7 +83,8 @@ void loads(const Model& model, std::vector<Cause>& causes) {
     const bool pressure = load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction;
     causes.push_back(Cause{"load", fmt::format("load {} strains the elements under it by about {:.3g}: see loads.{} ({}) and its curve", load.name, strain, load.name,
                                           pressure ? "Pa" : load.type == scene::LoadType::torque ? "N m" : "N"),
-                      70 + std::fmin(9, std::log10(strain / much_strain))});
+                      // What strains by its whole length no constraint would mend.
+                      (strain > 1 ? 76 : 70) + std::fmin(3, std::log10(strain / much_strain))});
   }
 }
 

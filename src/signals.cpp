@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -16,8 +17,10 @@ namespace {
 constexpr int of_stopping[] = {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2};
 constexpr int interrupted = 130;
 
-volatile std::sig_atomic_t running = 0, signalled = 0;
-volatile pid_t child_at_work = 0;
+/// Set in one thread, and read in whichever the signal interrupts.
+std::atomic<int> running{0}, signalled{0};
+std::atomic<pid_t> child_at_work{0};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
 
 /// Only what a handler may call.
 void on_signal(int) {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <functional>
 
 #include "model/doubts.hpp"
@@ -22,7 +22,9 @@
 namespace railwave {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
+/// Asked for by signal handlers, and by the thread that writes.
+std::atomic<int> stop_requested{0};
+static_assert(std::atomic<int>::is_always_lock_free);
 
 using Clock = std::chrono::steady_clock;
 

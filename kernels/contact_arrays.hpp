@@ -32,9 +32,12 @@ struct alignas(16) MouthCorner {
 struct SegmentBoxes {
   static constexpr int leaf_size = 8, branch_size = 16;
   Array<int*> order;            ///< of the segments
-  Array<double* [6]> leaf;      ///< m, the least of x, y, z, then the largest
+  Array<double* [6]> segment;   ///< m, the least of x, y, z, then the largest; by place in the order
+  Array<double* [6]> leaf;
   Array<double* [6]> branch;
+  Array<double* [3]> normal;    ///< outward unit normals of the segments' middles at the last look; by place in the order
 
+  KOKKOS_INLINE_FUNCTION int segment_count() const { return static_cast<int>(segment.extent(0)); }
   KOKKOS_INLINE_FUNCTION int leaf_count() const { return static_cast<int>(leaf.extent(0)); }
   KOKKOS_INLINE_FUNCTION int branch_count() const { return static_cast<int>(branch.extent(0)); }
 };

@@ -31,37 +31,27 @@ struct ContactSearch : ContactProjection {
     int alike = 0;
     // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one copy does.
     for (int turn = 0; turn < 2; ++turn) {
-      const SegmentBoxes& boxes = contact.boxes;
-      for (int b = 0; b < boxes.branch_count(); ++b) {
-        if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
-        const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
-        for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
-          if (squared_distance_from_box(boxes.leaf, l, slave) > limit) continue;
-          const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
-          for (int i = first; i < last && i < contact.segment_count; ++i) {
-            const SeenSegment seen = see(slave, boxes.order(i));
-            const double reach = norm(seen.across) + norm(seen.along) + norm(seen.twist) + std::sqrt(limit);
-            if (dot(seen.middle, seen.middle) > reach * reach * (1 + 1e-12)) continue;
-            const NearestPlace found = nearest_within(seen);
-            if (found.squared > limit) continue;
-            bool better = found.squared < place.squared || (found.squared == place.squared && seen.segment < best.segment);
-            if (turn == 1) {
-              const Vector3 aside = seen.point(found.place) - there;
-              if (dot(aside, aside) > same_place * same_place) continue;
-              const Vector3 n = unit_normal(seen, found.place);
-              sum = sum + n;
-              weighted = weighted + corner_angle(seen, found.place) * n;
-              ++alike;
-              const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
-              better = alike == 1 || now < before || (now == before && seen.segment < best.segment);
-            }
-            if (!better) continue;
-            best = seen;
-            place = found;
-            if (turn == 0) limit = found.squared;
-          }
+      visit_boxes(contact.boxes, slave, limit, [&](int i) {
+        const SeenSegment seen = see(slave, contact.boxes.order(i));
+        const NearestPlace found = nearest_within(seen);
+        if (found.squared > limit) return true;
+        bool better = found.squared < place.squared || (found.squared == place.squared && seen.segment < best.segment);
+        if (turn == 1) {
+          const Vector3 aside = seen.point(found.place) - there;
+          if (dot(aside, aside) > same_place * same_place) return true;
+          const Vector3 n = unit_normal(seen, found.place);
+          sum = sum + n;
+          weighted = weighted + corner_angle(seen, found.place) * n;
+          ++alike;
+          const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
+          better = alike == 1 || now < before || (now == before && seen.segment < best.segment);
         }
-      }
+        if (!better) return true;
+        best = seen;
+        place = found;
+        if (turn == 0) limit = found.squared;
+        return true;
+      });
       if (turn == 0) {
         if (!at_side(place.place)) break;
         there = best.point(place.place);
@@ -79,17 +69,14 @@ struct ContactSearch : ContactProjection {
     return result;
   }
 
-  /// Whether any leaf's box is within a distance, m.
+  /// Whether any segment's box is within a distance, m.
   KOKKOS_INLINE_FUNCTION bool comes_within(const Vector3& slave, double distance) const {
-    const double limit = distance * distance;
-    const SegmentBoxes& boxes = contact.boxes;
-    for (int b = 0; b < boxes.branch_count(); ++b) {
-      if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
-      const int first = b * SegmentBoxes::branch_size, last = first + SegmentBoxes::branch_size;
-      for (int l = first; l < last && l < boxes.leaf_count(); ++l)
-        if (!(squared_distance_from_box(boxes.leaf, l, slave) > limit)) return true;
-    }
-    return false;
+    bool found = false;
+    visit_boxes(contact.boxes, slave, distance * distance, [&](int) {
+      found = true;
+      return false;
+    });
+    return found;
   }
 
   /// Where a slave is, with segment -1 where it stands beside the surface.
@@ -108,26 +95,15 @@ struct ContactSearch : ContactProjection {
     return found.gap < -outside_depth * norm(diagonal(contact.surface(found.segment)));
   }
 
-  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
+  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave. Right at a look.
   KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
-    const double limit = distance * distance;
-    const SegmentBoxes& boxes = contact.boxes;
+    bool found = false;
     const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
-    for (int b = 0; b < boxes.branch_count(); ++b) {
-      if (squared_distance_from_box(boxes.branch, b, slave) > limit) continue;
-      const int first_leaf = b * SegmentBoxes::branch_size, last_leaf = first_leaf + SegmentBoxes::branch_size;
-      for (int l = first_leaf; l < last_leaf && l < boxes.leaf_count(); ++l) {
-        if (squared_distance_from_box(boxes.leaf, l, slave) > limit) continue;
-        const int first = l * SegmentBoxes::leaf_size, last = first + SegmentBoxes::leaf_size;
-        for (int i = first; i < last && i < contact.segment_count; ++i) {
-          const SeenSegment seen = see(slave, boxes.order(i));
-          const double reach = norm(seen.across) + norm(seen.along) + norm(seen.twist) + distance;
-          if (dot(seen.middle, seen.middle) > reach * reach) continue;
-          if (dot(unit_normal(seen, {0, 0}), normal) < 0.5) return true;
-        }
-      }
-    }
-    return false;
+    visit_boxes(contact.boxes, slave, distance * distance, [&](int i) {
+      found = dot(row(contact.boxes.normal, i), normal) < 0.5;
+      return !found;
+    });
+    return found;
   }
 
  private:

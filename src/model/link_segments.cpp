@@ -211,6 +211,8 @@ SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::a
   const std::size_t branches = (leaves + SegmentBoxes::branch_size - 1) / SegmentBoxes::branch_size;
   SegmentBoxes boxes;
   boxes.order = to_device("order of segments", order);
+  boxes.segment = Array<double* [6]>("segment boxes", segments.size());
+  boxes.normal = Array<double* [3]>("segment normals", segments.size());
   boxes.leaf = Array<double* [6]>("leaf boxes", leaves);
   boxes.branch = Array<double* [6]>("branch boxes", branches);
   return boxes;

@@ -138,7 +138,8 @@ std::size_t device_bytes(const Model& model) {
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
-                   c.surface, c.mouth_corners, c.boxes.order, c.boxes.leaf, c.boxes.branch, c.tracked, c.place, c.gap, c.entry_depth, c.normal_force, c.tangential_force, c.status, c.friction_energy,
+                   c.surface, c.mouth_corners, c.boxes.order, c.boxes.segment,
+                   c.boxes.leaf, c.boxes.branch, c.boxes.normal, c.tracked, c.place, c.gap, c.entry_depth, c.normal_force, c.tangential_force, c.status, c.friction_energy,
                    pair.multipliers.rows, pair.multipliers.crowd, pair.multipliers.way_since_stuck, pair.multipliers.impact_energy,
                    pair.law.growth.points, pair.law.friction_now, pair.law.damping_force, pair.law.damping_energy,
                    pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);

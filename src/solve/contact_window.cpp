@@ -239,15 +239,6 @@ double sudden_motion(const Model& model, const ContactPair& pair, const Instant&
   return sudden_share * fastest * instant.step;
 }
 
-/// @param interval s, @param sudden m, until the next look
-void lay_boxes(const Model& model, ContactPair& pair, double interval, double sudden) {
-  const SegmentBoxes& boxes = pair.arrays.boxes;
-  Kokkos::parallel_for("leaf_boxes", SpreadRange(0, boxes.leaf_count()),
-                       LeafBoxes{{pair.arrays, model.nodes.position}, model.nodes.velocity, interval, sudden});
-  Kokkos::parallel_for("branch_boxes", SpreadRange(0, boxes.branch_count()), BranchBoxes{boxes});
-  pair.boxed = true;
-}
-
 }  // namespace
 
 void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
@@ -259,14 +250,15 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   const double interval = static_cast<double>(steps) * instant.step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || instant.settling;
   const bool laid_out = look && renew_window(model, pair, instant.step, sudden);
-  lay_boxes(model, pair, interval, sudden_until_then);
+  const ContactSearch search{{pair.arrays, model.nodes.position}};
+  lay_boxes(search, model.nodes.velocity, interval, sudden_until_then);
+  pair.boxed = true;
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_look) return;
   pair.next_near_look = model.step + steps;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
-  Kokkos::parallel_for("contact_look", SpreadRange(0, pair.window.count),
-                       ContactLook{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, model.nodes.velocity,
-                                   interval, sudden_until_then, first, first || laid_out, pair.missed});
+  apart_parallel_for("contact_look", pair.window.count,
+                     ContactLook{search, pair.window, model.nodes.velocity, interval, sudden_until_then, first, first || laid_out, pair.missed});
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {

@@ -35,9 +35,7 @@ inline ContactSearch search_on(const std::vector<Point>& nodes, const std::vecto
   search.contact.segment_of_node = to_device("segment of node", around);
   search.position = to_device("position", nodes);
   const Array<double* [3]> at_rest("velocity", nodes.size());
-  const SegmentBoxes& boxes = search.contact.boxes;
-  Kokkos::parallel_for("leaf_boxes", Range(0, boxes.leaf_count()), LeafBoxes{search, at_rest, 0, 0});
-  Kokkos::parallel_for("branch_boxes", Range(0, boxes.branch_count()), BranchBoxes{boxes});
+  lay_boxes(search, at_rest, 0, 0);
   return search;
 }
 

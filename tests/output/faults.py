@@ -57,8 +57,12 @@ def between(name):
 
 
 def sanitized():
-    """Whether the program is built with AddressSanitizer, which takes address space without end for itself."""
-    return b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
+    """Whether the program is built with AddressSanitizer or ThreadSanitizer, which take address space without end for themselves."""
+    return thread_sanitized() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
+
+
+def thread_sanitized():
+    return b"__tsan_init" in pathlib.Path(PROGRAM).read_bytes()
 
 
 def limited(what, soft, hard=None):

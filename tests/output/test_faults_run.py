@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from faults import LONG, Folder, arrays_of, limited, sanitized  # noqa: E402
 
 
-@unittest.skipIf(sanitized(), "the address space can't be limited under AddressSanitizer")
+@unittest.skipIf(sanitized(), "the address space can't be limited under a sanitizer")
 class Memory(Folder):
     def test_too_large(self):
         """Whatever it is that finds no memory before a run begins: a message, no abort, and older results stay. With less the mesh is refused by its size,

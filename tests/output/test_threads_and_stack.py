@@ -10,7 +10,7 @@ import tempfile
 import unittest
 
 try:
-    from faults import CASE, PROGRAM, limited, sanitized
+    from faults import CASE, PROGRAM, limited, sanitized, thread_sanitized
 except SystemExit:
     sys.exit(77)
 
@@ -29,6 +29,7 @@ TAKEN = [{"OMP_NUM_THREADS": "3"}, {"OMP_NUM_THREADS": "2,4"}, {"OMP_NUM_THREADS
          {"OMP_DYNAMIC": "true"}, {"OMP_MAX_ACTIVE_LEVELS": "0"}]
 
 
+@unittest.skipIf(thread_sanitized(), "ThreadSanitizer takes the barriers of GNU's OpenMP for races")
 class Environment(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory(prefix="railwave-")
@@ -73,7 +74,7 @@ class Environment(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("512 threads are asked for, but this process may use", done.stderr)
 
-    @unittest.skipIf(sanitized(), "AddressSanitizer wants more stack before the program begins")
+    @unittest.skipIf(sanitized(), "a sanitizer wants more stack before the program begins")
     def test_small_stacks(self):
         for kilobytes in (32, 64, 128, 256, 512, 1024):
             for words in (("check", "case.toml"), ("run", "case.toml"), ("contact", "results.h5"), ("reference",), ("modes", "case.toml", "--up-to", "1e5")):
@@ -81,7 +82,7 @@ class Environment(unittest.TestCase):
                     done = self.run_case(*words, stack=kilobytes << 10)
                     self.assertIn(done.returncode, (0, 2) if words[0] == "modes" else (0,), done.stderr)
 
-    @unittest.skipIf(sanitized(), "AddressSanitizer wants more stack before the program begins")
+    @unittest.skipIf(sanitized(), "a sanitizer wants more stack before the program begins")
     def test_an_error_with_a_small_stack_has_its_exit_code(self):
         done = self.run_case("contact", "none.h5", stack=64 << 10)
         self.assertEqual((done.returncode, done.stdout), (2, ""))

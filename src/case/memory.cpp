@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <limits>
+#include <regex>
 
 #include <sys/resource.h>
 
@@ -58,6 +60,25 @@ std::string bytes_text(double bytes) {
   std::size_t unit = 0;
   for (; bytes >= 999.5 && unit + 1 < std::size(units); ++unit) bytes /= 1000;
   return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+// Kokkos 3.4 to 4.4: Kokkos failed to allocate memory for label "NAME".  Allocation using MemorySpace named "Host" failed with the
+// following error:  Allocation of size 3.725 G failed. Later: Kokkos ERROR: Host memory space failed to allocate 3.725 GiB (label="NAME").
+bool is_refusal_of_kokkos(const char* said) {
+  return std::strncmp(said, "Kokkos", 6) == 0 && (std::strstr(said, " failed to allocate memory") || std::strstr(said, " memory space failed to allocate "));
+}
+
+std::string refused_by_kokkos(const std::string& said) {
+  const auto find = [&said](const char* pattern) {
+    std::smatch found;
+    return std::regex_search(said, found, std::regex(pattern)) ? found[1].str() : std::string();
+  };
+  std::string wanted = find("(?:size|allocate) ([0-9.]+ ?[KMGT]?i?B?)");
+  if (!wanted.empty() && wanted.back() != 'B') wanted += "iB";
+  if (wanted.empty()) wanted = "memory";
+  if (const std::string name = find("label[ =]\"([^\"]*)\""); !name.empty()) wanted += " for the array " + name;
+  if (const std::string space = find("(?:MemorySpace named \"|ERROR: )(\\w+)"); !space.empty()) wanted += ", in memory of " + space;
+  return wanted;
 }
 
 void expect_memory(double bytes, const std::string& what, const std::string& mend, double available) {

@@ -22,6 +22,18 @@ TEST_CASE("numbers of bytes are told for people", "[case]") {
   CHECK(bytes_text(1e30) == "1e+12 EB");
 }
 
+TEST_CASE("what Kokkos could not have is told in words of ours, whatever its version", "[case]") {
+  const std::string older = "Kokkos failed to allocate memory for label \"position\".  Allocation using MemorySpace named \"Host\" failed with the "
+                            "following error:  Allocation of size 3.725 G failed, likely due to insufficient memory.";
+  const std::string later = "Kokkos ERROR: Cuda memory space failed to allocate 39.55 MiB (label=\"tangent corner force\").";
+  CHECK(is_refusal_of_kokkos(older.c_str()));
+  CHECK(is_refusal_of_kokkos(later.c_str()));
+  CHECK_FALSE(is_refusal_of_kokkos("Kokkos ERROR: a view was used after its end"));
+  CHECK(refused_by_kokkos(older) == "3.725 GiB for the array position, in memory of Host");
+  CHECK(refused_by_kokkos(later) == "39.55 MiB for the array tangent corner force, in memory of Cuda");
+  CHECK(refused_by_kokkos("Kokkos ERROR: ") == "memory");
+}
+
 TEST_CASE("what needs more memory than there is is refused with both figures", "[case]") {
   CHECK_NOTHROW(expect_memory(1e9, "reading it needs", "split it", 1e9));
   CHECK_NOTHROW(expect_memory(1e30, "reading it needs", "split it", std::numeric_limits<double>::infinity()));

@@ -243,8 +243,9 @@ class Vanished(Folder):
 
     def test_name_taken(self):
         run = self.running()
-        self.results.unlink()
-        self.results.write_bytes(b"somebody else's")
+        other = self.folder / "other.h5"
+        other.write_bytes(b"somebody else's")
+        other.rename(self.results)  # at once, so that the run has no moment to write its own anew
         complaint, _ = self.ends(run, 1)
         self.assertIn("another file has taken the name results.h5", complaint)
         self.assertEqual(self.results.read_bytes(), b"somebody else's")
@@ -260,7 +261,8 @@ class Vanished(Folder):
         while not results.exists():
             self.assertIsNone(run.poll())
             time.sleep(0.01)
-        shutil.rmtree(results.parent)
+        while results.parent.exists():  # the run makes files there meanwhile
+            shutil.rmtree(results.parent, ignore_errors=True)
         complaint, _ = self.ends(run, 1)
         self.assertIn("No such file or directory", complaint)
         self.told("results' folder removed while running", 1, complaint)

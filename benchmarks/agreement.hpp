@@ -11,13 +11,13 @@ namespace railwave::bench {
 
 /// How the product and the baseline do on the same wave.
 struct Agreement {
-  double difference = 0;       ///< of the displacements, L2, relative
-  double product_error = 0;    ///< of the displacement along the bar against d'Alembert's, L2, relative
+  double difference = 0;     ///< of the displacements, L2, relative
+  double product_error = 0;  ///< of the displacement along the bar against d'Alembert's, L2, relative
   double baseline_error = 0;
 };
 
-/// A pulse of velocity in the middle of a slender free bar parts in two that run to the ends, come back, and are compared
-/// with each other and with the exact solution u(x, t) = sum over the images of 1/2 c int v0.
+/// A pulse of velocity in the middle of a slender free bar parts in two that run to the ends, come back, and are
+/// compared with each other and with the exact solution u(x, t) = sum over the images of 1/2 c int v0.
 inline Agreement compare_on_a_bar_wave() {
   const double length = 0.4, width = 5e-3, pulse = 0.06;
   const int layers = 80;

@@ -14,7 +14,7 @@ struct Baseline {
   double lambda = 0, mu = 0, density = 0, sound_speed = 0, hourglass_coefficient = 0;
   Array<int* [8]> corners;
   Array<double* [6]> stress;                    ///< xx, yy, zz, xy, yz, zx; Pa
-  Array<double* [3]> position, velocity, force; ///< m, m/s half a step before, N
+  Array<double*[3]> position, velocity, force;  ///< m, m/s half a step before, N
   Array<double*> mass;                          ///< kg
 
   /// Bytes read and written by a step, counted as step_traffic counts.
@@ -121,7 +121,7 @@ struct BaselineElements {
         for (int N = 0; N < 8; ++N) moment[i] += x[N][i] * base[M][N];
       for (int N = 0; N < 8; ++N)
         shape[N] = base[M][N] - (gradient[N][0] * moment[0] + gradient[N][1] * moment[1] + gradient[N][2] * moment[2]) *
-                                     inverse_volume;
+                                    inverse_volume;
       for (int i = 0; i < 3; ++i) {
         for (int N = 0; N < 8; ++N) speed[i] += v[N][i] * shape[N];
         for (int N = 0; N < 8; ++N) f[N][i] -= c * speed[i] * shape[N];

@@ -36,14 +36,23 @@ bool time_size(const Options& options, long elements, const std::string& precisi
   const double count = static_cast<double>(model->element_count());
   const double step = timing.best() / static_cast<double>(steps);
   const double bytes = static_cast<double>(device_bytes(*model)) / count;
-  fmt::print("{:7} {:8} elements {:10.1f} us a step {:9.2f} M element-steps/s, spread {:4.1f} %, {:.0f} bytes an element, "
-             "built in {:.1f} s\n",
-             precision, model->element_count(), 1e6 * step, 1e-6 * count / step, 100 * timing.spread(), bytes, building);
+  fmt::print(
+      "{:7} {:8} elements {:10.1f} us a step {:9.2f} M element-steps/s, spread {:4.1f} %, {:.0f} bytes an element, "
+      "built in {:.1f} s\n",
+      precision, model->element_count(), 1e6 * step, 1e-6 * count / step, 100 * timing.spread(), bytes, building);
   std::fflush(stdout);
-  records.add().set("precision", precision).set("hourglass", options.hourglass).set("elements", count)
-      .set("nodes", model->node_count()).set("steps", steps).set("repetitions", options.repetitions)
-      .set("seconds_per_step", step).set("element_steps_per_second", count / step).set("spread", timing.spread())
-      .set("device_bytes_per_element", bytes).set("build_seconds", building);
+  records.add()
+      .set("precision", precision)
+      .set("hourglass", options.hourglass)
+      .set("elements", count)
+      .set("nodes", model->node_count())
+      .set("steps", steps)
+      .set("repetitions", options.repetitions)
+      .set("seconds_per_step", step)
+      .set("element_steps_per_second", count / step)
+      .set("spread", timing.spread())
+      .set("device_bytes_per_element", bytes)
+      .set("build_seconds", building);
   return true;
 }
 

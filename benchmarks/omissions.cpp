@@ -1,5 +1,5 @@
-// What leaving things out of a scene saves: the rolling scene whole, then without one thing after the other, and how the
-// step's cost goes with the frequency of the energy account.
+// What leaving things out of a scene saves: the rolling scene whole, then without one thing after the other, and how
+// the step's cost goes with the frequency of the energy account.
 
 #include <memory>
 
@@ -39,16 +39,28 @@ std::vector<Variant> variants() {
       {"whole scene", {}, keep},
       {"without friction", {}, [](Scene& s) { s.contacts[0].friction = 0; }},
       {"without contact", {}, [](Scene& s) { s.contacts.clear(); }},
-      {"without gravity", {}, [](Scene& s) { s.gravity = {0, 0, 0}; }},
+      {"without gravity",
+       {},
+       [](Scene& s) {
+         s.gravity = {0, 0, 0};
+       }},
       {"without loads", {}, [](Scene& s) { s.loads.clear(); }},
       {"without connectors", {}, [](Scene& s) { s.connectors.clear(); }},
       {"without constraints", {}, [](Scene& s) { s.constraints.clear(); }},
       {"elements and nodes alone", {}, bare},
-      {"stiffness instead of viscous hourglass", {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"}, keep},
-      {"stiffness, elements and nodes alone", {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"}, bare},
+      {"stiffness instead of viscous hourglass",
+       {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"},
+       keep},
+      {"stiffness, elements and nodes alone",
+       {"parts.wheel.hourglass=stiffness", "parts.rail.hourglass=stiffness"},
+       bare},
       {"mixed instead of double precision", {"solver.precision=mixed"}, keep},
       {"coarse regions subcycled", {"solver.subcycling=true"}, keep},
-      {"with a non-reflecting end", {}, [](Scene& s) { s.non_reflecting.push_back({{"far", 0}, "rail.start_face"}); }},
+      {"with a non-reflecting end",
+       {},
+       [](Scene& s) {
+         s.non_reflecting.push_back({{"far", 0}, "rail.start_face"});
+       }},
       {"with plasticity", {"materials.steel.yield_stress=500e6", "materials.steel.tangent_modulus=21e9"}, keep},
   };
 }
@@ -63,8 +75,8 @@ struct Prepared {
 
 /// Null where this build has not what the variant wants.
 /// @param assembly made with the contact, so that the wheel stands where it stands in every variant
-std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std::string>& sizes, const Assembly& assembly,
-                                  const Variant& variant) {
+std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std::string>& sizes,
+                                  const Assembly& assembly, const Variant& variant) {
   auto overrides = sizes;
   overrides.insert(overrides.end(), variant.overrides.begin(), variant.overrides.end());
   auto prepared = std::make_unique<Prepared>();
@@ -97,8 +109,13 @@ void time_accounts(const Options& options, Prepared& whole, long steps, Records&
     });
     const double step = timing.best() / static_cast<double>(rounds * every);
     const std::string name = fmt::format("account every {} step{}", every, every == 1 ? "" : "s");
-    fmt::print("{:42} {:9.2f} us a step, {:+6.1f} %, spread {:.1f} %\n", name, 1e6 * step, 100 * (step / bare - 1), 100 * timing.spread());
-    records.add().set("what", name).set("seconds_per_step", step).set("saving", 1 - step / bare).set("spread", timing.spread());
+    fmt::print("{:42} {:9.2f} us a step, {:+6.1f} %, spread {:.1f} %\n", name, 1e6 * step, 100 * (step / bare - 1),
+               100 * timing.spread());
+    records.add()
+        .set("what", name)
+        .set("seconds_per_step", step)
+        .set("saving", 1 - step / bare)
+        .set("spread", timing.spread());
   }
 }
 
@@ -110,8 +127,10 @@ bool work(const Options& options, Records& records) {
   std::vector<std::unique_ptr<Prepared>> all;
   for (const Variant& variant : variants()) {
     auto prepared = prepare(options, sizes, assembly, variant);
-    if (prepared) all.push_back(std::move(prepared));
-    else fmt::print("{}: not in this build\n", variant.name);
+    if (prepared)
+      all.push_back(std::move(prepared));
+    else
+      fmt::print("{}: not in this build\n", variant.name);
   }
   Prepared& whole = *all.front();
   const long steps = calls_in(options.seconds, [&] { whole.loop->step(); });
@@ -127,8 +146,13 @@ bool work(const Options& options, Records& records) {
     const double saving = 1 - prepared->timing.best() / reference;
     fmt::print("{:42} {:9.2f} us a step, saves {:5.1f} %, spread {:.1f} %\n", prepared->name, 1e6 * step, 100 * saving,
                100 * prepared->timing.spread());
-    records.add().set("what", prepared->name).set("elements", prepared->model.element_count()).set("steps", steps)
-        .set("repetitions", options.repetitions).set("seconds_per_step", step).set("saving", saving)
+    records.add()
+        .set("what", prepared->name)
+        .set("elements", prepared->model.element_count())
+        .set("steps", steps)
+        .set("repetitions", options.repetitions)
+        .set("seconds_per_step", step)
+        .set("saving", saving)
         .set("spread", prepared->timing.spread());
   }
   time_accounts(options, whole, steps, records);

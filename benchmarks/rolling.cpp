@@ -42,9 +42,14 @@ void tell(Records& records, const std::string& what, double elements, long steps
   fmt::print("{:28} {:10.2f} us a step, {:9.2f} M element-steps/s, spread {:.1f} %\n", what, 1e6 * step,
              1e-6 * elements / step, 100 * timing.spread());
   std::fflush(stdout);
-  records.add().set("what", what).set("elements", elements).set("steps", steps)
-      .set("repetitions", static_cast<int>(timing.seconds.size())).set("seconds_per_step", step)
-      .set("element_steps_per_second", elements / step).set("spread", timing.spread());
+  records.add()
+      .set("what", what)
+      .set("elements", elements)
+      .set("steps", steps)
+      .set("repetitions", static_cast<int>(timing.seconds.size()))
+      .set("seconds_per_step", step)
+      .set("element_steps_per_second", elements / step)
+      .set("spread", timing.spread());
 }
 
 Timing time_run(Model& model, const Options& options, Watcher& watcher) {
@@ -96,11 +101,17 @@ bool work(const Options& options, Records& records) {
     build_model(scene, assembly, *model);
   });
   const double elements = static_cast<double>(model->element_count());
-  fmt::print("{} elements, {} nodes, {:.0f} bytes an element, built in {:.1f} s, step {:.3g} s\n", model->element_count(),
-             model->node_count(), static_cast<double>(device_bytes(*model)) / elements, building, model->step_size);
-  records.add().set("what", "model").set("elements", elements).set("nodes", model->node_count())
+  fmt::print("{} elements, {} nodes, {:.0f} bytes an element, built in {:.1f} s, step {:.3g} s\n",
+             model->element_count(), model->node_count(), static_cast<double>(device_bytes(*model)) / elements,
+             building, model->step_size);
+  records.add()
+      .set("what", "model")
+      .set("elements", elements)
+      .set("nodes", model->node_count())
       .set("device_bytes_per_element", static_cast<double>(device_bytes(*model)) / elements)
-      .set("build_seconds", building).set("step_size", model->step_size).set("precision", options.precision)
+      .set("build_seconds", building)
+      .set("step_size", model->step_size)
+      .set("precision", options.precision)
       .set("overrides", written);
 
   Watcher watcher;
@@ -140,7 +151,8 @@ int main(int argc, char** argv) {
   return run_program(
       "rolling", "cases/rolling.toml in any size, step by step", argc, argv,
       [&](CLI::App& app) {
-        app.add_option("--elements", options.elements, "about how many, by dividing all element sizes (default: the case's own)");
+        app.add_option("--elements", options.elements,
+                       "about how many, by dividing all element sizes (default: the case's own)");
         app.add_option("--steps", options.steps, "steps a repetition");
         app.add_option("--output-every", options.output_every, "steps between energy accounts and histories");
         app.add_option("--repetitions", options.repetitions, "timed repetitions");

@@ -45,7 +45,8 @@ inline long elements_of(const scene::Scene& scene) {
   return count;
 }
 
-/// The overrides that bring the rolling scene nearest to a number of elements, by bisection; a few seconds for a million.
+/// The overrides that bring the rolling scene nearest to a number of elements, by bisection; a few seconds for a
+/// million.
 inline std::vector<std::string> sizes_for(long elements) {
   double coarse = 0.5, fine = 6;
   std::vector<std::string> best;

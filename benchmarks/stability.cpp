@@ -1,5 +1,5 @@
-// The border of stability as it is seen, against what the program predicts: over hourglass control, penalty scale, shape of the
-// elements and precision, by each estimate of the stable step. docs/stability.md says how it is measured.
+// The border of stability as it is seen, against what the program predicts: over hourglass control, penalty scale,
+// shape of the elements and precision, by each estimate of the stable step. docs/stability.md says how it is measured.
 
 #include "benchmarks/common/program.hpp"
 #include "benchmarks/stability/exact_limit.hpp"
@@ -20,8 +20,9 @@ struct Options {
 };
 
 const std::vector<Control> all_controls = {
-    {scene::HourglassType::viscous, 0.1},    {scene::HourglassType::stiffness, 0.05}, {scene::HourglassType::viscous, 0.03},
-    {scene::HourglassType::viscous, 0.15},   {scene::HourglassType::viscous, 0.3},    {scene::HourglassType::stiffness, 0.01},
+    {scene::HourglassType::viscous, 0.1},   {scene::HourglassType::stiffness, 0.05},
+    {scene::HourglassType::viscous, 0.03},  {scene::HourglassType::viscous, 0.15},
+    {scene::HourglassType::viscous, 0.3},   {scene::HourglassType::stiffness, 0.01},
     {scene::HourglassType::stiffness, 0.2}, {scene::HourglassType::stiffness, 0.5}};
 
 /// What the program would use with step_scale 1, s.
@@ -44,8 +45,8 @@ Predicted predicted_of(Model& model) {
 /// What is known of a scene in double precision, with which those in others share it.
 struct Known {
   Predicted predicted;
-  double exact;                    ///< s; 0: not computed
-  std::vector<double> positions;   ///< m, of the calm state; empty: undeformed
+  double exact;                   ///< s; 0: not computed
+  std::vector<double> positions;  ///< m, of the calm state; empty: undeformed
 };
 
 struct Named {
@@ -70,35 +71,55 @@ class Map {
 
   void add(const Named& named, Model& model, const Known& known) {
     Trial trial(model);
-    Border border = find_border(trial, known.exact > 0 ? known.exact : known.predicted.global, options_.steps, options_.width);
+    Border border =
+        find_border(trial, known.exact > 0 ? known.exact : known.predicted.global, options_.steps, options_.width);
     // What moves fast at any step is not at rest, and has no border.
     if (!(border.calm > 0)) {
-      fmt::print("{:7} {:21} {:9} {:5.2f} f_SI {:5.2f} {:6}: not at rest at the beginning; does not count\n", named.kind, named.mesh, named.control.name(),
-                 named.control.coefficient, named.penalty_scale, named.precision);
+      fmt::print("{:7} {:21} {:9} {:5.2f} f_SI {:5.2f} {:6}: not at rest at the beginning; does not count\n",
+                 named.kind, named.mesh, named.control.name(), named.control.coefficient, named.penalty_scale,
+                 named.precision);
       ++restless_;
       return;
     }
     // Between the two the prediction itself is asked.
     const double predictions[3] = {known.predicted.element, known.predicted.eigenvalue, known.predicted.global};
     for (double step : predictions)
-      if (step > border.calm && step < border.wild) (trial.blows_up(step, options_.steps) ? border.wild : border.calm) = step;
+      if (step > border.calm && step < border.wild)
+        (trial.blows_up(step, options_.steps) ? border.wild : border.calm) = step;
     const double ratio[3] = {predictions[0] / border.calm, predictions[1] / border.calm, predictions[2] / border.calm};
-    fmt::print("{:7} {:21} {:9} {:5.2f} f_SI {:5.2f} {:6}: {:5} elements, border {:9.4g} s, exact/border {:6.3f}; predicted/border: element {:5.3f} "
-               "eigenvalue {:5.3f} global {:5.3f}; in twice the steps {:6.4f}; {} runs\n",
-               named.kind, named.mesh, named.control.name(), named.control.coefficient, named.penalty_scale, named.precision, model.element_count(),
-               border.calm, known.exact / border.calm, ratio[0], ratio[1], ratio[2], border.calm_in_twice / border.calm, trial.runs);
+    fmt::print(
+        "{:7} {:21} {:9} {:5.2f} f_SI {:5.2f} {:6}: {:5} elements, border {:9.4g} s, exact/border {:6.3f}; "
+        "predicted/border: element {:5.3f} "
+        "eigenvalue {:5.3f} global {:5.3f}; in twice the steps {:6.4f}; {} runs\n",
+        named.kind, named.mesh, named.control.name(), named.control.coefficient, named.penalty_scale, named.precision,
+        model.element_count(), border.calm, known.exact / border.calm, ratio[0], ratio[1], ratio[2],
+        border.calm_in_twice / border.calm, trial.runs);
     std::fflush(stdout);
-    records_.add().set("kind", named.kind).set("mesh", named.mesh).set("hourglass", named.control.name())
-        .set("coefficient", named.control.coefficient).set("penalty_scale", named.penalty_scale).set("precision", named.precision)
-        .set("elements", model.element_count()).set("calm", border.calm).set("wild", border.wild).set("exact", known.exact)
-        .set("element", predictions[0]).set("eigenvalue", predictions[1]).set("global", predictions[2])
-        .set("calm_in_twice", border.calm_in_twice).set("contact", model.stable_step.contact).set("runs", trial.runs);
+    records_.add()
+        .set("kind", named.kind)
+        .set("mesh", named.mesh)
+        .set("hourglass", named.control.name())
+        .set("coefficient", named.control.coefficient)
+        .set("penalty_scale", named.penalty_scale)
+        .set("precision", named.precision)
+        .set("elements", model.element_count())
+        .set("calm", border.calm)
+        .set("wild", border.wild)
+        .set("exact", known.exact)
+        .set("element", predictions[0])
+        .set("eigenvalue", predictions[1])
+        .set("global", predictions[2])
+        .set("calm_in_twice", border.calm_in_twice)
+        .set("contact", model.stable_step.contact)
+        .set("runs", trial.runs);
     for (double each : ratio) right_ = right_ && each <= 1;
     ++scenes_;
   }
 
   bool wanted(const Named& named) const {
-    return options_.only.empty() || fmt::format("{}/{}/{}/{}", named.kind, named.mesh, named.control.name(), named.precision).find(options_.only) != std::string::npos;
+    return options_.only.empty() ||
+           fmt::format("{}/{}/{}/{}", named.kind, named.mesh, named.control.name(), named.precision)
+                   .find(options_.only) != std::string::npos;
   }
   bool right() const { return right_; }
   int scenes() const { return scenes_; }
@@ -161,17 +182,22 @@ Known known_pressed(const Pressing& pressing, const Control& control, double sca
   if (control.type == scene::HourglassType::stiffness) {
     model.scene.settle.tolerance = 1e-7;
     model.scene.settle.friction = false;  // places are all that trials begin with: no shear is to be held
-    if (!settle(model, [](const SettleReport&) { return true; }).settled) fmt::print("{}: the blocks do not settle\n", pressing.name);
-  } else if (const double left = calm(model, 0.5 * std::fmin(model.stable_step.by_eigenvalues, model.stable_step.global), slow, 20000); !(left < 5 * slow)) {
+    if (!settle(model, [](const SettleReport&) { return true; }).settled)
+      fmt::print("{}: the blocks do not settle\n", pressing.name);
+  } else if (const double left =
+                 calm(model, 0.5 * std::fmin(model.stable_step.by_eigenvalues, model.stable_step.global), slow, 20000);
+             !(left < 5 * slow)) {
     fmt::print("{}: the blocks do not come to rest, {:.3g} m/s after {} steps\n", pressing.name, left, model.step);
   }
   renew_global_step(model);
   Known known{predicted_of(model), 0, {}};
-  known.positions = node_field(model, NodeField::position, [&] {
-                      std::vector<int> all(model.nodes.count);
-                      for (int n = 0; n < model.nodes.count; ++n) all[n] = n;
-                      return all;
-                    }()).values;
+  known.positions = node_field(model, NodeField::position,
+                               [&] {
+                                 std::vector<int> all(model.nodes.count);
+                                 for (int n = 0; n < model.nodes.count; ++n) all[n] = n;
+                                 return all;
+                               }())
+                        .values;
   return known;
 }
 
@@ -179,10 +205,13 @@ void contacts(Map& map) {
   for (const Pressing& pressing : pressings())
     for (double scale : {1.0, 0.1, 10.0})
       for (const Control& control : {all_controls[0], all_controls[1]}) {
-        if (map.options().smoke && (pressing.name != "tall elements" || scale != 1 || control.coefficient != 0.1)) continue;
-        const bool in_all_precisions = pressing.name == "matched" || pressing.name == "nodes between nodes" || pressing.name == "with friction";
+        if (map.options().smoke && (pressing.name != "tall elements" || scale != 1 || control.coefficient != 0.1))
+          continue;
+        const bool in_all_precisions =
+            pressing.name == "matched" || pressing.name == "nodes between nodes" || pressing.name == "with friction";
         Known known{};
-        for (const std::string& precision : scale == 1 && in_all_precisions ? precisions(map.options(), control) : std::vector<std::string>{"double"}) {
+        for (const std::string& precision : scale == 1 && in_all_precisions ? precisions(map.options(), control)
+                                                                            : std::vector<std::string>{"double"}) {
           const Named named{"contact", pressing.name, control, scale, precision};
           if (!map.wanted(named)) continue;
           if (known.positions.empty()) known = known_pressed(pressing, control, scale);
@@ -200,7 +229,8 @@ void contacts(Map& map) {
 
 void rolling(Map& map) {
   if (map.options().smoke) return;
-  const Named named{"rolling", map.options().full_rolling ? "cases/rolling.toml" : "cases/rolling.toml, short zone", all_controls[0], 1, "double"};
+  const Named named{"rolling", map.options().full_rolling ? "cases/rolling.toml" : "cases/rolling.toml, short zone",
+                    all_controls[0], 1, "double"};
   if (!map.wanted(named)) return;
   const auto scene = rolling_mesh_scene(map.options().full_rolling);
   Model model;
@@ -211,7 +241,8 @@ void rolling(Map& map) {
   set_initial_motion(model);
   renew_global_step(model);
   Kokkos::deep_copy(model.nodes.velocity, 0.0);
-  fmt::print("rolling: settled {} by {} evaluations; {} contact springs counted\n", report.settled, report.steps, model.stable_step.springs);
+  fmt::print("rolling: settled {} by {} evaluations; {} contact springs counted\n", report.settled, report.steps,
+             model.stable_step.springs);
   map.add(named, model, {predicted_of(model), 0, {}});
 }
 
@@ -220,7 +251,8 @@ bool work(const Options& options, Records& records) {
   bodies(map);
   contacts(map);
   rolling(map);
-  fmt::print("{} scenes, {} more not at rest; {}\n", map.scenes(), map.restless(), map.right() ? "no prediction is beyond the border" : "some prediction is beyond the border");
+  fmt::print("{} scenes, {} more not at rest; {}\n", map.scenes(), map.restless(),
+             map.right() ? "no prediction is beyond the border" : "some prediction is beyond the border");
   return map.right();
 }
 
@@ -234,7 +266,8 @@ int main(int argc, char** argv) {
       "stability", "The border of stability, observed against predicted", argc, argv,
       [&](CLI::App& app) {
         app.add_flag("--smoke", options.smoke, "two scenes, a few seconds");
-        app.add_flag("--full-rolling", options.full_rolling, "the rolling case as it is, 50 thousand elements, many minutes");
+        app.add_flag("--full-rolling", options.full_rolling,
+                     "the rolling case as it is, 50 thousand elements, many minutes");
         app.add_option("--steps", options.steps, "steps in which a growth must show");
         app.add_option("--width", options.width, "of the border, relative");
         app.add_option("--only", options.only, "scenes whose kind/mesh/hourglass/precision holds this");

@@ -22,8 +22,8 @@ struct Options {
 /// What is timed once and then compared with.
 struct Run {
   Options options;
-  double bandwidth = 0;           ///< bytes/s
-  double baseline_rate = 0;       ///< element-steps/s
+  double bandwidth = 0;      ///< bytes/s
+  double baseline_rate = 0;  ///< element-steps/s
   Records& records;
 };
 
@@ -31,15 +31,19 @@ Records::Row& report(Run& run, const std::string& what, const Choice& choice, do
                      const Timing& timing, double traffic) {
   const double rate = elements * static_cast<double>(steps) / timing.best();
   const double bytes = traffic / elements;
-  fmt::print("{:9} {:8} {:10} {:7} {:9.2f} M element-steps/s, {:6.1f} us a step, spread {:4.1f} %, {:5.0f} bytes each, "
-             "{:6.1f} GB/s, {:3.0f} % of the triad's",
-             what, choice.material, choice.hourglass, choice.precision, 1e-6 * rate, 1e6 * timing.best() / double(steps),
-             100 * timing.spread(), bytes, 1e-9 * bytes * rate, 100 * bytes * rate / run.bandwidth);
+  fmt::print(
+      "{:9} {:8} {:10} {:7} {:9.2f} M element-steps/s, {:6.1f} us a step, spread {:4.1f} %, {:5.0f} bytes each, "
+      "{:6.1f} GB/s, {:3.0f} % of the triad's",
+      what, choice.material, choice.hourglass, choice.precision, 1e-6 * rate, 1e6 * timing.best() / double(steps),
+      100 * timing.spread(), bytes, 1e-9 * bytes * rate, 100 * bytes * rate / run.bandwidth);
   if (what == "loop" && run.baseline_rate > 0) fmt::print(", {:.2f} times the baseline", rate / run.baseline_rate);
   fmt::print("\n");
   std::fflush(stdout);
   auto& row = run.records.add();
-  row.set("what", what).set("material", choice.material).set("hourglass", choice.hourglass).set("precision", choice.precision);
+  row.set("what", what)
+      .set("material", choice.material)
+      .set("hourglass", choice.hourglass)
+      .set("precision", choice.precision);
   row.set("elements", elements).set("steps", steps).set("repetitions", static_cast<int>(timing.seconds.size()));
   row.set("element_steps_per_second", rate).set("seconds_per_step", timing.best() / double(steps));
   row.set("spread", timing.spread()).set("median_seconds_per_step", timing.median() / double(steps));
@@ -83,8 +87,13 @@ void time_loop(Run& run, const Choice& choice) {
 
   for (const auto& [stage, seconds] : loop.stage_seconds(std::max(1L, steps))) {
     fmt::print("          {:8.1f} us  {}\n", 1e6 * seconds, stage);
-    run.records.add().set("what", "stage").set("stage", stage).set("material", choice.material)
-        .set("hourglass", choice.hourglass).set("precision", choice.precision).set("elements", elements)
+    run.records.add()
+        .set("what", "stage")
+        .set("stage", stage)
+        .set("material", choice.material)
+        .set("hourglass", choice.hourglass)
+        .set("precision", choice.precision)
+        .set("elements", elements)
         .set("seconds_per_step", seconds);
   }
 }
@@ -94,8 +103,11 @@ bool work(Run& run) {
   const Agreement agreement = compare_on_a_bar_wave();
   fmt::print("bar wave: product and baseline differ by {:.3f} %; from the exact solution by {:.2f} % and {:.2f} %\n",
              100 * agreement.difference, 100 * agreement.product_error, 100 * agreement.baseline_error);
-  run.records.add().set("what", "agreement").set("difference", agreement.difference)
-      .set("product_error", agreement.product_error).set("baseline_error", agreement.baseline_error);
+  run.records.add()
+      .set("what", "agreement")
+      .set("difference", agreement.difference)
+      .set("product_error", agreement.product_error)
+      .set("baseline_error", agreement.baseline_error);
 
   run.bandwidth = triad_bandwidth(std::max(3, run.options.repetitions), run.options.triad);
   fmt::print("triad: {:.1f} GB/s\n", 1e-9 * run.bandwidth);
@@ -104,7 +116,8 @@ bool work(Run& run) {
   for (const char* material : {"elastic", "bilinear"})
     for (const char* hourglass : {"viscous", "stiffness"})
       for (const char* precision : {"double", "mixed", "float"})
-        if (!run.options.only_double || std::string(precision) == "double") time_loop(run, {hourglass, precision, material});
+        if (!run.options.only_double || std::string(precision) == "double")
+          time_loop(run, {hourglass, precision, material});
   return agreement.difference < 0.01 && agreement.product_error < 0.05 && agreement.baseline_error < 0.05;
 }
 
@@ -117,7 +130,8 @@ int main(int argc, char** argv) {
   return run_program(
       "throughput", "Element-steps a second of the time loop on a block of hexahedra", argc, argv,
       [&](CLI::App& app) {
-        app.add_option("--elements", options.elements, "about how many (default: 262144 on a host, 4096000 on a device)");
+        app.add_option("--elements", options.elements,
+                       "about how many (default: 262144 on a host, 4096000 on a device)");
         app.add_option("--steps", options.steps, "steps a repetition (default: as many as take --seconds)");
         app.add_option("--seconds", options.seconds, "wall seconds a repetition");
         app.add_option("--repetitions", options.repetitions, "timed repetitions");

@@ -1,5 +1,5 @@
-// Run time against error on problems whose solution is known: by element size, precision, step rule, subcycling, hourglass
-// control and penalty scale.
+// Run time against error on problems whose solution is known: by element size, precision, step rule, subcycling,
+// hourglass control and penalty scale.
 
 #include "benchmarks/common/program.hpp"
 #include "benchmarks/problems/bar_wave.hpp"
@@ -20,9 +20,9 @@ struct Options {
 struct Problem {
   std::string name;
   Outcome (*solve)(double, const Method&);
-  std::vector<double> sizes;   ///< m, coarse to fine
+  std::vector<double> sizes;  ///< m, coarse to fine
   bool contact;
-  double allowed;              ///< error at the coarsest size with the program's own settings
+  double allowed;  ///< error at the coarsest size with the program's own settings
 };
 
 std::vector<Problem> problems(const Options& options) {
@@ -102,19 +102,29 @@ bool solve(const Options& options, const Problem& problem, double size, const Me
     return true;  // not in this build
   }
   const bool multiplier = method.contact == scene::ContactAlgorithm::multiplier;
-  fmt::print("{:14} {:6.4f} mm {:6} {:10} {:4.2f} {:9} {:4.2f} {}{}: {:7} elements {:6} steps {:8.3f} s  error {:8.4f} %",
-             problem.name, 1e3 * size, method.choice.precision, method.step_rule, method.step_scale, method.choice.hourglass,
-             method.hourglass_coefficient, multiplier ? "multiplier" : fmt::format("f_SI {:3.1f}", method.penalty_scale), method.subcycling ? " subcycled" : "", best.elements, best.steps,
-             best.seconds, 100 * best.error);
+  fmt::print(
+      "{:14} {:6.4f} mm {:6} {:10} {:4.2f} {:9} {:4.2f} {}{}: {:7} elements {:6} steps {:8.3f} s  error {:8.4f} %",
+      problem.name, 1e3 * size, method.choice.precision, method.step_rule, method.step_scale, method.choice.hourglass,
+      method.hourglass_coefficient, multiplier ? "multiplier" : fmt::format("f_SI {:3.1f}", method.penalty_scale),
+      method.subcycling ? " subcycled" : "", best.elements, best.steps, best.seconds, 100 * best.error);
   for (const auto& [name, value] : best.details) fmt::print("  {} {:.4g}", name, value);
   fmt::print("\n");
   std::fflush(stdout);
   auto& row = records.add();
-  row.set("problem", problem.name).set("element_size", size).set("precision", method.choice.precision)
-      .set("step_rule", method.step_rule).set("step_scale", method.step_scale).set("hourglass", method.choice.hourglass)
-      .set("hourglass_coefficient", method.hourglass_coefficient).set("penalty_scale", method.penalty_scale)
-      .set("contact", multiplier ? "multiplier" : "penalty").set("subcycling", method.subcycling ? 1 : 0)
-      .set("elements", best.elements).set("steps", best.steps).set("seconds", best.seconds).set("error", best.error);
+  row.set("problem", problem.name)
+      .set("element_size", size)
+      .set("precision", method.choice.precision)
+      .set("step_rule", method.step_rule)
+      .set("step_scale", method.step_scale)
+      .set("hourglass", method.choice.hourglass)
+      .set("hourglass_coefficient", method.hourglass_coefficient)
+      .set("penalty_scale", method.penalty_scale)
+      .set("contact", multiplier ? "multiplier" : "penalty")
+      .set("subcycling", method.subcycling ? 1 : 0)
+      .set("elements", best.elements)
+      .set("steps", best.steps)
+      .set("seconds", best.seconds)
+      .set("error", best.error);
   for (const auto& [name, value] : best.details) row.set(name, value);
   return std::isfinite(best.error) && (method.choice.precision != "double" || best.error < problem.allowed);
 }

@@ -4,31 +4,32 @@
 
 namespace railwave {
 
-/// Straight elastic beams that shear, bend and twist, each of two nodes with a rotation of their own (the Hughes-Liu beam of
-/// thesis 3.3.3, its section integrated beforehand). One integration point, in the middle: of the nodes' rotations Q_a, Q_b
-/// and places x_a, x_b, with Q the rotation half-way between,
+/// Straight elastic beams that shear, bend and twist, each of two nodes with a rotation of their own (the Hughes-Liu
+/// beam of thesis 3.3.3, its section integrated beforehand). One integration point, in the middle: of the nodes'
+/// rotations Q_a, Q_b and places x_a, x_b, with Q the rotation half-way between,
 ///   stretch and shears  Gamma = Q^T (x_b - x_a) / L - e_1,   twist and curvatures  kappa = log(Q_a^T Q_b) / L,
-/// and the energy L/2 (Gamma . C_N Gamma + kappa . C_M kappa), whose derivatives are the forces and moments: without history,
-/// free of stress in any rigid motion, energy and both momenta kept. See Simo & Vu-Quoc 1986, Crisfield & Jelenic 1999. The
-/// shear stiffnesses hold the bending inside an element (MacNeal 1978), so that one element bends as exactly as many.
+/// and the energy L/2 (Gamma . C_N Gamma + kappa . C_M kappa), whose derivatives are the forces and moments: without
+/// history, free of stress in any rigid motion, energy and both momenta kept. See Simo & Vu-Quoc 1986, Crisfield &
+/// Jelenic 1999. The shear stiffnesses hold the bending inside an element (MacNeal 1978), so that one element bends as
+/// exactly as many.
 struct BeamArrays {
   static constexpr int most_moments = 16;  ///< moments on beam nodes in a scene
 
-  int count = 0;                      ///< elements
-  int node_count = 0;                 ///< nodes at which they end
-  int moment_count = 0;               ///< moments from outside
-  int first = 0;                      ///< contribution of the first element's first end; the others follow
+  int count = 0;         ///< elements
+  int node_count = 0;    ///< nodes at which they end
+  int moment_count = 0;  ///< moments from outside
+  int first = 0;         ///< contribution of the first element's first end; the others follow
 
   // By element.
-  Array<int* [2]> end;                ///< beam nodes
-  Array<double* [3][3]> axes;         ///< rows: along it, across, and along the section's height, before the run
-  Array<double*> length;              ///< m
-  Array<double* [3]> stiffness;       ///< N: axial, shear along the second and third axis
-  Array<double* [3]> bending;         ///< N m2: torsion, bending about the second and third axis
-  Array<double*> stretch;             ///< at which it has no axial force
-  Array<double*> pretension;          ///< N
-  Array<int*> tightened;              ///< 0: it has no pretension; of a bolt's elements the `holding` one has it while the scene
-                                      ///< settles whatever its stretch, the others begin with it
+  Array<int* [2]> end;           ///< beam nodes
+  Array<double* [3][3]> axes;    ///< rows: along it, across, and along the section's height, before the run
+  Array<double*> length;         ///< m
+  Array<double* [3]> stiffness;  ///< N: axial, shear along the second and third axis
+  Array<double* [3]> bending;    ///< N m2: torsion, bending about the second and third axis
+  Array<double*> stretch;        ///< at which it has no axial force
+  Array<double*> pretension;     ///< N
+  Array<int*> tightened;  ///< 0: it has no pretension; of a bolt's elements the `holding` one has it while the scene
+                          ///< settles whatever its stretch, the others begin with it
   static constexpr int holding = 1, beginning = 2;
 
   // By beam node.
@@ -41,10 +42,10 @@ struct BeamArrays {
   Array<int*> first_moment;           ///< node_count + 1
   Array<int*> moment_of_node;         ///< rows of `moment`
 
-  Array<double* [3]> moment;          ///< N m, on each end of each element (2 e, 2 e + 1), then those from outside
-  Array<int*> loaded;                 ///< beam node of each of these
-  Array<double* [3]> moment_axis;     ///< unit
-  Array<double*> work;                ///< J, done so far by each
+  Array<double* [3]> moment;       ///< N m, on each end of each element (2 e, 2 e + 1), then those from outside
+  Array<int*> loaded;              ///< beam node of each of these
+  Array<double* [3]> moment_axis;  ///< unit
+  Array<double*> work;             ///< J, done so far by each
 };
 
 /// What a beam's element has in its middle.
@@ -87,8 +88,8 @@ KOKKOS_INLINE_FUNCTION BeamMiddle beam_middle(const BeamArrays& beams, const Arr
 
 /// What an element does to its ends.
 struct BeamEnds {
-  Vector3 force;               ///< N, on the first end; the opposite on the second
-  Vector3 moment[2];           ///< N m
+  Vector3 force;      ///< N, on the first end; the opposite on the second
+  Vector3 moment[2];  ///< N m
 };
 
 /// A sum of the element's axes.
@@ -99,19 +100,21 @@ KOKKOS_INLINE_FUNCTION Vector3 along_axes(const BeamArrays& beams, int e, const 
   return sum;
 }
 
-/// With c = N x D, D the arm turned back, p = tan(angle/4) n and H = s I + (1 - s) n n^T, the derivatives by the ends' spins
-/// are (c -+ c x p) / 2 +- H M, all turned with the middle: linear in the section's force N and moment M.
-KOKKOS_INLINE_FUNCTION BeamEnds beam_ends(const BeamArrays& beams, int e, const BeamMiddle& m, const Vector3& force, const Vector3& moment) {
+/// With c = N x D, D the arm turned back, p = tan(angle/4) n and H = s I + (1 - s) n n^T, the derivatives by the ends'
+/// spins are (c -+ c x p) / 2 +- H M, all turned with the middle: linear in the section's force N and moment M.
+KOKKOS_INLINE_FUNCTION BeamEnds beam_ends(const BeamArrays& beams, int e, const BeamMiddle& m, const Vector3& force,
+                                          const Vector3& moment) {
   const Vector3 N = along_axes(beams, e, force), M = along_axes(beams, e, moment);
   const double squared = dot(m.axis, m.axis);
   const double share = squared > 1e-8 ? (1 - m.spread) / squared : -1.0 / 6;
   const Vector3 bent = m.spread * M + (share * dot(m.axis, M)) * m.axis;
   const Vector3 lever = cross(N, m.arm), across = cross(lever, m.half);
-  return {turned(m.turn, N), {turned(m.turn, bent - 0.5 * (lever + across)), turned(m.turn, -1.0 * bent - 0.5 * (lever - across))}};
+  return {turned(m.turn, N),
+          {turned(m.turn, bent - 0.5 * (lever + across)), turned(m.turn, -1.0 * bent - 0.5 * (lever - across))}};
 }
 
-/// Forces on the ends' nodes (contributions) and moments on their rotations; behind the elements come the moments from outside,
-/// whose work since the last step is booked by the trapezoidal rule.
+/// Forces on the ends' nodes (contributions) and moments on their rotations; behind the elements come the moments from
+/// outside, whose work since the last step is booked by the trapezoidal rule.
 struct BeamForce {
   BeamArrays beams;
   Array<const double* [3]> position;
@@ -121,8 +124,10 @@ struct BeamForce {
   double given[BeamArrays::most_moments] = {};  ///< N m, now
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    if (i < beams.count) element(i);
-    else moment_from_outside(i - beams.count);
+    if (i < beams.count)
+      element(i);
+    else
+      moment_from_outside(i - beams.count);
   }
 
   KOKKOS_INLINE_FUNCTION void element(int e) const {

@@ -5,16 +5,19 @@
 
 namespace railwave {
 
-/// Angular acceleration of a beam node: moments gathered in fixed order, directions about which it is held taken out. Its
-/// inertia is the same about all axes, so that there is no gyroscopic term.
+/// Angular acceleration of a beam node: moments gathered in fixed order, directions about which it is held taken out.
+/// Its inertia is the same about all axes, so that there is no gyroscopic term.
 struct BeamNodeMoment {
   BeamArrays beams;
 
-  KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& x) const { return projected(beams.projections, beams.constraint(n), x); }
+  KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& x) const {
+    return projected(beams.projections, beams.constraint(n), x);
+  }
 
   KOKKOS_INLINE_FUNCTION Vector3 moment(int n) const {
     Vector3 sum{{0, 0, 0}};
-    for (int k = beams.first_moment(n); k < beams.first_moment(n + 1); ++k) sum = sum + row(beams.moment, beams.moment_of_node(k));
+    for (int k = beams.first_moment(n); k < beams.first_moment(n + 1); ++k)
+      sum = sum + row(beams.moment, beams.moment_of_node(k));
     return free(n, sum);
   }
 
@@ -82,7 +85,8 @@ struct BeamRelaxationSums {
     sum[0] += inertia(n) * dot(row(beams.spin, n), row(beams.spin, n));
     sum[1] += norm(node.moment(n)) / arm(n);
     for (int k = beams.first_moment(n); k < beams.first_moment(n + 1); ++k)
-      if (beams.moment_of_node(k) >= 2 * beams.count) sum[2] += norm(row(beams.moment, beams.moment_of_node(k))) / arm(n);
+      if (beams.moment_of_node(k) >= 2 * beams.count)
+        sum[2] += norm(row(beams.moment, beams.moment_of_node(k))) / arm(n);
   }
 };
 

@@ -4,16 +4,16 @@
 
 namespace railwave {
 
-/// Beams as springs about their present places, which is what their forces answer small motions with but for terms of the
-/// order of moments over stiffness: one for each strain of the element's middle, stretched by what the ends' displacements and
-/// spins do to L Gamma or L kappa; and where it is pulled, N / L across it, as of a string.
+/// Beams as springs about their present places, which is what their forces answer small motions with but for terms of
+/// the order of moments over stiffness: one for each strain of the element's middle, stretched by what the ends'
+/// displacements and spins do to L Gamma or L kappa; and where it is pulled, N / L across it, as of a string.
 struct BeamTangent {
-  static constexpr int springs = 8;    ///< of an element: three of force, three of moment, two of the string
-  static constexpr int ends = 4;       ///< rows of a spring: first and second node, first and second rotation
+  static constexpr int springs = 8;  ///< of an element: three of force, three of moment, two of the string
+  static constexpr int ends = 4;     ///< rows of a spring: first and second node, first and second rotation
 
   BeamArrays beams;
   Array<const double* [3]> position;
-  bool held;                           ///< the scene settles, see beam_middle
+  bool held;  ///< the scene settles, see beam_middle
   Array<double* [springs][ends][3]> share;
   Array<double* [springs]> stiffness;  ///< N/m, N m; 0: no such spring
 
@@ -36,7 +36,8 @@ struct BeamTangent {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void lay(int e, int s, const Vector3& force, const Vector3& first, const Vector3& second) const {
+  KOKKOS_INLINE_FUNCTION void lay(int e, int s, const Vector3& force, const Vector3& first,
+                                  const Vector3& second) const {
     for (int k = 0; k < 3; ++k) {
       share(e, s, 0, k) = force[k];
       share(e, s, 1, k) = -force[k];

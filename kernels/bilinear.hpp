@@ -5,8 +5,8 @@
 
 namespace railwave {
 
-/// Elastic up to a yield stress, then linear isotropic hardening (kernels/plastic_flow.hpp). A batch in which no element
-/// has ever yielded pays for one value and a yield test; one in which none yields now, for no update.
+/// Elastic up to a yield stress, then linear isotropic hardening (kernels/plastic_flow.hpp). A batch in which no
+/// element has ever yielded pays for one value and a yield test; one in which none yields now, for no update.
 struct Bilinear {
   static constexpr int history_values = 7;
 
@@ -34,12 +34,15 @@ struct Bilinear {
   }
 
   template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const OfPatch<S>& patch) { return patch.constants.elastic; }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const OfPatch<S>& patch) {
+    return patch.constants.elastic;
+  }
 
   /// Takes the plastic part from the Almansi strain e, with the history as it stands.
   /// @param K I - H: the inverse deformation gradient but for the turn left out, G = R^T K
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const OfPatch<S>& patch, int batch, const T (&K)[3][3],
+                                                      T (&e)[6]) const {
     if (!any_lane(load_history<S>(value<S>(batch, 6)) > S(0))) return;
     T G[3][3], plastic[6], share[6];
     inverse_gradient<S>(patch, K, G);
@@ -50,7 +53,8 @@ struct Bilinear {
 
   /// Kirchhoff stress at the present instant, with the flow that leads to it, Pa.
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6], T (&tau)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+                                          T (&tau)[6]) const {
     T h[6], s[6];
     leave_elastic_part<S>(patch, batch, K, e);
     hencky_strain(e, h);
@@ -66,8 +70,9 @@ struct Bilinear {
   /// @param s relative to the yield surface's centre; @param lost result: what the Hencky strain lost
   /// @tparam Coaxial s has the principal axes of e
   template <class S, bool Coaxial, class T, class Mask>
-  KOKKOS_FORCEINLINE_FUNCTION void flow(const OfPatch<S>& patch, int batch, const T (&K)[3][3], const T (&e)[6], const Mask& yields,
-                                   const T (&s)[6], const T& mises_square, const T& limit, T (&tau)[6], T (&lost)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void flow(const OfPatch<S>& patch, int batch, const T (&K)[3][3], const T (&e)[6],
+                                        const Mask& yields, const T (&s)[6], const T& mises_square, const T& limit,
+                                        T (&tau)[6], T (&lost)[6]) const {
     T G[3][3], plastic[6], increment[6];
     const T equivalent = radial_return<S>(patch.constants, yields, s, mises_square, limit, tau, lost);
     inverse_gradient<S>(patch, K, G);
@@ -93,7 +98,8 @@ struct Bilinear {
       for (int j = 0; j < 3; ++j) {
         if constexpr (sizeof(S) < sizeof(double))
           G[i][j] = patch.turn[0][i] * K[0][j] + patch.turn[1][i] * K[1][j] + patch.turn[2][i] * K[2][j];
-        else G[i][j] = K[i][j];
+        else
+          G[i][j] = K[i][j];
       }
   }
 };

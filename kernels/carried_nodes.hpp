@@ -29,10 +29,10 @@ struct alignas(16) CarriedArm {
 /// What a group's patches need of nodes in single precision.
 struct CarriedArrays {
   Array<CarriedNode*> node;
-  Array<const float*> local;       ///< m, X - the patch's point: by patch and component, `node_stride` values each
-  Array<const CarriedArm*> arm;    ///< by patch, of its point
+  Array<const float*> local;     ///< m, X - the patch's point: by patch and component, `node_stride` values each
+  Array<const CarriedArm*> arm;  ///< by patch, of its point
   Array<const CarrierStep*> steps;
-  int first = 0;                   ///< of the present step's carriers
+  int first = 0;  ///< of the present step's carriers
 
   KOKKOS_FORCEINLINE_FUNCTION const CarrierStep& carrier(int c) const { return steps(first + c); }
 };
@@ -73,8 +73,8 @@ struct CarriedAdvance {
   }
 };
 
-/// ListedNodeUpdate for nodes in single precision. Those that extra forces or constraints concern get their positions and
-/// velocities in double precision too: contact, loads and connectors know no other.
+/// ListedNodeUpdate for nodes in single precision. Those that extra forces or constraints concern get their positions
+/// and velocities in double precision too: contact, loads and connectors know no other.
 struct CarriedListedUpdate {
   NodalAcceleration acceleration;
   CarriedAdvance advance;

@@ -5,13 +5,13 @@
 
 namespace railwave {
 
-/// A patch's nodes in scratch memory where they are kept in single precision: displacements are what the carrier leaves,
-/// positions are told from the patch's own point.
+/// A patch's nodes in scratch memory where they are kept in single precision: displacements are what the carrier
+/// leaves, positions are told from the patch's own point.
 template <bool WithVelocity, bool WithMass>
 struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   float* position;
   float* displacement;
-  float* velocity;      ///< m/s, but for that of the patch's point, which deforms nothing
+  float* velocity;  ///< m/s, but for that of the patch's point, which deforms nothing
   float* inverse_mass;
   int stride;
 
@@ -28,7 +28,8 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   }
 
   /// The turn that displacements leave out.
-  KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const PatchArrays& /*patches*/, int p, const CarriedArrays& nodes) {
+  KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const PatchArrays& /*patches*/, int p,
+                                                                const CarriedArrays& nodes) {
     return nodes.carrier(nodes.arm(p).carrier).turn;
   }
 
@@ -36,13 +37,15 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
     CarriedNode node;
     float local[3];
 
-    KOKKOS_FORCEINLINE_FUNCTION Fetched(const CarriedArrays& nodes, int n, const float* local_, int stride, int l) : node(nodes.node(n)) {
+    KOKKOS_FORCEINLINE_FUNCTION Fetched(const CarriedArrays& nodes, int n, const float* local_, int stride, int l)
+        : node(nodes.node(n)) {
       for (int i = 0; i < 3; ++i) local[i] = local_[i * stride + l];
     }
   };
 
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p, const CarriedArrays& nodes) const {
+  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p,
+                                    const CarriedArrays& nodes) const {
     const int* number = patches.node.data() + static_cast<long>(p) * stride;
     const float* local = nodes.local.data() + static_cast<long>(p) * 3 * stride;
     const CarrierStep& carrier = nodes.carrier(nodes.arm(p).carrier);
@@ -50,7 +53,8 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
       // Two nodes at a time: see the staging of nodes in double precision.
       const int last = stride - 1, l = team.team_rank() < last ? team.team_rank() : last;
       const int m = l + team.team_size() < last ? l + team.team_size() : last;
-      const Fetched first(nodes, number[l] & ~advance_bit, local, stride, l), second(nodes, number[m] & ~advance_bit, local, stride, m);
+      const Fetched first(nodes, number[l] & ~advance_bit, local, stride, l),
+          second(nodes, number[m] & ~advance_bit, local, stride, m);
       put(l, first, carrier);
       put(m, second, carrier);
     } else {
@@ -60,7 +64,8 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
 
   KOKKOS_FORCEINLINE_FUNCTION void put(int l, const Fetched& fetched, const CarrierStep& carrier) const {
     float turned[3];
-    for (int i = 0; i < 3; ++i) turned[i] = product(carrier.turn, i, fetched.local[0], fetched.local[1], fetched.local[2]);
+    for (int i = 0; i < 3; ++i)
+      turned[i] = product(carrier.turn, i, fetched.local[0], fetched.local[1], fetched.local[2]);
     for (int i = 0; i < 3; ++i) {
       displacement[i * stride + l] = fetched.node.displacement[i];
       position[i * stride + l] = turned[i] + fetched.node.displacement[i];
@@ -71,7 +76,8 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   }
 
   /// The same for all nodes of a host's patch: what follows the fetching goes a pack at a time.
-  KOKKOS_INLINE_FUNCTION void put_all(const int* number, const float* local, const CarriedArrays& nodes, const CarrierStep& carrier) const {
+  KOKKOS_INLINE_FUNCTION void put_all(const int* number, const float* local, const CarriedArrays& nodes,
+                                      const CarrierStep& carrier) const {
     const int count = stride;
     float *const x = position, *const d = displacement;
     [[maybe_unused]] float* const v = velocity;
@@ -97,7 +103,8 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   }
 
   /// Moves a node under a force, N.
-  KOKKOS_FORCEINLINE_FUNCTION void advance(const CarriedAdvance& nodes, int p, int n, int l, const Vector3& force) const {
+  KOKKOS_FORCEINLINE_FUNCTION void advance(const CarriedAdvance& nodes, int p, int n, int l,
+                                           const Vector3& force) const {
     const CarriedArm origin = nodes.nodes.arm(p);
     const CarrierStep& carrier = nodes.nodes.carrier(origin.carrier);
     float a[3], arm[3];
@@ -109,13 +116,14 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
     nodes.move(n, a, carrier.change, arm);
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void modes(const float* component, const BatchCorners<float>& corners, Pack<float> (&m)[7]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void modes(const float* component, const BatchCorners<float>& corners,
+                                         Pack<float> (&m)[7]) const {
     corner_modes(component, corners, m);
   }
 };
 
-/// Moves the nodes that are a patch's alone under forces that it has left in the partial ones, to the very bit as PatchForce
-/// would have moved them.
+/// Moves the nodes that are a patch's alone under forces that it has left in the partial ones, to the very bit as
+/// PatchForce would have moved them.
 struct CarriedPatchUpdate {
   PatchArrays patches;
   CarriedAdvance nodes;

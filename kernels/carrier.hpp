@@ -3,10 +3,11 @@
 #include "kernels/vector3.hpp"
 
 /// Carriers: rigid motions that go on for ever, each at a constant velocity and a constant angular velocity. Nodes in
-/// single precision are told from one: x_n = c_n + R_n (X - c_0) + d_n, v = the carrier's + w. What remains, d and w, is
-/// small, so that single precision suffices for it, and the scheme for x is the central difference as ever:
+/// single precision are told from one: x_n = c_n + R_n (X - c_0) + d_n, v = the carrier's + w. What remains, d and w,
+/// is small, so that single precision suffices for it, and the scheme for x is the central difference as ever:
 ///   w_(n+1/2) = w_(n-1/2) + (velocity step) a - M_n R_n (X - c_0),   d_(n+1) = d_n + step w_(n+1/2),
-/// where M_n R_n (X - c_0) is by how much the carrier's own velocity changes from half a step before to half a step after.
+/// where M_n R_n (X - c_0) is by how much the carrier's own velocity changes from half a step before to half a step
+/// after.
 namespace railwave {
 
 /// Rows of a 3 by 3 matrix.
@@ -31,18 +32,17 @@ KOKKOS_INLINE_FUNCTION Matrix3<double> operator*(const Matrix3<double>& m, const
 }
 
 struct CarrierMotion {
-  Vector3 axis{{0, 0, 1}};       ///< of unit length
-  double speed = 0;              ///< rad/s
-  Vector3 centre{{0, 0, 0}};     ///< m, c_0
-  Vector3 velocity{{0, 0, 0}};   ///< m/s, of the centre
+  Vector3 axis{{0, 0, 1}};      ///< of unit length
+  double speed = 0;             ///< rad/s
+  Vector3 centre{{0, 0, 0}};    ///< m, c_0
+  Vector3 velocity{{0, 0, 0}};  ///< m/s, of the centre
 
-  /// s K + c K^2, where K x = axis x x. The turn by an angle is I + this with s its sine and c twice the squared sine of
-  /// its half, which loses no digits at the tiny angle of a step.
+  /// s K + c K^2, where K x = axis x x. The turn by an angle is I + this with s its sine and c twice the squared sine
+  /// of its half, which loses no digits at the tiny angle of a step.
   KOKKOS_INLINE_FUNCTION Matrix3<double> form(double s, double c) const {
     const double x = axis[0], y = axis[1], z = axis[2];
-    return {{c * (x * x - 1), c * x * y - s * z, c * x * z + s * y,
-             c * x * y + s * z, c * (y * y - 1), c * y * z - s * x,
-             c * x * z - s * y, c * y * z + s * x, c * (z * z - 1)}};
+    return {{c * (x * x - 1), c * x * y - s * z, c * x * z + s * y, c * x * y + s * z, c * (y * y - 1),
+             c * y * z - s * x, c * x * z - s * y, c * y * z + s * x, c * (z * z - 1)}};
   }
 
   KOKKOS_INLINE_FUNCTION Matrix3<double> turn(double time) const {
@@ -70,9 +70,9 @@ struct CarrierMotion {
 
 /// A carrier at an instant, with its velocity half a step before.
 struct CarrierInstant {
-  Matrix3<double> turn, rate;   ///< R_n; of arms X - c_0 as they were at the start, 1/s
-  Vector3 now, before;          ///< m: c_n, c_0
-  Vector3 velocity;             ///< m/s
+  Matrix3<double> turn, rate;  ///< R_n; of arms X - c_0 as they were at the start, 1/s
+  Vector3 now, before;         ///< m: c_n, c_0
+  Vector3 velocity;            ///< m/s
 
   KOKKOS_INLINE_FUNCTION Vector3 position(const Vector3& X) const { return now + turn * (X - before); }
   KOKKOS_INLINE_FUNCTION Vector3 velocity_of(const Vector3& X) const { return velocity + rate * (X - before); }
@@ -85,11 +85,11 @@ KOKKOS_INLINE_FUNCTION CarrierInstant carrier_at(const CarrierMotion& motion, do
 
 /// What a step needs of a carrier.
 struct alignas(16) CarrierStep {
-  Matrix3<float> turn;      ///< R_n
-  Matrix3<float> rate;      ///< over the step before, of turned arms, 1/s
-  Matrix3<float> change;    ///< M_n, of turned arms, 1/s
+  Matrix3<float> turn;             ///< R_n
+  Matrix3<float> rate;             ///< over the step before, of turned arms, 1/s
+  Matrix3<float> change;           ///< M_n, of turned arms, 1/s
   Matrix3<float> change_at_start;  ///< the same, M_n R_n, of arms as they were at the start
-  CarrierInstant next;      ///< at t_(n+1), with the velocity of t_(n+1/2)
+  CarrierInstant next;             ///< at t_(n+1), with the velocity of t_(n+1/2)
 };
 
 /// Works out the steps of a block: value k carriers + c is that of carrier c at the block's step k.
@@ -115,7 +115,10 @@ struct LayCarrierSteps {
     for (int j = 0; j < 9; ++j) change.a[j] = after.a[j] - before.a[j];
     const double now = time + k * step, then = time + (k + 1) * step;
     const Matrix3<double> turn = own.turn(now);
-    steps(i) = {rounded(turn), rounded(before), rounded(change), rounded(change * turn),
+    steps(i) = {rounded(turn),
+                rounded(before),
+                rounded(change),
+                rounded(change * turn),
                 {own.turn(then), after * turn, own.centre_at(then), own.centre, own.velocity}};
   }
 };

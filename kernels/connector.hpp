@@ -7,14 +7,14 @@ namespace railwave {
 /// Linear spring and dashpot along three axes between the mean motions of two sets; set -1 is the ground.
 struct ConnectorArrays {
   int count = 0;
-  Array<int* [2]> set;               ///< from, to
-  Array<double* [3]> rest;           ///< m, position of `to` relative to `from` before the run
-  Array<double* [3][3]> axes;        ///< rows: unit vectors
-  Array<double* [3]> stiffness;      ///< N/m along the axes
-  Array<double* [3]> damping;        ///< N s/m
-  Array<double* [3]> preload;        ///< N on `to` at rest, global axes
-  Array<double* [3]> force;          ///< N on `to`
-  Array<double* [2]> energy;         ///< J: stored (spring, and potential of the preload), dissipated so far
+  Array<int* [2]> set;           ///< from, to
+  Array<double* [3]> rest;       ///< m, position of `to` relative to `from` before the run
+  Array<double* [3][3]> axes;    ///< rows: unit vectors
+  Array<double* [3]> stiffness;  ///< N/m along the axes
+  Array<double* [3]> damping;    ///< N s/m
+  Array<double* [3]> preload;    ///< N on `to` at rest, global axes
+  Array<double* [3]> force;      ///< N on `to`
+  Array<double* [2]> energy;     ///< J: stored (spring, and potential of the preload), dissipated so far
 };
 
 struct ConnectorForce {

@@ -17,45 +17,45 @@ struct alignas(16) Segment {
 };
 
 /// A corner at the mouth of a crack, slot or gap that is crossed: half of a node of this lip, half of the place of the
-/// other lip that is nearest, between two nodes. Both lips meet there, so that the surface goes on from one to the other
-/// without a step, what presses there presses on both, and no energy is lost over the mouth.
+/// other lip that is nearest, between two nodes. Both lips meet there, so that the surface goes on from one to the
+/// other without a step, what presses there presses on both, and no energy is lost over the mouth.
 struct alignas(16) MouthCorner {
   static constexpr int pieces = 3;
-  int node[pieces];       ///< of the model: of this lip, then two of the other
-  int master[pieces];     ///< the same as master nodes
-  double share[pieces];   ///< where the lips are together: one half; what the other two have of the other half
-  double widest;          ///< m; from that to twice that between the lips, the corner goes back to its node
+  int node[pieces];      ///< of the model: of this lip, then two of the other
+  int master[pieces];    ///< the same as master nodes
+  double share[pieces];  ///< where the lips are together: one half; what the other two have of the other half
+  double widest;         ///< m; from that to twice that between the lips, the corner goes back to its node
 };
 
 /// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of
 /// sixteen leaves, in an order in which neighbours are near each other. They hold until the next look.
 struct SegmentBoxes {
   static constexpr int leaf_size = 8, branch_size = 16;
-  Array<int*> order;            ///< of the segments
-  Array<double* [6]> segment;   ///< m, the least of x, y, z, then the largest; by place in the order
+  Array<int*> order;           ///< of the segments
+  Array<double* [6]> segment;  ///< m, the least of x, y, z, then the largest; by place in the order
   Array<double* [6]> leaf;
   Array<double* [6]> branch;
-  Array<double* [3]> normal;    ///< outward unit normals of the segments' middles at the last look; by place in the order
+  Array<double* [3]> normal;  ///< outward unit normals of the segments' middles at the last look; by place in the order
 
   KOKKOS_INLINE_FUNCTION int segment_count() const { return static_cast<int>(segment.extent(0)); }
   KOKKOS_INLINE_FUNCTION int leaf_count() const { return static_cast<int>(leaf.extent(0)); }
   KOKKOS_INLINE_FUNCTION int branch_count() const { return static_cast<int>(branch.extent(0)); }
 };
 
-/// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes have a numbering of their
-/// own; `master_nodes` and `slave_nodes` lead to the model's.
+/// One contact pair: the slave's nodes against the master's segments (thesis 2.6). Master nodes have a numbering of
+/// their own; `master_nodes` and `slave_nodes` lead to the model's.
 struct ContactArrays {
   int slave_count = 0, master_count = 0, segment_count = 0;
   double friction = 0;
   Array<int*> slave_nodes;
   Array<int*> master_nodes;
-  Array<int* [4]> segments;            ///< master node numbers, turned outwards
-  Array<int*> first_segment;           ///< master_count + 1
-  Array<int*> segment_of_node;         ///< segments around a master node
-  Array<Segment*> surface;             ///< the same segments by model node numbers, with their neighbours
+  Array<int* [4]> segments;     ///< master node numbers, turned outwards
+  Array<int*> first_segment;    ///< master_count + 1
+  Array<int*> segment_of_node;  ///< segments around a master node
+  Array<Segment*> surface;      ///< the same segments by model node numbers, with their neighbours
   Array<MouthCorner*> mouth_corners;
   SegmentBoxes boxes;
-  Array<double*> segment_stiffness;    ///< N/m, eq. 2.26d
+  Array<double*> segment_stiffness;  ///< N/m, eq. 2.26d
 
   /// A corner's node; at a mouth that of its own lip.
   KOKKOS_INLINE_FUNCTION int node_of(int corner) const {
@@ -63,16 +63,16 @@ struct ContactArrays {
   }
 
   /// What the pair does now, by slave node.
-  Array<int*> tracked;                 ///< segment that the node was last seen over, touched or not; -1: none yet
-  Array<double* [2]> place;            ///< xi, eta on the tracked segment
-  Array<int*> status;                  ///< 0: apart, 1: sticks, 2: slips
-  Array<double*> gap;                  ///< m, negative: penetration; as old as the last look where the node is far;
-                                       ///< beside_surface, turned_away
-  Array<double*> entry_depth;          ///< m: how deep the node was when it came in beside an open surface; its gap
-                                       ///< counts from there
-  Array<double* [3]> normal_force;     ///< N on the slave
-  Array<double* [3]> tangential_force; ///< N on the slave
-  Array<double*> friction_energy;      ///< J dissipated so far
+  Array<int*> tracked;                  ///< segment that the node was last seen over, touched or not; -1: none yet
+  Array<double* [2]> place;             ///< xi, eta on the tracked segment
+  Array<int*> status;                   ///< 0: apart, 1: sticks, 2: slips
+  Array<double*> gap;                   ///< m, negative: penetration; as old as the last look where the node is far;
+                                        ///< beside_surface, turned_away
+  Array<double*> entry_depth;           ///< m: how deep the node was when it came in beside an open surface; its gap
+                                        ///< counts from there
+  Array<double* [3]> normal_force;      ///< N on the slave
+  Array<double* [3]> tangential_force;  ///< N on the slave
+  Array<double*> friction_energy;       ///< J dissipated so far
 };
 
 /// A slave node in the window.

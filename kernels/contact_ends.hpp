@@ -6,16 +6,19 @@ namespace railwave {
 
 /// What is known of the ends of a pair's two surfaces.
 struct ContactEndArrays {
-  Array<int* [4]> corners;         ///< of the master's facets: nodes of the model, turned outwards
-  Array<int* [4]> beyond;          ///< of a facet's side from corner k to the next: the facet there, -1: it goes on, less: it ends
+  Array<int* [4]> corners;  ///< of the master's facets: nodes of the model, turned outwards
+  Array<int* [4]>
+      beyond;  ///< of a facet's side from corner k to the next: the facet there, -1: it goes on, less: it ends
   Array<const int*> coarse_facet;  ///< 1: the facet lies outside the master's fine zone
-  Array<const int*> slave_kind;    ///< by slave: 1 at an end of the surface beyond which its body's skin goes on, 2 where that is coarse, 3 both
+  Array<const int*> slave_kind;  ///< by slave: 1 at an end of the surface beyond which its body's skin goes on, 2 where
+                                 ///< that is coarse, 3 both
   Array<const int*> first_around;  ///< slave_count + 1
   Array<const int*> around;        ///< slaves that share a facet with a slave
-  Array<int*> touched;             ///< by slave: bit 0 where it touches at this glance, bit 1 where it did at the one before
+  Array<int*> touched;  ///< by slave: bit 0 where it touches at this glance, bit 1 where it did at the one before
 };
 
-/// The way over a surface's facets from a facet to where a place is. On the device, or on the host with mirrors of the same arrays.
+/// The way over a surface's facets from a facet to where a place is. On the device, or on the host with mirrors of the
+/// same arrays.
 template <class FacetRows, class Position>
 struct WayOverFacets {
   FacetRows corners, beyond;  ///< as in ContactEndArrays
@@ -53,8 +56,9 @@ struct WayOverFacets {
   }
 };
 
-/// How near the ends of its surfaces a contact's forces act: the largest normal force of a slave node, N; the largest at an end, of a node from
-/// which the way to one beside it on the slave leads over the master's end, or which lies where the slave's set ends; the largest outside the fine zones.
+/// How near the ends of its surfaces a contact's forces act: the largest normal force of a slave node, N; the largest
+/// at an end, of a node from which the way to one beside it on the slave leads over the master's end, or which lies
+/// where the slave's set ends; the largest outside the fine zones.
 struct ContactEndForces {
   static constexpr int values = 3;
   /// Of the distance between two slave nodes: less than that beyond the end is not beyond it.
@@ -76,7 +80,7 @@ struct ContactEndForces {
   }
 
   KOKKOS_INLINE_FUNCTION bool leads_out(int s, int facet) const {
-    const WayOverFacets<Array<int* [4]>, Array<const double* [3]>> way{ends.corners, ends.beyond, position};
+    const WayOverFacets<Array<int* [4]>, Array<const double* [3]>> way { ends.corners, ends.beyond, position };
     const Vector3 here = row(position, contact.slave_nodes(s));
     for (int a = ends.first_around(s); a < ends.first_around(s + 1); ++a) {
       const Vector3 there = row(position, contact.slave_nodes(ends.around(a)));
@@ -87,7 +91,8 @@ struct ContactEndForces {
   }
 };
 
-/// Of a contact that has opened: slave nodes that touched at the last glance, and how many of these are beyond an end of the master now.
+/// Of a contact that has opened: slave nodes that touched at the last glance, and how many of these are beyond an end
+/// of the master now.
 struct ContactEndLosses {
   static constexpr int values = 2;
   ContactArrays contact;
@@ -100,8 +105,9 @@ struct ContactEndLosses {
     int facet = contact.tracked(s), side;
     if (facet < 0) return;
     const Vector3 diagonal = row(position, ends.corners(facet, 2)) - row(position, ends.corners(facet, 0));
-    const WayOverFacets<Array<int* [4]>, Array<const double* [3]>> way{ends.corners, ends.beyond, position};
-    if (way.leads_out(row(position, contact.slave_nodes(s)), ContactEndForces::flush * norm(diagonal), facet, side)) sum[1] += 1;
+    const WayOverFacets<Array<int* [4]>, Array<const double* [3]>> way { ends.corners, ends.beyond, position };
+    if (way.leads_out(row(position, contact.slave_nodes(s)), ContactEndForces::flush * norm(diagonal), facet, side))
+      sum[1] += 1;
   }
 };
 

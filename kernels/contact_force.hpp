@@ -13,13 +13,15 @@ struct MasterReaction {
   ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
 
-  /// At a mouth's corner both lips have a share. Equal and opposite to the last bit: this lip takes what the other leaves.
+  /// At a mouth's corner both lips have a share. Equal and opposite to the last bit: this lip takes what the other
+  /// leaves.
   KOKKOS_INLINE_FUNCTION void subtract(int corner, const FixedForce& reaction) const {
     if (corner >= 0) return extra.subtract(extra_row(corner), reaction);
     const MouthCorner mouth = surface.contact.mouth_corners(-1 - corner);
     double share[MouthCorner::pieces];
     surface.shares_of(mouth, share);
-    const Vector3 quanta{{static_cast<double>(reaction.quanta[0]), static_cast<double>(reaction.quanta[1]), static_cast<double>(reaction.quanta[2])}};
+    const Vector3 quanta{{static_cast<double>(reaction.quanta[0]), static_cast<double>(reaction.quanta[1]),
+                          static_cast<double>(reaction.quanta[2])}};
     FixedForce left = reaction;
     for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
       const FixedForce part = extra.fixed(share[piece] * quanta);
@@ -56,8 +58,8 @@ struct CurvedReaction : MasterReaction {
 /// Step (d) of the thesis's table 2.1 for one slave node: locate, project, penetrate, push, rub.
 /// Normal: penalty f = -l k n (eq. 2.26). Tangential: Coulomb with the stick trial f* = f_T - k de (eqs. 2.28), de the
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
-/// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27); of curved segments by what each node does
-/// to the contact point.
+/// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27); of curved segments by
+/// what each node does to the contact point.
 /// @tparam Law what presses and what bounds friction: see kernels/contact_law.hpp
 /// @tparam Normals along which it presses: see kernels/contact_normals.hpp
 template <bool Friction, class Law = PlainContactLaw, class Normals = FacetNormals>
@@ -110,16 +112,21 @@ struct ContactForce {
       force = force + tangential;
     }
     contact.status(s) = status;
-    if constexpr (Normals::curved) push_curved(entry.node, now, force);
-    else push(entry.node, contact.surface(now.segment), now, force);
+    if constexpr (Normals::curved)
+      push_curved(entry.node, now, force);
+    else
+      push(entry.node, contact.surface(now.segment), now, force);
   }
 
   /// What the spring still held is lost, but for what it has worked in the step that ends in no contact.
-  KOKKOS_INLINE_FUNCTION void part(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now) const {
+  KOKKOS_INLINE_FUNCTION void part(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place,
+                                   const Projection& now) const {
     const ContactArrays& contact = search.contact;
     if constexpr (Friction) {
-      const Vector3 held = row(contact.tangential_force, s), moved = first_touch.last.template slid<Normals>(search, node, slave, previous, place, now, false);
-      contact.friction_energy(s) += 0.5 * dot(held, held) / contact.segment_stiffness(previous) - 0.5 * dot(held, moved);
+      const Vector3 held = row(contact.tangential_force, s),
+                    moved = first_touch.last.template slid<Normals>(search, node, slave, previous, place, now, false);
+      contact.friction_energy(s) +=
+          0.5 * dot(held, held) / contact.segment_stiffness(previous) - 0.5 * dot(held, moved);
     }
     contact.status(s) = status_apart;
     for (int k = 0; k < 3; ++k) {
@@ -128,8 +135,8 @@ struct ContactForce {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place, const Projection& now,
-                                     double stiffness, double pressing, int& status) const {
+  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place,
+                                     const Projection& now, double stiffness, double pressing, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
@@ -148,9 +155,10 @@ struct ContactForce {
     return trial;
   }
 
-  /// Equal and opposite to the last bit: the last corner takes what the others leave. The rows are fetched before the first
-  /// addition, for no load moves past an atomic operation and each would wait for memory by itself.
-  KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now, const Vector3& force) const {
+  /// Equal and opposite to the last bit: the last corner takes what the others leave. The rows are fetched before the
+  /// first addition, for no load moves past an atomic operation and each would wait for memory by itself.
+  KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now,
+                                   const Vector3& force) const {
     const int slave_row = extra_row(node);
     int master_row[4];
     bool at_mouth = false;
@@ -177,7 +185,8 @@ struct ContactForce {
   KOKKOS_INLINE_FUNCTION void push_curved(int node, const Projection& now, const Vector3& force) const {
     const Segment segment = search.contact.surface(now.segment);
     extra.add(extra_row(node), extra.fixed(extra.in_quanta(force)));
-    Normals::reaction(search, now.segment, now.place, force, CurvedReaction({search, extra, extra_row}, segment, force));
+    Normals::reaction(search, now.segment, now.place, force,
+                      CurvedReaction({search, extra, extra_row}, segment, force));
   }
 };
 

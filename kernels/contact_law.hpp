@@ -7,20 +7,25 @@ namespace railwave {
 /// The law of most pairs: a linear penalty (thesis eq. 2.26c) and a constant coefficient of friction.
 struct PlainContactLaw {
   /// N/m, of the spring at a segment.
-  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const { return contact.segment_stiffness(segment); }
-  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const { return !(now.gap < 0); }
-  KOKKOS_INLINE_FUNCTION double pressing(const ContactArrays& /*contact*/, int /*s*/, int /*node*/, const Projection& now,
-                                         double stiffness) const {
+  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const {
+    return contact.segment_stiffness(segment);
+  }
+  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const {
+    return !(now.gap < 0);
+  }
+  KOKKOS_INLINE_FUNCTION double pressing(const ContactArrays& /*contact*/, int /*s*/, int /*node*/,
+                                         const Projection& now, double stiffness) const {
     return -now.gap * stiffness;
   }
   KOKKOS_INLINE_FUNCTION double friction(const ContactArrays& contact, int /*s*/, const Vector3& /*moved*/) const {
     return contact.friction;
   }
-  KOKKOS_INLINE_FUNCTION void part(const ContactArrays& /*contact*/, int /*s*/, int /*node*/, const Projection& /*now*/) const {}
+  KOKKOS_INLINE_FUNCTION void part(const ContactArrays& /*contact*/, int /*s*/, int /*node*/,
+                                   const Projection& /*now*/) const {}
 };
 
-/// A penalty spring that grows with penetration. Its stiffness over the segment's own is given by points, straight lines
-/// between, constant beyond the last; its force and energy are the integrals of that.
+/// A penalty spring that grows with penetration. Its stiffness over the segment's own is given by points, straight
+/// lines between, constant beyond the last; its force and energy are the integrals of that.
 struct PenaltyGrowth {
   /// At a penetration, of a spring of 1 N/m.
   struct Spring {
@@ -29,7 +34,8 @@ struct PenaltyGrowth {
     double energy;     ///< m2
   };
 
-  /// From the first, which is at no penetration: penetration (m), factor, its slope to the next point (1/m), force, energy.
+  /// From the first, which is at no penetration: penetration (m), factor, its slope to the next point (1/m), force,
+  /// energy.
   Array<const double* [5]> points;
 
   KOKKOS_INLINE_FUNCTION Spring at(double depth) const {
@@ -43,15 +49,15 @@ struct PenaltyGrowth {
 
 /// What a pair whose law is not the plain one has besides.
 struct ContactLawArrays {
-  bool active = false;               ///< false: PlainContactLaw, and all else is empty
+  bool active = false;  ///< false: PlainContactLaw, and all else is empty
   PenaltyGrowth growth;
   double dynamic_friction = 0, friction_decay = 0;  ///< mu_d; c, s/m: 0 where friction is constant
-  double damping = 0;                ///< share of critical damping
+  double damping = 0;                               ///< share of critical damping
 
   /// By slave node.
-  Array<double*> friction_now;       ///< coefficient that acts; empty where friction is constant
-  Array<double*> damping_force;      ///< N, pressing, what damping adds to the penalty; empty without damping, as the next
-  Array<double*> damping_energy;     ///< J dissipated so far
+  Array<double*> friction_now;    ///< coefficient that acts; empty where friction is constant
+  Array<double*> damping_force;   ///< N, pressing, what damping adds to the penalty; empty without damping, as the next
+  Array<double*> damping_energy;  ///< J dissipated so far
 };
 
 /// Any law, at one instant.
@@ -63,8 +69,12 @@ struct ContactLaw {
   double elapsed;                     ///< s since the instant before; 0: there is none, or time has no meaning
   Array<const double* [3]> position;  ///< m, of a pair with smooth normals; empty otherwise
 
-  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const { return contact.segment_stiffness(segment); }
-  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const { return !(now.gap < 0); }
+  KOKKOS_INLINE_FUNCTION double stiffness(const ContactArrays& contact, int segment) const {
+    return contact.segment_stiffness(segment);
+  }
+  KOKKOS_INLINE_FUNCTION bool apart(const ContactArrays& /*contact*/, int /*s*/, const Projection& now) const {
+    return !(now.gap < 0);
+  }
 
   /// The penalty spring's force and the dashpot's beside it; never a pull.
   KOKKOS_INLINE_FUNCTION double pressing(const ContactArrays& contact, int s, int node, const Projection& now,
@@ -79,9 +89,9 @@ struct ContactLaw {
     return damped;
   }
 
-  /// Falling friction, thesis eqs. 2.29: mu_d + (mu_s - mu_d) exp(-c |u|), u = de / dt. The force at t_n is bounded by the
-  /// normal force at t_n and the coefficient of the movement from t_(n-1) to t_n, and the coefficient that made the bound is
-  /// kept beside the two forces: they are of one instant (thesis 5.3.2.3 shows what it is to mix instants).
+  /// Falling friction, thesis eqs. 2.29: mu_d + (mu_s - mu_d) exp(-c |u|), u = de / dt. The force at t_n is bounded by
+  /// the normal force at t_n and the coefficient of the movement from t_(n-1) to t_n, and the coefficient that made the
+  /// bound is kept beside the two forces: they are of one instant (thesis 5.3.2.3 shows what it is to mix instants).
   /// @param moved de of the contact point over the master since the instant before, m
   KOKKOS_INLINE_FUNCTION double friction(const ContactArrays& contact, int s, const Vector3& moved) const {
     if (arrays.friction_now.extent(0) == 0) return contact.friction;
@@ -115,7 +125,8 @@ struct ContactLaw {
       inverse_mass += share * share / mass(contact.node_of(segment.node[k]));
     }
     if (position.extent(0) != 0)
-      relative = row(velocity, node) - SmoothNormals::carried(ContactSearch{{contact, position}}, now.segment, now.place, velocity);
+      relative = row(velocity, node) -
+                 SmoothNormals::carried(ContactSearch{{contact, position}}, now.segment, now.place, velocity);
     return {-dot(relative, now.normal), inverse_mass};
   }
 

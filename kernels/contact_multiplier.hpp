@@ -9,14 +9,15 @@ namespace railwave {
 /// Where nodes go by themselves in the step from t_n: what their velocities and the forces other than a contact's do.
 struct FreeMotion {
   NodalAcceleration acceleration;
-  double velocity_step;                          ///< s, of NodeAdvance
-  double step;                                   ///< s
-  Array<const double*> relaxation_mass;          ///< kg, of the dynamic relaxation; empty in a run
-  Array<const double* [3]> body_acceleration;    ///< m/s2, of true masses; empty in a run
+  double velocity_step;                        ///< s, of NodeAdvance
+  double step;                                 ///< s
+  Array<const double*> relaxation_mass;        ///< kg, of the dynamic relaxation; empty in a run
+  Array<const double* [3]> body_acceleration;  ///< m/s2, of true masses; empty in a run
 
   /// m/N, movement in the step for a force, but for constraints.
   KOKKOS_INLINE_FUNCTION double compliance(int n) const {
-    return step * velocity_step / (relaxation_mass.extent(0) != 0 ? relaxation_mass(n) : acceleration.force.nodes.mass(n));
+    return step * velocity_step /
+           (relaxation_mass.extent(0) != 0 ? relaxation_mass(n) : acceleration.force.nodes.mass(n));
   }
 
   /// m, movement in the step.
@@ -28,8 +29,8 @@ struct FreeMotion {
   }
 };
 
-/// Phases of finding multipliers, over the nodes that can touch: Begin; Foresee, by each of a multiplier's nodes; Push; then for
-/// every sweep Correct and Push, in the last one Finish instead.
+/// Phases of finding multipliers, over the nodes that can touch: Begin; Foresee, by each of a multiplier's nodes; Push;
+/// then for every sweep Correct and Push, in the last one Finish instead.
 struct Multiplier {
   struct Begin {};
   struct Foresee {};
@@ -38,13 +39,13 @@ struct Multiplier {
   struct Finish {};
 };
 
-/// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991). The
-/// forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force or none;
-/// and with which a node that sticks has not moved over the master, unless that takes more than friction can give.
-/// Every multiplier moves nodes that others move too. They are found by Jacobi's iteration, projected on Coulomb's cone,
-/// from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do to its nodes, the
-/// iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the node stuck, at the next step.
-/// Forces are summed in whole quanta: a run is bitwise repeatable.
+/// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991).
+/// The forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force
+/// or none; and with which a node that sticks has not moved over the master, unless that takes more than friction can
+/// give. Every multiplier moves nodes that others move too. They are found by Jacobi's iteration, projected on
+/// Coulomb's cone, from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do
+/// to its nodes, the iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the
+/// node stuck, at the next step. Forces are summed in whole quanta: a run is bitwise repeatable.
 /// @tparam Normals along which they press: see kernels/contact_normals.hpp
 template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
@@ -56,8 +57,8 @@ struct ContactMultiplier {
   FirstTouch first_touch;
 
   static constexpr double crowd_quantum = 1.0 / (1ull << 40);
-  /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than a
-  /// hundredth of the fastest wave.
+  /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
+  /// a hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
 
   template <class Phase>
@@ -94,7 +95,9 @@ struct ContactMultiplier {
     }
     const Segment segment = contact.surface(now.segment);
     r.active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
-    r.moved = touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0) : Vector3{{0, 0, 0}};
+    r.moved =
+        touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0)
+                : Vector3{{0, 0, 0}};
     r.force = r.pending = Vector3{{0, 0, 0}};
     r.pressing = r.compliance = 0;
     r.slips = 1;
@@ -112,7 +115,8 @@ struct ContactMultiplier {
       const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
       double share[MouthCorner::pieces];
       search.shares_of(mouth, share);
-      for (int piece = 0; piece < MouthCorner::pieces; ++piece) add_node(r, mouth.node[piece], mouth.master[piece], share[piece] * weight);
+      for (int piece = 0; piece < MouthCorner::pieces; ++piece)
+        add_node(r, mouth.node[piece], mouth.master[piece], share[piece] * weight);
     }
     r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
@@ -141,7 +145,8 @@ struct ContactMultiplier {
     Kokkos::atomic_add(&multipliers.crowd(master), crowd_share(weight));
   }
 
-  /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its own.
+  /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its
+  /// own.
   KOKKOS_INLINE_FUNCTION void foresee(const int s, const int k) const {
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0 || k >= r.count) return;
@@ -150,9 +155,11 @@ struct ContactMultiplier {
     r.foreseen[k] = free_motion(r.node[k]) - movement(r, k);
   }
 
-  /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes what the
-  /// others leave.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near) const { push(multipliers.rows(near.slave)); }
+  /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes
+  /// what the others leave.
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near) const {
+    push(multipliers.rows(near.slave));
+  }
 
   KOKKOS_INLINE_FUNCTION void push(const MultiplierRow& r) const {
     if (r.active == 0) return;
@@ -176,8 +183,8 @@ struct ContactMultiplier {
       for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
       r.compliance = r.compliances[0];
       for (int k = 1; k < r.count; ++k)
-        r.compliance -= r.weight[k] * r.compliances[k] * crowd_quantum *
-                        static_cast<double>(multipliers.crowd(r.master[k]));
+        r.compliance -=
+            r.weight[k] * r.compliances[k] * crowd_quantum * static_cast<double>(multipliers.crowd(r.master[k]));
     }
     Vector3 moves = r.free;
     for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
@@ -197,7 +204,8 @@ struct ContactMultiplier {
     r.pressing = pressing;
   }
 
-  /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work done since the last.
+  /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work
+  /// done since the last.
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
@@ -224,9 +232,10 @@ struct ContactMultiplier {
     contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
   }
 
-  /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does not tell: they bend
-  /// with the nodes around them, to which multipliers hand no force.
-  KOKKOS_INLINE_FUNCTION void book_work(int s, int node, int tracked, const SegmentPlace& place, const Vector3& force) const {
+  /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does
+  /// not tell: they bend with the nodes around them, to which multipliers hand no force.
+  KOKKOS_INLINE_FUNCTION void book_work(int s, int node, int tracked, const SegmentPlace& place,
+                                        const Vector3& force) const {
     multipliers.impact_energy(s) -= 0.5 * dot(force, first_touch.last.relative_motion(search, node, tracked, place));
   }
 

@@ -8,19 +8,24 @@ namespace railwave {
 struct FacetNormals {
   static constexpr bool curved = false;
 
-  KOKKOS_INLINE_FUNCTION static Projection turned(const ContactSearch& /*search*/, const Vector3& /*slave*/, const Projection& found) {
+  KOKKOS_INLINE_FUNCTION static Projection turned(const ContactSearch& /*search*/, const Vector3& /*slave*/,
+                                                  const Projection& found) {
     return found;
   }
   /// The contact point at a place of a segment less the slave's position, m.
-  KOKKOS_INLINE_FUNCTION static Vector3 point(const ContactSearch& search, const Vector3& slave, int segment, const SegmentPlace& place) {
+  KOKKOS_INLINE_FUNCTION static Vector3 point(const ContactSearch& search, const Vector3& slave, int segment,
+                                              const SegmentPlace& place) {
     return search.see(slave, segment).point(place);
   }
-  /// What moves the contact point at a place that stays where it is in the segment, of the nodes' `field`: m of displacements, m/s of velocities.
+  /// What moves the contact point at a place that stays where it is in the segment, of the nodes' `field`: m of
+  /// displacements, m/s of velocities.
   template <class Field>
-  KOKKOS_INLINE_FUNCTION static Vector3 carried(const ContactSearch& search, int segment, const SegmentPlace& place, const Field& field) {
+  KOKKOS_INLINE_FUNCTION static Vector3 carried(const ContactSearch& search, int segment, const SegmentPlace& place,
+                                                const Field& field) {
     const Segment s = search.contact.surface(segment);
     Vector3 result{{0, 0, 0}};
-    for (int k = 0; k < 4; ++k) result = result + segment_shape(k, place.xi, place.eta) * search.at_corner(field, s.node[k]);
+    for (int k = 0; k < 4; ++k)
+      result = result + segment_shape(k, place.xi, place.eta) * search.at_corner(field, s.node[k]);
     return result;
   }
 };
@@ -32,16 +37,18 @@ struct LastStep {
 
   /// How a node has moved relative to the place of a segment that it was over, m.
   template <class Normals = FacetNormals>
-  KOKKOS_INLINE_FUNCTION Vector3 relative_motion(const ContactSearch& search, int node, int segment, const SegmentPlace& place) const {
+  KOKKOS_INLINE_FUNCTION Vector3 relative_motion(const ContactSearch& search, int node, int segment,
+                                                 const SegmentPlace& place) const {
     return elapsed * (row(velocity, node) - Normals::carried(search, segment, place, velocity));
   }
 
-  /// How far a node in contact has slid over the master, m: de of the contact point (thesis eq. 2.28). A contact point that is clamped to an open
-  /// side stays behind its node, and where the node is off now there is none.
+  /// How far a node in contact has slid over the master, m: de of the contact point (thesis eq. 2.28). A contact point
+  /// that is clamped to an open side stays behind its node, and where the node is off now there is none.
   template <class Normals>
-  KOKKOS_INLINE_FUNCTION Vector3 slid(const ContactSearch& search, int node, const Vector3& slave, int segment, const SegmentPlace& place,
-                                      const Projection& now, bool touches) const {
-    if (elapsed > 0 && (!touches || search.at_open_side(segment, place) || search.at_open_side(now.segment, now.place))) {
+  KOKKOS_INLINE_FUNCTION Vector3 slid(const ContactSearch& search, int node, const Vector3& slave, int segment,
+                                      const SegmentPlace& place, const Projection& now, bool touches) const {
+    if (elapsed > 0 &&
+        (!touches || search.at_open_side(segment, place) || search.at_open_side(now.segment, now.place))) {
       const Vector3 way = relative_motion<Normals>(search, node, segment, place);
       return touches ? way - dot(way, now.normal) * now.normal : way;
     }
@@ -49,10 +56,11 @@ struct LastStep {
   }
 };
 
-/// A segment curved between its corners such that it is normal to a given direction at each. Its sides are cubic: at corner k the
-/// side to corner j begins along x_j - x_k less its part along the normal n_k, and what that adds to the chord is blended
-/// linearly into the segment:
-///   S = r - sum_k n_k (n_k . E_k),  E_k = h(tau) (1 - sigma) (x_j - x_k) + h(sigma) (1 - tau) (x_l - x_k),  h(t) = t (1 - t)^2,
+/// A segment curved between its corners such that it is normal to a given direction at each. Its sides are cubic: at
+/// corner k the side to corner j begins along x_j - x_k less its part along the normal n_k, and what that adds to the
+/// chord is blended linearly into the segment:
+///   S = r - sum_k n_k (n_k . E_k),  E_k = h(tau) (1 - sigma) (x_j - x_k) + h(sigma) (1 - tau) (x_l - x_k),  h(t) = t
+///   (1 - t)^2,
 /// r the bilinear surface, tau and sigma the way from corner k to its neighbours j and l along xi and eta, from 0 to 1.
 /// A side depends on its own two corners only, so that neighbours meet.
 struct CurvedSegment {
@@ -120,7 +128,8 @@ struct CurvedSegment {
       }
       const double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), flat = aa * bb - ab * ab;
       double xx = aa + bend_xi, yy = bb + bend_eta, xy = ab + bend_mixed, determinant = xx * yy - xy * xy;
-      if (!(determinant > 0.1 * flat) || !(xx > 0)) {  // far off, where the nearest point of the tangent plane leads nearer
+      if (!(determinant > 0.1 * flat) ||
+          !(xx > 0)) {  // far off, where the nearest point of the tangent plane leads nearer
         xx = aa;
         yy = bb;
         xy = ab;
@@ -136,11 +145,11 @@ struct CurvedSegment {
   }
 };
 
-/// A contact pushes along a normal that is continuous from facet to facet: the facets are curved such that the surface is normal, at each
-/// node, to the mean of the facets around, weighted by their areas. The contact point is the nearest one of that surface. So the gap's
-/// gradient is the normal at the slave and, at the master's nodes, what moving them does to the contact point: contact forces spread by
-/// reaction() do as much work as the springs store, and balance in sum and in moment. Facets that meet at more than 30 degrees make an
-/// edge: each has its own normal there.
+/// A contact pushes along a normal that is continuous from facet to facet: the facets are curved such that the surface
+/// is normal, at each node, to the mean of the facets around, weighted by their areas. The contact point is the nearest
+/// one of that surface. So the gap's gradient is the normal at the slave and, at the master's nodes, what moving them
+/// does to the contact point: contact forces spread by reaction() do as much work as the springs store, and balance in
+/// sum and in moment. Facets that meet at more than 30 degrees make an edge: each has its own normal there.
 struct SmoothNormals {
   static constexpr bool curved = true;
   static constexpr double same_surface = 0.866;  ///< cosine of that angle
@@ -164,7 +173,9 @@ struct SmoothNormals {
       found.gap = -dot(found.normal, found.offset);
       if (place.outside() <= ContactProjection::on_segment) break;
       const int next = search.contact.surface(found.segment).beyond(ContactProjection::side_towards(place));
-      if (next < 0 || next == from || hop + 1 == most_hops || !continues(area_of(search, found.segment), area_of(search, next))) break;
+      if (next < 0 || next == from || hop + 1 == most_hops ||
+          !continues(area_of(search, found.segment), area_of(search, next)))
+        break;
       from = found.segment;
       found.segment = next;
       seen = search.see(slave, next);
@@ -174,15 +185,20 @@ struct SmoothNormals {
   }
 
   /// The contact point at a place of a segment less the slave's position, m.
-  KOKKOS_INLINE_FUNCTION static Vector3 point(const ContactSearch& search, const Vector3& slave, int segment, const SegmentPlace& place) {
+  KOKKOS_INLINE_FUNCTION static Vector3 point(const ContactSearch& search, const Vector3& slave, int segment,
+                                              const SegmentPlace& place) {
     return curved_segment(search, search.see(slave, segment)).point(place);
   }
 
-  /// Shares out among the master's nodes a force at a contact point: to each what the force does when that node moves, (dS/dx)^T f.
-  /// @param give called as give.corners(share) with what goes to the segment's own nodes, Vector3[4], which add up to the force; and as
-  ///   give.pair(plus, minus, share) for further nodes, by a Segment's numbers of corners: `share` to one and its opposite to another.
+  /// Shares out among the master's nodes a force at a contact point: to each what the force does when that node moves,
+  /// (dS/dx)^T f.
+  /// @param give called as give.corners(share) with what goes to the segment's own nodes, Vector3[4], which add up to
+  /// the force; and as
+  ///   give.pair(plus, minus, share) for further nodes, by a Segment's numbers of corners: `share` to one and its
+  ///   opposite to another.
   template <class Give>
-  KOKKOS_INLINE_FUNCTION static void reaction(const ContactSearch& search, int segment, const SegmentPlace& place, const Vector3& force, const Give& give) {
+  KOKKOS_INLINE_FUNCTION static void reaction(const ContactSearch& search, int segment, const SegmentPlace& place,
+                                              const Vector3& force, const Give& give) {
     const Segment s = search.contact.surface(segment);
     Vector3 x[4], share[4];
     for (int k = 0; k < 4; ++k) {
@@ -205,8 +221,10 @@ struct SmoothNormals {
         const int around = search.contact.segment_of_node(i);
         if (!belongs(search, around, segment, facet)) continue;
         const Segment other = search.contact.surface(around);
-        const Vector3 first = search.at_corner(search.position, other.node[2]) - search.at_corner(search.position, other.node[0]);
-        const Vector3 second = search.at_corner(search.position, other.node[3]) - search.at_corner(search.position, other.node[1]);
+        const Vector3 first =
+            search.at_corner(search.position, other.node[2]) - search.at_corner(search.position, other.node[0]);
+        const Vector3 second =
+            search.at_corner(search.position, other.node[3]) - search.at_corner(search.position, other.node[1]);
         give.pair(other.node[2], other.node[0], cross(second, turning));
         give.pair(other.node[3], other.node[1], cross(turning, first));
       }
@@ -214,9 +232,11 @@ struct SmoothNormals {
     give.corners(share);
   }
 
-  /// What moves the contact point at a place that stays where it is in the segment, of the nodes' `field`: m of displacements, m/s of velocities.
+  /// What moves the contact point at a place that stays where it is in the segment, of the nodes' `field`: m of
+  /// displacements, m/s of velocities.
   template <class Field>
-  KOKKOS_INLINE_FUNCTION static Vector3 carried(const ContactSearch& search, int segment, const SegmentPlace& place, const Field& field) {
+  KOKKOS_INLINE_FUNCTION static Vector3 carried(const ContactSearch& search, int segment, const SegmentPlace& place,
+                                                const Field& field) {
     const Segment s = search.contact.surface(segment);
     Vector3 x[4], v[4], result{{0, 0, 0}};
     for (int k = 0; k < 4; ++k) {
@@ -228,15 +248,19 @@ struct SmoothNormals {
     for (int k = 0; k < 4; ++k) {
       const Corner corner(search, segment, k, facet, x, place);
       const Vector3 n = corner.normal;
-      const Vector3 way = corner.along_xi * (v[CurvedSegment::beside_xi(k)] - v[k]) + corner.along_eta * (v[CurvedSegment::beside_eta(k)] - v[k]);
+      const Vector3 way = corner.along_xi * (v[CurvedSegment::beside_xi(k)] - v[k]) +
+                          corner.along_eta * (v[CurvedSegment::beside_eta(k)] - v[k]);
       Vector3 turning{{0, 0, 0}};
       for (int i = corner.first; i < corner.last; ++i) {
         const int around = search.contact.segment_of_node(i);
         if (!belongs(search, around, segment, facet)) continue;
         const Segment other = search.contact.surface(around);
-        const Vector3 first = search.at_corner(search.position, other.node[2]) - search.at_corner(search.position, other.node[0]);
-        const Vector3 second = search.at_corner(search.position, other.node[3]) - search.at_corner(search.position, other.node[1]);
-        turning = turning + cross(search.at_corner(field, other.node[2]) - search.at_corner(field, other.node[0]), second) +
+        const Vector3 first =
+            search.at_corner(search.position, other.node[2]) - search.at_corner(search.position, other.node[0]);
+        const Vector3 second =
+            search.at_corner(search.position, other.node[3]) - search.at_corner(search.position, other.node[1]);
+        turning = turning +
+                  cross(search.at_corner(field, other.node[2]) - search.at_corner(field, other.node[0]), second) +
                   cross(first, search.at_corner(field, other.node[3]) - search.at_corner(field, other.node[1]));
       }
       turning = (1 / corner.area) * (turning - dot(turning, n) * n);
@@ -252,13 +276,15 @@ struct SmoothNormals {
   /// Outwards, as long as the segment's area twice.
   KOKKOS_INLINE_FUNCTION static Vector3 area_of(const ContactSearch& search, int segment) {
     const Segment s = search.contact.surface(segment);
-    return cross(search.diagonal(s), search.at_corner(search.position, s.node[3]) - search.at_corner(search.position, s.node[1]));
+    return cross(search.diagonal(s),
+                 search.at_corner(search.position, s.node[3]) - search.at_corner(search.position, s.node[1]));
   }
 
  private:
   /// Whether a segment at a corner of another, which may be itself, has part in the normal there.
   /// @param facet area_of(segment)
-  KOKKOS_INLINE_FUNCTION static bool belongs(const ContactSearch& search, int around, int segment, const Vector3& facet) {
+  KOKKOS_INLINE_FUNCTION static bool belongs(const ContactSearch& search, int around, int segment,
+                                             const Vector3& facet) {
     return around == segment || continues(facet, area_of(search, around));
   }
 
@@ -286,13 +312,14 @@ struct SmoothNormals {
 
   /// What a corner does to the contact point.
   struct Corner {
-    int first, last;            ///< of the segments around it
-    double area;                ///< m2, length of area_at()
+    int first, last;  ///< of the segments around it
+    double area;      ///< m2, length of area_at()
     Vector3 normal;
-    double along_xi, along_eta; ///< weights of the ways to its neighbours
-    Vector3 way;                ///< m, E_k: these ways by their weights
+    double along_xi, along_eta;  ///< weights of the ways to its neighbours
+    Vector3 way;                 ///< m, E_k: these ways by their weights
 
-    KOKKOS_INLINE_FUNCTION Corner(const ContactSearch& search, int segment, int k, const Vector3& facet, const Vector3 (&x)[4], const SegmentPlace& place) {
+    KOKKOS_INLINE_FUNCTION Corner(const ContactSearch& search, int segment, int k, const Vector3& facet,
+                                  const Vector3 (&x)[4], const SegmentPlace& place) {
       const int node = search.contact.segments(segment, k);
       first = search.contact.first_segment(node);
       last = search.contact.first_segment(node + 1);

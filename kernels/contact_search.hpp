@@ -5,10 +5,10 @@
 
 namespace railwave {
 
-/// Search for the segment that a slave node meets: the one whose nearest place is nearest, whatever segments share its nodes (thesis
-/// 2.6.1 starts from the closest master node instead, which a crack, a fold or a slender segment can deceive). Of several equally
-/// near, as at a common side, the one whose projection is least outside, then the first. The result does not depend on where
-/// the search begins.
+/// Search for the segment that a slave node meets: the one whose nearest place is nearest, whatever segments share its
+/// nodes (thesis 2.6.1 starts from the closest master node instead, which a crack, a fold or a slender segment can
+/// deceive). Of several equally near, as at a common side, the one whose projection is least outside, then the first.
+/// The result does not depend on where the search begins.
 struct ContactSearch : ContactProjection {
   /// How deep a projection outside a segment may be, of the segment's diagonal: no sound contact is.
   static constexpr double outside_depth = 0.25;
@@ -18,7 +18,8 @@ struct ContactSearch : ContactProjection {
   static constexpr double smooth_mean = 0.866;
 
   /// @param start a segment from which the search may begin, best one that is near
-  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the surface goes on,
+  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the
+  /// surface goes on,
   ///               nothing is outside
   KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
     SeenSegment best = see(slave, start);
@@ -29,7 +30,8 @@ struct ContactSearch : ContactProjection {
     Vector3 there{{0, 0, 0}};
     double same_place = 0;  // m
     int alike = 0;
-    // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one copy does.
+    // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one
+    // copy does.
     for (int turn = 0; turn < 2; ++turn) {
       visit_boxes(contact.boxes, slave, limit, [&](int i) {
         const SeenSegment seen = see(slave, contact.boxes.order(i));
@@ -95,7 +97,8 @@ struct ContactSearch : ContactProjection {
     return found.gap < -outside_depth * norm(diagonal(contact.surface(found.segment)));
   }
 
-  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave. Right at a look.
+  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
+  /// Right at a look.
   KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
     bool found = false;
     const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
@@ -131,9 +134,9 @@ struct ContactSearch : ContactProjection {
     return std::acos(std::fmax(-1.0, std::fmin(1.0, p.xi * p.eta > 0 ? cosine : -cosine)));
   }
 
-  /// Over a side or corner where the slave's projection lies inside no segment, the way between it and the slave is the normal: so it
-  /// turns from that of one segment to that of the next. Which side of the surface the slave is on is told by the mean of the normals
-  /// around, weighted by angles (Baerentzen and Aanaes 2005).
+  /// Over a side or corner where the slave's projection lies inside no segment, the way between it and the slave is the
+  /// normal: so it turns from that of one segment to that of the next. Which side of the surface the slave is on is
+  /// told by the mean of the normals around, weighted by angles (Baerentzen and Aanaes 2005).
   KOKKOS_INLINE_FUNCTION static void towards_side(Projection& result, const Vector3& weighted) {
     const double distance = norm(result.offset);
     if (!(distance > 1e-12)) return;

@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-/// The fast way to a slave node's segment: from where it was over the surface a step ago, over the sides of segments where
-/// it has left one. Right in all but rare cases, and it knows those.
+/// The fast way to a slave node's segment: from where it was over the surface a step ago, over the sides of segments
+/// where it has left one. Right in all but rare cases, and it knows those.
 struct ContactTrack {
   enum Verdict {
     over_segment,  ///< the projection lies inside a segment
@@ -47,8 +47,8 @@ struct ContactTrack {
     return apart && arrived ? surely_apart : unknown;
   }
 
-  /// Where a slave stands now; no distance for a gap where beside the surface. What ends being apart is searched anew, so that it
-  /// does not depend on the way there; a contact keeps its segment as long as that holds the projection.
+  /// Where a slave stands now; no distance for a gap where beside the surface. What ends being apart is searched anew,
+  /// so that it does not depend on the way there; a contact keeps its segment as long as that holds the projection.
   /// @param tracked, place where it was over the surface a step ago
   /// @param touched whether it was in contact then
   /// @param near of its entry in the window
@@ -67,19 +67,19 @@ struct ContactTrack {
   }
 };
 
-/// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since the node was
-/// last seen apart; and around a sharp edge, or where the surface was not below before, only through a face that the node was
-/// outside of. What comes in deep from beside an open surface, or was in the body when it came to be looked at, is turned away until
-/// it has left.
+/// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since
+/// the node was last seen apart; and around a sharp edge, or where the surface was not below before, only through a
+/// face that the node was outside of. What comes in deep from beside an open surface, or was in the body when it came
+/// to be looked at, is turned away until it has left.
 struct FirstTouch {
   LastStep last;  ///< no time elapsed: all is taken in
   double paces;   ///< how many steps the slowest node's own step takes (subcycling)
 
-  static constexpr double reserve = 1.25;          ///< on the motion
-  static constexpr double rounding_share = 1e-5;   ///< of a segment's diagonal
-  /// So deep, of a segment's diagonal, a node may come in beside an open surface and touch: one body's surface rises beside what presses it
-  /// down, and a node that goes from one contact's surface to the next one's has been pressed in. Its gap counts from there, so
-  /// that no spring is pressed in that nobody has pressed.
+  static constexpr double reserve = 1.25;         ///< on the motion
+  static constexpr double rounding_share = 1e-5;  ///< of a segment's diagonal
+  /// So deep, of a segment's diagonal, a node may come in beside an open surface and touch: one body's surface rises
+  /// beside what presses it down, and a node that goes from one contact's surface to the next one's has been pressed
+  /// in. Its gap counts from there, so that no spring is pressed in that nobody has pressed.
   static constexpr double shallow_share = 0.05;
 
   /// @param tracked segment that the node was over when it was last seen apart
@@ -90,7 +90,8 @@ struct FirstTouch {
     if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
     const Vector3 way = paces * last.relative_motion(search, node, now.segment, now.place);
-    const double size = norm(search.diagonal(segment)), rounding = rounding_share * size, deepest = reserve * norm(way) + rounding;
+    const double size = norm(search.diagonal(segment)), rounding = rounding_share * size,
+                 deepest = reserve * norm(way) + rounding;
     const Vector3 slave = row(search.position, node);
     const bool strictly = !is_distance(before) || dot(middle_normal(search, slave, tracked), now.normal) < 0.5;
     if (-now.gap <= deepest && (!strictly || came_through(now, way, rounding))) return;
@@ -105,7 +106,8 @@ struct FirstTouch {
         const SegmentPlace place = ContactProjection::nearest_place(seen, {0, 0});
         if (place.outside() > ContactProjection::on_segment) continue;
         const Projection found = ContactProjection::at(seen, place);
-        if (found.gap < 0 && -found.gap <= deepest && came_through(found, way, rounding) && (!is_distance(through.gap) || found.gap > through.gap))
+        if (found.gap < 0 && -found.gap <= deepest && came_through(found, way, rounding) &&
+            (!is_distance(through.gap) || found.gap > through.gap))
           through = found;
       }
     }
@@ -121,8 +123,10 @@ struct FirstTouch {
   KOKKOS_INLINE_FUNCTION static void count_from_entry(const ContactArrays& contact, int s, Projection& now) {
     const double depth = contact.entry_depth(s);
     if (!(depth > 0)) return;
-    if (now.gap < 0) now.gap += depth;
-    else contact.entry_depth(s) = 0;
+    if (now.gap < 0)
+      now.gap += depth;
+    else
+      contact.entry_depth(s) = 0;
   }
 
  private:

@@ -11,9 +11,9 @@ struct ElasticConstants {
   double mu;      ///< Pa
 };
 
-/// Almansi strain e = (I - F^-T F^-1)/2 from the gradient H of a displacement u = x - (R X + t), taken along the present
-/// coordinates: e = (H + H^T - H^T H)/2, whatever the rigid motion R, t. Taking out a body's own turn keeps H small,
-/// and with it the rounding in single precision.
+/// Almansi strain e = (I - F^-T F^-1)/2 from the gradient H of a displacement u = x - (R X + t), taken along the
+/// present coordinates: e = (H + H^T - H^T H)/2, whatever the rigid motion R, t. Taking out a body's own turn keeps H
+/// small, and with it the rounding in single precision.
 /// @param H H[i][j] = du_i/dx_j
 /// @param e result: xx, yy, zz, xy, yz, zx (tensor components)
 template <class S, class T>

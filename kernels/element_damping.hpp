@@ -16,7 +16,8 @@ KOKKOS_FORCEINLINE_FUNCTION T cube_root(const T& value) {
 
 /// Velocity of a node half a step back, m/s; n is its number, l its place in patch p.
 template <class Staged>
-KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& /*staged*/, const NodeArrays& nodes, int /*p*/, int n, int /*l*/) {
+KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& /*staged*/, const NodeArrays& nodes, int /*p*/, int n,
+                                                int /*l*/) {
   return row(nodes.velocity, n);
 }
 
@@ -30,16 +31,19 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const Carr
              (staged.position[i * staged.stride + l] - staged.displacement[i * staged.stride + l]);
   Vector3 v;
   for (int i = 0; i < 3; ++i)
-    v[i] = carrier.next.velocity[i] + static_cast<double>(product(carrier.rate, i, arm[0], arm[1], arm[2]) + nodes.node(n).velocity[i]);
+    v[i] = carrier.next.velocity[i] +
+           static_cast<double>(product(carrier.rate, i, arm[0], arm[1], arm[2]) + nodes.node(n).velocity[i]);
   return v;
 }
 
 /// Damping forces of one patch's elements, with the velocities half a step back:
 ///   sigma = beta (lambda tr(d) I + 2 mu d) - q I,  d the rate of strain,
-///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (von Neumann & Richtmyer 1950; Landshoff 1955),
-/// by the mean gradient, and - alpha m v on the nodes, alpha being the part's and that of absorbing layers there. Hourglass modes have their own control. Forces go to rows of the
-/// partial ones beside those of the elements' stresses, so that damped elements are computed by the same kernels as others.
-/// What is dissipated is the forces' work by the trapezoidal rule, from what the rows still hold of the instant before.
+///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (von Neumann & Richtmyer 1950; Landshoff
+///   1955),
+/// by the mean gradient, and - alpha m v on the nodes, alpha being the part's and that of absorbing layers there.
+/// Hourglass modes have their own control. Forces go to rows of the partial ones beside those of the elements'
+/// stresses, so that damped elements are computed by the same kernels as others. What is dissipated is the forces' work
+/// by the trapezoidal rule, from what the rows still hold of the instant before.
 template <class S, class Nodes>
 struct PatchDamping {
   using T = Pack<S>;
@@ -66,20 +70,22 @@ struct PatchDamping {
     team.team_barrier();
     const DampingConstants constants = damping.constants(patches.material(p));
     const int batches = (patches.element_count(p) + lane_count<S> - 1) / lane_count<S>;
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches), [&](const int b) { batch_force(p, b, constants, staged, force); });
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches),
+                         [&](const int b) { batch_force(p, b, constants, staged, force); });
     team.team_barrier();
     const int packs = (patches.node_count(p) + lane_count<S> - 1) / lane_count<S>;
     double dissipated = 0;
     Kokkos::parallel_reduce(
-        Kokkos::TeamThreadRange(team, packs),
-        [&](const int k, double& sum) { sum += hand_over(p, k, staged, force); }, dissipated);
+        Kokkos::TeamThreadRange(team, packs), [&](const int k, double& sum) { sum += hand_over(p, k, staged, force); },
+        dissipated);
     Kokkos::single(Kokkos::PerTeam(team), [&]() { damping.energy(p) += dissipated; });
   }
 
   /// @param force corner forces with their sign turned, N
-  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const DampingConstants& constants, const Staged& staged,
-                                          S* force) const {
-    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(p * (patch_size / lane_count<S>) + b) * 8 * lane_count<S>);
+  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const DampingConstants& constants,
+                                          const Staged& staged, S* force) const {
+    const BatchCorners<S> corners(patches.corner.data() +
+                                  static_cast<long>(p * (patch_size / lane_count<S>)+b) * 8 * lane_count<S>);
     T x[3][7], B[3][6], L[3][3];
     for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
     mean_gradient<S>(x, B);
@@ -125,7 +131,8 @@ struct PatchDamping {
       PartialForce<S> now{};
       for (int i = 0; i < 3; ++i) {
         now.x[i] = static_cast<S>(lane_sum[i][lane] - drag * v[i]);
-        dissipated -= 0.5 * elapsed * (share_before * static_cast<double>(before.x[i]) + static_cast<double>(now.x[i])) * v[i];
+        dissipated -=
+            0.5 * elapsed * (share_before * static_cast<double>(before.x[i]) + static_cast<double>(now.x[i])) * v[i];
       }
       partial(damping.first_partial + at) = now;
     }
@@ -133,8 +140,8 @@ struct PatchDamping {
   }
 };
 
-/// Of elements evaluated every so many steps: books the half of the forces' work that they do after their evaluation, one step
-/// later, when nodes of a finer pace still have the velocity that followed it.
+/// Of elements evaluated every so many steps: books the half of the forces' work that they do after their evaluation,
+/// one step later, when nodes of a finer pace still have the velocity that followed it.
 template <class S>
 struct BookDamping {
   DampingArrays damping;

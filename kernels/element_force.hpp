@@ -31,10 +31,10 @@ struct Elastic {
   }
 };
 
-/// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed at
-/// its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N.
-/// The sums go to `partial`, which the nodes add up in fixed order (no atomics: bitwise the same on any number of threads);
-/// nodes that are the patch's alone are advanced at once where `Advance` says so.
+/// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed
+/// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
+/// which the nodes add up in fixed order (no atomics: bitwise the same on any number of threads); nodes that are the
+/// patch's alone are advanced at once where `Advance` says so.
 /// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
 template <class S, class Material, class Hourglass, bool Advance, class Nodes = NodeAdvance>
 struct PatchForce {
@@ -44,15 +44,16 @@ struct PatchForce {
   PatchArrays patches;
   Array<const float*> hourglass_scale;
   Nodes nodes;
-  double step;              ///< s, for the dissipated hourglass energy
+  double step;                      ///< s, for the dissipated hourglass energy
   Array<PartialForce<S>*> partial;  ///< N
-  int first_partial;        ///< row of the patches' first node
+  int first_partial;                ///< row of the patches' first node
 
   using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
 
   /// Scratch memory of a team, bytes.
   static std::size_t scratch_size(const PatchArrays& patches) {
-    return Staged::scratch_size(patches.node_stride) + sizeof(S) * (3u * component_stride + patch_size) + 4 * scratch_alignment +
+    return Staged::scratch_size(patches.node_stride) + sizeof(S) * (3u * component_stride + patch_size) +
+           4 * scratch_alignment +
            (on_device ? sizeof(std::uint16_t) * (patches.pack_stride + patches.place_stride) : 0);
   }
 
@@ -92,7 +93,7 @@ struct PatchForce {
       });
   }
 
-  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (patch_size / lane_count<S>) + b; }
+  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (patch_size / lane_count<S>)+b; }
 
   KOKKOS_INLINE_FUNCTION BatchCorners<S> corners_of_batch(int p, int b) const {
     return BatchCorners<S>(patches.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
@@ -124,7 +125,8 @@ struct PatchForce {
   /// @param power dissipated by hourglass control, W
   template <class Constants>
   KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const BatchCorners<S>& corners, const T& scale,
-                                          const Constants& constants, const Staged& staged, S* force, S* power_of_slot) const {
+                                          const Constants& constants, const Staged& staged, S* force,
+                                          S* power_of_slot) const {
     T x[3][7], B[3][6], H[3][3], cauchy[6];
     for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
     mean_gradient<S>(x, B);
@@ -214,7 +216,8 @@ struct PatchForce {
         return;
       }
     }
-    partial(first_partial + place) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
+    partial(first_partial +
+            place) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
   }
 };
 
@@ -227,8 +230,8 @@ struct PatchState {
   PatchArrays patches;
   Array<const float*> hourglass_scale;
   NodeArrays nodes;
-  Array<S*> stress;           ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
-  Array<double* [2]> energy;  ///< J, by patch: elastic, stored by hourglass control
+  Array<S*> stress;               ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
+  Array<double* [2]> energy;      ///< J, by patch: elastic, stored by hourglass control
   Array<const int*> listed = {};  ///< patches to compute; empty: all. Results are in the list's order then
 
   using Staged = StagedNodes<S, false, false>;
@@ -258,9 +261,9 @@ struct PatchState {
 
   /// @param at where the patch's results go
   /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
-  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int at, const int b, const int elements, const Staged& staged,
-                                            const int which) const {
-    const int batch = p * (patch_size / lane_count<S>) + b;
+  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int at, const int b, const int elements,
+                                            const Staged& staged, const int which) const {
+    const int batch = p * (patch_size / lane_count<S>)+b;
     const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
     T x[3][7], u[3][7], B[3][6], H[3][3], e[6], tau[6];
     for (int i = 0; i < 3; ++i) {
@@ -291,7 +294,8 @@ struct PatchState {
     hencky_strain(e, h);
     kirchhoff_stress<S>(material.elastic(constants), h, tau);
     if (stress.extent(0) != 0)
-      for (int c = 0; c < 6; ++c) store(stress.data() + tiled<S>(at * (patch_size / lane_count<S>) + b, 6, c), T(tau[c] * to_cauchy));
+      for (int c = 0; c < 6; ++c)
+        store(stress.data() + tiled<S>(at * (patch_size / lane_count<S>)+b, 6, c), T(tau[c] * to_cauchy));
     value = volume * to_cauchy * elastic_energy_density<S>(h, tau);
     return sum_of_elements(value, b, elements, [](int) { return 1.0; });
   }

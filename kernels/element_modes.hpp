@@ -2,11 +2,11 @@
 
 #include "kernels/lanes.hpp"
 
-/// The eight corner values of a hexahedron written in its modes: products of the corner signs xi, eta, zeta. The constant
-/// mode is left out (nothing in an element depends on it); modes 0 to 2 are linear (xi, eta, zeta), 3 to 6 the hourglass
-/// base vectors Gamma_M of Flanagan & Belytschko 1981 (eta zeta, xi zeta, xi eta, xi eta zeta).
-/// In modes the mean gradient takes a fifth of the operations that it takes corner by corner, and far fewer values live at
-/// once, which is what bounds these kernels on a GPU.
+/// The eight corner values of a hexahedron written in its modes: products of the corner signs xi, eta, zeta. The
+/// constant mode is left out (nothing in an element depends on it); modes 0 to 2 are linear (xi, eta, zeta), 3 to 6 the
+/// hourglass base vectors Gamma_M of Flanagan & Belytschko 1981 (eta zeta, xi zeta, xi eta, xi eta zeta). In modes the
+/// mean gradient takes a fifth of the operations that it takes corner by corner, and far fewer values live at once,
+/// which is what bounds these kernels on a GPU.
 namespace railwave {
 
 /// The sign of a mode at a corner.

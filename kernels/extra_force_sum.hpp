@@ -12,12 +12,12 @@ struct FixedForce {
 };
 
 /// Sum of the extra forces on the nodes that can feel any, by row. Contact's part is summed in whole quanta by atomic
-/// additions of integers: their order does not matter, so a run is bitwise repeatable, and a push and its reaction cancel
-/// exactly.
+/// additions of integers: their order does not matter, so a run is bitwise repeatable, and a push and its reaction
+/// cancel exactly.
 struct ExtraForceSum {
-  Array<double* [3]> load;                  ///< N, of loads and connectors
-  Array<std::uint64_t* [3]> contact;        ///< quanta, two's complement; Kokkos knows 64-bit atomics by this type alone
-  double quantum = 1;                       ///< N, a power of two: 2^-57 of a force beyond any that a sound contact bears
+  Array<double* [3]> load;            ///< N, of loads and connectors
+  Array<std::uint64_t* [3]> contact;  ///< quanta, two's complement; Kokkos knows 64-bit atomics by this type alone
+  double quantum = 1;                 ///< N, a power of two: 2^-57 of a force beyond any that a sound contact bears
 
   /// Larger forces (and NaN) saturate; 32 such on one node still do not overflow.
   static constexpr double largest = 144115188075855872.0;  // 2^57

@@ -17,8 +17,8 @@ struct FlushDenormals {
   }
 };
 
-/// The same on all threads of a host, from now on. Ahead of a wave motion in single precision fades into such numbers, and each
-/// operation on one costs an x86 processor a hundred times another; a GPU takes them as any.
+/// The same on all threads of a host, from now on. Ahead of a wave motion in single precision fades into such numbers,
+/// and each operation on one costs an x86 processor a hundred times another; a GPU takes them as any.
 inline void flush_denormals() {
   if constexpr (on_device) return;
   Kokkos::parallel_for("flush_denormals", Range(0, ExecutionSpace().concurrency()), FlushDenormals{});

@@ -22,8 +22,8 @@ struct ViscousHourglass {
 };
 
 /// Stiffness control without history: q = k (I - H)^T w, w the content of the displacement u = x - (R X + t) and H its
-/// gradient; it is the content of the reference coordinates seen from the present configuration, turned back, and the same
-/// whatever R. k = kappa (lambda + 2 mu) V^(1/3) / 16 (N/m, given for each element). Stores |w|^2 k/2.
+/// gradient; it is the content of the reference coordinates seen from the present configuration, turned back, and the
+/// same whatever R. k = kappa (lambda + 2 mu) V^(1/3) / 16 (N/m, given for each element). Stores |w|^2 k/2.
 struct StiffnessHourglass {
   static constexpr bool needs_velocity = false;
   static constexpr bool stores = true;

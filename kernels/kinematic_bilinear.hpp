@@ -5,12 +5,12 @@
 
 namespace railwave {
 
-/// Bilinear with a back stress: of the hardening modulus H the share beta widens the yield surface and 1 - beta moves it
-/// (Prager; Simo & Hughes, Computational Inelasticity, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
+/// Bilinear with a back stress: of the hardening modulus H the share beta widens the yield surface and 1 - beta moves
+/// it (Prager; Simo & Hughes, Computational Inelasticity, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
 ///   q <= sigma_y + beta H e_p,   de_p = (q_trial - limit) / (3 mu + H),   db = 2/3 (1 - beta) H (3/2 de_p xi / q).
 /// The back stress b (Kirchhoff's, a deviator) turns with the material: what is kept is a = R^T b R in the axes of the
-/// reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body touches and which does not
-/// swing to and fro in large shear. beta = 1 is Bilinear, which knows nothing of all this.
+/// reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body touches and which does
+/// not swing to and fro in large shear. beta = 1 is Bilinear, which knows nothing of all this.
 struct KinematicBilinear {
   static constexpr int back_values = 6;
 
@@ -30,16 +30,20 @@ struct KinematicBilinear {
   }
 
   template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const OfPatch<S>& patch) { return Bilinear::elastic(patch.bilinear); }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const OfPatch<S>& patch) {
+    return Bilinear::elastic(patch.bilinear);
+  }
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const OfPatch<S>& patch, int batch, const T (&K)[3][3],
+                                                      T (&e)[6]) const {
     bilinear.template leave_elastic_part<S>(patch.bilinear, batch, K, e);
   }
 
   /// Kirchhoff stress at the present instant, with the flow that leads to it, Pa.
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6], T (&tau)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+                                          T (&tau)[6]) const {
     const BilinearConstants& constants = patch.bilinear.constants;
     T h[6], xi[6], turned[3][3];
     bilinear.template leave_elastic_part<S>(patch.bilinear, batch, K, e);
@@ -78,7 +82,8 @@ struct KinematicBilinear {
 
   /// @param lost flow of the Hencky strain; zero in lanes that do not yield
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void move_surface(const OfPatch<S>& patch, int batch, const T (&turned)[3][3], const T (&lost)[6]) const {
+  KOKKOS_FORCEINLINE_FUNCTION void move_surface(const OfPatch<S>& patch, int batch, const T (&turned)[3][3],
+                                                const T (&lost)[6]) const {
     T rotation[3][3], back[6], kept[6];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) rotation[i][j] = turned[j][i];
@@ -95,11 +100,13 @@ struct KinematicBilinear {
 };
 
 /// Work of the flow when part of the hardening moves the yield surface, J for each m3 of the reference: what isotropic
-/// hardening makes of it, and 3 a : a / (4 (1 - beta) H) in the moved surface, which comes back when the flow is reversed.
+/// hardening makes of it, and 3 a : a / (4 (1 - beta) H) in the moved surface, which comes back when the flow is
+/// reversed.
 /// @param back a as it is kept, Pa
-KOKKOS_INLINE_FUNCTION double plastic_work(const BilinearConstants& constants, double isotropic_share, double equivalent,
-                                           const double (&back)[6]) {
-  const double isotropic = (constants.yield_stress + 0.5 * isotropic_share * constants.hardening * equivalent) * equivalent;
+KOKKOS_INLINE_FUNCTION double plastic_work(const BilinearConstants& constants, double isotropic_share,
+                                           double equivalent, const double (&back)[6]) {
+  const double isotropic =
+      (constants.yield_stress + 0.5 * isotropic_share * constants.hardening * equivalent) * equivalent;
   const double kinematic = (1 - isotropic_share) * constants.hardening;
   if (!(kinematic > 0)) return isotropic;
   double square = 0;

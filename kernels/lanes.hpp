@@ -12,8 +12,8 @@
 #endif
 #endif
 
-/// The number types that the element kernels are written in: a SIMD pack on a host (one element a lane), a plain number on
-/// a GPU (one element a thread). A batch is what one call of an element kernel works on: `lane_count<S>` elements.
+/// The number types that the element kernels are written in: a SIMD pack on a host (one element a lane), a plain number
+/// on a GPU (one element a thread). A batch is what one call of an element kernel works on: `lane_count<S>` elements.
 namespace railwave {
 
 #ifdef RAILWAVE_SIMD_LANES
@@ -32,8 +32,8 @@ template <class S>
 inline constexpr int tile_width = 32;
 #endif
 
-/// Element data lie in tiles: value k of K of slot s is at ((s / width) * K + k) * width + s % width, where the width is
-/// that of a pack on a host and of coalesced access on a GPU.
+/// Element data lie in tiles: value k of K of slot s is at ((s / width) * K + k) * width + s % width, where the width
+/// is that of a pack on a host and of coalesced access on a GPU.
 template <class S>
 KOKKOS_INLINE_FUNCTION constexpr long tiled_slot(int slot, int values, int value) {
   return (static_cast<long>(slot / tile_width<S>) * values + value) * tile_width<S> + slot % tile_width<S>;
@@ -64,8 +64,8 @@ KOKKOS_FORCEINLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 }
 
 #ifdef RAILWAVE_SIMD_LANES
-/// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than lane
-/// by lane. (The forms with a mask, because g++ 12 warns of the others.)
+/// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than
+/// lane by lane. (The forms with a mask, because g++ 12 warns of the others.)
 template <class S, class Index>
 struct LanePlaces {
   const Index* place;
@@ -79,7 +79,8 @@ template <class Index>
 struct LanePlaces<double, Index> {
   __m256i place;
   explicit LanePlaces(const std::uint8_t* p) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(p))) {}
-  explicit LanePlaces(const std::uint16_t* p) : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
+  explicit LanePlaces(const std::uint16_t* p)
+      : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
   Pack<double> gather(const double* values) const {
     return Pack<double>(_mm512_mask_i32gather_pd(_mm512_setzero_pd(), 0xff, place, values, 8));
   }
@@ -107,7 +108,8 @@ template <class Index>
 struct LanePlaces<float, Index> {
   __m256i place;
   explicit LanePlaces(const std::uint8_t* p) : place(_mm256_cvtepu8_epi32(_mm_loadu_si64(p))) {}
-  explicit LanePlaces(const std::uint16_t* p) : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
+  explicit LanePlaces(const std::uint16_t* p)
+      : place(_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))) {}
   Pack<float> gather(const float* values) const { return Pack<float>(_mm256_i32gather_ps(values, place, 4)); }
 };
 #endif

@@ -8,14 +8,15 @@ namespace railwave {
 /// State and constant data of all nodes. Forces at an instant t_n, velocities half a step before it.
 struct NodeArrays {
   int count = 0;
-  Array<double* [3]> reference;    ///< m, undeformed
-  Array<double* [3]> position;     ///< m, at t_n
-  Array<double* [3]> velocity;     ///< m/s, at t_n - step/2
-  Array<double*> mass;             ///< kg, lumped
-  Array<int*> first_partial;       ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
-  Array<int*> partial_place;       ///< rows of the partial forces: one for each patch that the node belongs to
-  Array<int*> extra;               ///< row in the extra forces (loads, connectors, contact), -1: none
-  Array<int*> constraint;          ///< row in the constraint table, -1: free
+  Array<double* [3]> reference;  ///< m, undeformed
+  Array<double* [3]> position;   ///< m, at t_n
+  Array<double* [3]> velocity;   ///< m/s, at t_n - step/2
+  Array<double*> mass;           ///< kg, lumped
+  Array<int*>
+      first_partial;  ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
+  Array<int*> partial_place;  ///< rows of the partial forces: one for each patch that the node belongs to
+  Array<int*> extra;          ///< row in the extra forces (loads, connectors, contact), -1: none
+  Array<int*> constraint;     ///< row in the constraint table, -1: free
 };
 
 /// A force in a row of its own, read and written at once.
@@ -24,7 +25,8 @@ struct alignas(4 * sizeof(S)) PartialForce {
   S x[4];
 };
 
-/// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the elements.
+/// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the
+/// elements.
 struct PartialForces {
   Array<PartialForce<double>*> wide;
   Array<PartialForce<float>*> narrow;
@@ -59,9 +61,7 @@ struct NodalForce {
     return r >= 0 ? extra.force(r) : Vector3{{0, 0, 0}};
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    return with_partials(extra_force(n), n, 0);
-  }
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const { return with_partials(extra_force(n), n, 0); }
 
   /// Adds a node's partial forces from the given one on.
   KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int n, int from) const {
@@ -81,7 +81,8 @@ struct NodalForce {
   }
 };
 
-/// Central difference of the thesis's table 2.1, (i) and (j), eqs. 2.11 and 2.12, for a node whose acceleration is known.
+/// Central difference of the thesis's table 2.1, (i) and (j), eqs. 2.11 and 2.12, for a node whose acceleration is
+/// known.
 struct NodeAdvance {
   NodeArrays nodes;
   Vector3 gravity;       ///< m/s2
@@ -118,8 +119,8 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 projected(const Table& table, int c, const V
   return free;
 }
 
-/// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7, eqs. 2.31).
-/// A constrained direction keeps the velocity it began with.
+/// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7,
+/// eqs. 2.31). A constrained direction keeps the velocity it began with.
 struct NodalAcceleration {
   NodalForce force;
   Vector3 gravity;                          ///< m/s2

@@ -2,23 +2,24 @@
 
 #include "kernels/paced_nodes.hpp"
 
-/// Non-reflecting ends: the traction -rho C_d v_n n - rho C_s v_t of Lysmer & Kuhlemeyer (1969) on a surface's faces, lumped
-/// at their nodes.
+/// Non-reflecting ends: the traction -rho C_d v_n n - rho C_s v_t of Lysmer & Kuhlemeyer (1969) on a surface's faces,
+/// lumped at their nodes.
 namespace railwave {
 
 struct NonReflectingArrays {
   int count = 0;
   Array<int*> nodes;
-  Array<double* [6]> dashpot;     ///< N s/m: C as xx, yy, zz, yz, zx, xy, without constrained directions
-  Array<double* [3]> support;     ///< N, what held the node when the scene had settled, constant in the run
-  Array<double* [3]> start;       ///< m, where the node was when the run began
-  Array<double* [3]> force;       ///< N, of the dashpots at the node's last instant
-  Array<double*> dissipated;      ///< J
+  Array<double* [6]> dashpot;  ///< N s/m: C as xx, yy, zz, yz, zx, xy, without constrained directions
+  Array<double* [3]> support;  ///< N, what held the node when the scene had settled, constant in the run
+  Array<double* [3]> start;    ///< m, where the node was when the run began
+  Array<double* [3]> force;    ///< N, of the dashpots at the node's last instant
+  Array<double*> dissipated;   ///< J
 };
 
 /// C v of a symmetric matrix kept as xx, yy, zz, yz, zx, xy.
 KOKKOS_INLINE_FUNCTION Vector3 symmetric_product(const double (&c)[6], const Vector3& v) {
-  return {{c[0] * v[0] + c[5] * v[1] + c[4] * v[2], c[5] * v[0] + c[1] * v[1] + c[3] * v[2], c[4] * v[0] + c[3] * v[1] + c[2] * v[2]}};
+  return {{c[0] * v[0] + c[5] * v[1] + c[4] * v[2], c[5] * v[0] + c[1] * v[1] + c[3] * v[2],
+           c[4] * v[0] + c[3] * v[1] + c[2] * v[2]}};
 }
 
 /// x of A x = b, by cofactors; A symmetric and definite, in the same order.
@@ -28,9 +29,9 @@ KOKKOS_INLINE_FUNCTION Vector3 symmetric_solve(const double (&a)[6], const Vecto
   return (1 / (a[0] * inverse[0] + a[5] * inverse[5] + a[4] * inverse[4])) * symmetric_product(inverse, b);
 }
 
-/// Forces of an instant on the ends' nodes, after all other forces. The dashpots feel the velocity of the instant itself,
-/// v_n = v_(n-1/2) + h a with h half the step, so (m + h C) a = F - C v_(n-1/2): dashpots so taken do not bear on the stable
-/// step, and what they dissipate, v_n . C v_n, is never negative.
+/// Forces of an instant on the ends' nodes, after all other forces. The dashpots feel the velocity of the instant
+/// itself, v_n = v_(n-1/2) + h a with h half the step, so (m + h C) a = F - C v_(n-1/2): dashpots so taken do not bear
+/// on the stable step, and what they dissipate, v_n . C v_n, is never negative.
 struct NonReflectingForce {
   NonReflectingArrays ends;
   PacedAcceleration acceleration;

@@ -2,10 +2,10 @@
 
 #include "kernels/nodes.hpp"
 
-/// Subcycling: elements of level l are evaluated every 2^l steps, and each evaluation gives the element's nodes the impulse
-/// of 2^l steps at once; a node moves with constant velocity from one impulse to the next (asynchronous variational
-/// integration: Lew, Marsden, Ortiz & West 2003). All nodes of an element feel the same evaluation, so linear and angular
-/// momentum are kept to rounding, and the scheme is symplectic, so that energy does not drift.
+/// Subcycling: elements of level l are evaluated every 2^l steps, and each evaluation gives the element's nodes the
+/// impulse of 2^l steps at once; a node moves with constant velocity from one impulse to the next (asynchronous
+/// variational integration: Lew, Marsden, Ortiz & West 2003). All nodes of an element feel the same evaluation, so
+/// linear and angular momentum are kept to rounding, and the scheme is symplectic, so that energy does not drift.
 namespace railwave {
 
 inline constexpr int most_levels = 6;
@@ -47,8 +47,8 @@ struct PacedAcceleration {
 /// NodeUpdate for the nodes whose own step begins at this instant.
 struct PacedNodeUpdate {
   PacedAcceleration acceleration;
-  NodeAdvance advance;                ///< of the finest nodes
-  Array<const ListedNode*> listed;    ///< the nodes concerned; empty: all
+  NodeAdvance advance;              ///< of the finest nodes
+  Array<const ListedNode*> listed;  ///< the nodes concerned; empty: all
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = listed.extent(0) == 0 ? i : listed(i).node & ~special_bit;

@@ -5,14 +5,14 @@
 #include "kernels/elastic.hpp"
 #include "kernels/lane_choice.hpp"
 
-/// Von Mises plasticity at finite strain without anything to rotate. F = F_e F_p; what is kept is the plastic Green strain
-/// E_p = (F_p^T F_p - I)/2, which lives in the reference configuration: zero at the start, untouched by rotations of the
-/// body. Seen from the present configuration it takes its share from the Almansi strain, and what is left is elastic:
-/// e = (I - G^T G)/2 - G^T E_p G with G = F^-1, h = -1/2 ln(I - 2 e).
-/// The radial return is that of Simo & Hughes, Computational Inelasticity, 3.3 and 9.3: in Hencky strain it is the one of
-/// small strains. Flow stress and stress are Kirchhoff's, so that the work of the flow is a function of the equivalent
-/// plastic strain; Cauchy's differ by J = 1 + tr h, 0.1 % at a yield strain of 0.3 %.
-/// Symmetric tensors are six values: xx, yy, zz, xy, yz, zx. S is the number, T the lanes' type.
+/// Von Mises plasticity at finite strain without anything to rotate. F = F_e F_p; what is kept is the plastic Green
+/// strain E_p = (F_p^T F_p - I)/2, which lives in the reference configuration: zero at the start, untouched by
+/// rotations of the body. Seen from the present configuration it takes its share from the Almansi strain, and what is
+/// left is elastic: e = (I - G^T G)/2 - G^T E_p G with G = F^-1, h = -1/2 ln(I - 2 e). The radial return is that of
+/// Simo & Hughes, Computational Inelasticity, 3.3 and 9.3: in Hencky strain it is the one of small strains. Flow stress
+/// and stress are Kirchhoff's, so that the work of the flow is a function of the equivalent plastic strain; Cauchy's
+/// differ by J = 1 + tr h, 0.1 % at a yield strain of 0.3 %. Symmetric tensors are six values: xx, yy, zz, xy, yz, zx.
+/// S is the number, T the lanes' type.
 namespace railwave {
 
 struct BilinearConstants {
@@ -21,8 +21,8 @@ struct BilinearConstants {
   double hardening;     ///< Pa, slope of flow stress over equivalent plastic strain
 };
 
-/// Slope of flow stress over plastic strain, E E_t / (E - E_t), from the two slopes of stress over strain under uniaxial
-/// stress.
+/// Slope of flow stress over plastic strain, E E_t / (E - E_t), from the two slopes of stress over strain under
+/// uniaxial stress.
 inline double hardening_modulus(double youngs_modulus, double tangent_modulus) {
   return youngs_modulus * tangent_modulus / (youngs_modulus - tangent_modulus);
 }
@@ -104,7 +104,7 @@ KOKKOS_INLINE_FUNCTION double plastic_work(const BilinearConstants& constants, d
 /// @return increment of the equivalent plastic strain; zero, with no flow, in lanes that do not yield
 template <class S, class T, class Mask>
 KOKKOS_FORCEINLINE_FUNCTION T radial_return(const BilinearConstants& constants, const Mask& yields, const T (&s)[6],
-                                       const T& mises_square, const T& limit, T (&tau)[6], T (&flow)[6]) {
+                                            const T& mises_square, const T& limit, T (&tau)[6], T (&flow)[6]) {
   const double mu = constants.elastic.mu;
   const T mises = choose(yields, square_root(mises_square), T(S(1)));
   const T excess = choose(yields, T(mises - limit), T(S(0)));
@@ -125,14 +125,18 @@ KOKKOS_FORCEINLINE_FUNCTION T radial_return(const BilinearConstants& constants, 
 /// @param G inverse deformation gradient; e trial Almansi strain, elastic part; plastic E_p before
 template <class S, bool Coaxial, class T>
 KOKKOS_FORCEINLINE_FUNCTION void plastic_increment(const T (&G)[3][3], const T (&e)[6], const T (&flow)[6],
-                                              const T (&plastic)[6], T (&increment)[6]) {
+                                                   const T (&plastic)[6], T (&increment)[6]) {
   T m[6], product[6], d[6], F[3][3];
   for (int c = 0; c < 6; ++c) m[c] = S(2) * e[c] - flow[c];
-  if constexpr (Coaxial) coaxial_product(m, flow, product);
-  else symmetric_product<S>(m, flow, product);
+  if constexpr (Coaxial)
+    coaxial_product(m, flow, product);
+  else
+    symmetric_product<S>(m, flow, product);
   for (int c = 0; c < 6; ++c) d[c] = flow[c] - product[c];
-  if constexpr (Coaxial) coaxial_product(m, d, product);
-  else symmetric_product<S>(m, d, product);
+  if constexpr (Coaxial)
+    coaxial_product(m, d, product);
+  else
+    symmetric_product<S>(m, d, product);
   for (int c = 0; c < 6; ++c) d[c] = flow[c] - product[c];
   inverse<S>(G, F);
   carry(d, F, increment);

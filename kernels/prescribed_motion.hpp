@@ -18,20 +18,20 @@ struct RigidPlace {
   }
 };
 
-/// Gives the nodes of a set, held in the prescribed directions, the velocity along these that brings them where the rigid motion
-/// will be at the next instant, so that no error adds up; and counts the work that this takes: of a node with mass m and, all
-/// along these directions, velocity v and force F at t_n
+/// Gives the nodes of a set, held in the prescribed directions, the velocity along these that brings them where the
+/// rigid motion will be at the next instant, so that no error adds up; and counts the work that this takes: of a node
+/// with mass m and, all along these directions, velocity v and force F at t_n
 ///   m (v(n+1/2)^2 - v(n-1/2)^2) / 2 - F . ((t_n - t_(n-1)) v(n-1/2) + (t_(n+1) - t_n) v(n+1/2)) / 2.
 /// Over the steps that is the change of kinetic energy and the trapezoidal rule of the forces' work.
 struct PrescribedMotion {
   NodalForce force;
-  Vector3 gravity;            ///< m/s2
+  Vector3 gravity;  ///< m/s2
   Array<const int*> nodes;
-  Array<double*> work;        ///< J, by node of the set
+  Array<double*> work;  ///< J, by node of the set
   RigidPlace next;
-  double lag;                 ///< s, half of the step before; 0 at the first
-  double step;                ///< s
-  double held[3][3];          ///< sum of d d^T over the prescribed directions d
+  double lag;         ///< s, half of the step before; 0 at the first
+  double step;        ///< s
+  double held[3][3];  ///< sum of d d^T over the prescribed directions d
 
   KOKKOS_INLINE_FUNCTION Vector3 prescribed(const Vector3& v) const {
     Vector3 along{{0, 0, 0}};

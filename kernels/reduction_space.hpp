@@ -4,10 +4,11 @@
 
 namespace railwave {
 
-/// Where reductions leave what their blocks have found; grows to what is asked of it, so that only the first ones allocate.
+/// Where reductions leave what their blocks have found; grows to what is asked of it, so that only the first ones
+/// allocate.
 struct ReductionSpace {
-  Array<double*> blocks;         ///< of the reduction at work
-  Array<double*> left;           ///< of all that are queued
+  Array<double*> blocks;  ///< of the reduction at work
+  Array<double*> left;    ///< of all that are queued
   PinnedArray<double*> fetched;
 
   std::size_t bytes() const { return (blocks.span() + left.span()) * sizeof(double); }

@@ -10,9 +10,9 @@
 
 namespace railwave {
 
-/// Sums and largest values over many lists, fetched by the host all at once: a copy from a GPU takes as long as several small
-/// kernels. Items are taken together in blocks of fixed size, the blocks in blocks again, and the few that are left on the host,
-/// so a result is bitwise the same on any number of threads.
+/// Sums and largest values over many lists, fetched by the host all at once: a copy from a GPU takes as long as several
+/// small kernels. Items are taken together in blocks of fixed size, the blocks in blocks again, and the few that are
+/// left on the host, so a result is bitwise the same on any number of threads.
 class Reductions {
  public:
   explicit Reductions(ReductionSpace& space) : space_(space) {}
@@ -23,12 +23,14 @@ class Reductions {
   template <class Term, class Use>
   void sum(const Term& term, int count, Use use) {
     constexpr int values = Term::values;
-    reduce<BlockSum<Term>, BlockSum<LeftSum<values>>, double>(term, count, values, [use](const double* left, int parts) {
-      double sum[values] = {};
-      for (int p = 0; p < parts; ++p)
-        for (int k = 0; k < values; ++k) sum[k] += left[p * values + k];
-      use(static_cast<const double*>(sum));
-    });
+    reduce<BlockSum<Term>, BlockSum<LeftSum<values>>, double>(term, count, values,
+                                                              [use](const double* left, int parts) {
+                                                                double sum[values] = {};
+                                                                for (int p = 0; p < parts; ++p)
+                                                                  for (int k = 0; k < values; ++k)
+                                                                    sum[k] += left[p * values + k];
+                                                                use(static_cast<const double*>(sum));
+                                                              });
   }
 
   /// Queues the largest of each of the quantities of `term` over `count` items, with the items that have them.
@@ -39,21 +41,23 @@ class Reductions {
     using Found = Largest<Term::values>;
     static_assert(sizeof(Found) % sizeof(double) == 0);
     constexpr int words = sizeof(Found) / sizeof(double);
-    reduce<BlockLargest<Term>, LeftLargest<Term::values>, Found>(term, count, words, [use](const double* left, int parts) {
-      Found all, part;
-      all.clear();
-      for (int p = 0; p < parts; ++p) {
-        std::memcpy(&part, left + p * words, sizeof(Found));
-        for (int k = 0; k < Term::values; ++k) all.add(k, part.value[k], part.place[k]);
-      }
-      use(static_cast<const Found&>(all));
-    });
+    reduce<BlockLargest<Term>, LeftLargest<Term::values>, Found>(
+        term, count, words, [use](const double* left, int parts) {
+          Found all, part;
+          all.clear();
+          for (int p = 0; p < parts; ++p) {
+            std::memcpy(&part, left + p * words, sizeof(Found));
+            for (int k = 0; k < Term::values; ++k) all.add(k, part.value[k], part.place[k]);
+          }
+          use(static_cast<const Found&>(all));
+        });
   }
 
   /// Waits for what is queued and hands it out in the order of queueing.
   void fetch() {
     if (space_.fetched.extent(0) < used_)
-      space_.fetched = PinnedArray<double*>(Kokkos::view_alloc(std::string("fetched"), Kokkos::WithoutInitializing), space_.left.extent(0));
+      space_.fetched = PinnedArray<double*>(Kokkos::view_alloc(std::string("fetched"), Kokkos::WithoutInitializing),
+                                            space_.left.extent(0));
     const ExecutionSpace device;
     const auto used = Kokkos::make_pair(std::size_t{0}, used_);
     if (used_ > 0) Kokkos::deep_copy(device, Kokkos::subview(space_.fetched, used), Kokkos::subview(space_.left, used));
@@ -96,7 +100,8 @@ class Reductions {
     if (space_.left.extent(0) < used_ + words) {
       const auto more = unset_array<double*>("left of reductions", 2 * (used_ + words));
       const auto used = Kokkos::make_pair(std::size_t{0}, used_);
-      if (used_ > 0) Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(more, used), Kokkos::subview(space_.left, used));
+      if (used_ > 0)
+        Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(more, used), Kokkos::subview(space_.left, used));
       space_.left = more;
     }
     double* const place = space_.left.data() + used_;

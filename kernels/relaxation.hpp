@@ -5,14 +5,16 @@
 namespace railwave {
 
 /// One step towards static equilibrium by dynamic relaxation with local damping (Cundall 1987): masses scaled so that
-/// every element has the same stable step (one unit of pseudo-time), and a damping force on each degree of freedom that is
-/// a fraction of its unbalanced force, against its velocity; it vanishes with the unbalance, so the rest state is exact.
+/// every element has the same stable step (one unit of pseudo-time), and a damping force on each degree of freedom that
+/// is a fraction of its unbalanced force, against its velocity; it vanishes with the unbalance, so the rest state is
+/// exact.
 struct RelaxationUpdate {
-  NodalAcceleration acceleration;         ///< its gravity is used with the true masses
-  Array<const double*> relaxation_mass;   ///< kg for a unit step
-  Array<const double* [3]> body_acceleration;  ///< m/s2, of true masses: centrifugal field of the motion to come; may be empty
-  Array<double* [3]> unbalanced;          ///< N, for the check of convergence
-  double damping;                         ///< share of the unbalanced force, below 1
+  NodalAcceleration acceleration;        ///< its gravity is used with the true masses
+  Array<const double*> relaxation_mass;  ///< kg for a unit step
+  Array<const double* [3]>
+      body_acceleration;          ///< m/s2, of true masses: centrifugal field of the motion to come; may be empty
+  Array<double* [3]> unbalanced;  ///< N, for the check of convergence
+  double damping;                 ///< share of the unbalanced force, below 1
 
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     const NodeArrays& nodes = acceleration.force.nodes;

@@ -12,7 +12,7 @@ struct RowLoads {
   ExtraForces extra;
   ConnectorArrays connectors;
   TorqueArrays torques;
-  Array<const double* [3]> position, velocity;
+  Array<const double*[3]> position, velocity;
   double elapsed;  ///< s since the last step
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(i); }
@@ -21,7 +21,8 @@ struct RowLoads {
   template <int batch>
   KOKKOS_INLINE_FUNCTION void gather(const int i) const {
     const LoadedRow loaded = extra.loaded(i);
-    Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last, [&](int k) { return without_torque(extra.shares(k)); });
+    Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last,
+                                        [&](int k) { return without_torque(extra.shares(k)); });
     if (torques.count > 0) sum = sum + torque_forces(loaded);
     for (int c = 0; c < 3; ++c) extra.sum.load(loaded.row, c) = sum[c];
   }
@@ -40,7 +41,8 @@ struct RowLoads {
       const RowShare share = extra.shares(k);
       if (share.law < connectors.count) continue;
       const int t = share.law - connectors.count;
-      const Vector3 arm = row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
+      const Vector3 arm =
+          row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
       const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
       set_contribution(extra, velocity, share.contribution, force, elapsed);
       sum = sum + force;
@@ -49,8 +51,8 @@ struct RowLoads {
   }
 };
 
-/// All that follows from the mean motion of node sets, in one team: sums over the sets, connector forces and torques, and
-/// unless they are too many for a team the rows that feel them.
+/// All that follows from the mean motion of node sets, in one team: sums over the sets, connector forces and torques,
+/// and unless they are too many for a team the rows that feel them.
 struct SetLoads {
   SetMotion sets;
   ConnectorForce connectors;
@@ -74,8 +76,10 @@ struct SetLoads {
   KOKKOS_INLINE_FUNCTION int sum_count() const { return sets.sets.moving * NodeSets::values; }
   KOKKOS_INLINE_FUNCTION int law_count() const { return connectors.connectors.count + torques.torques.count; }
   KOKKOS_INLINE_FUNCTION void law(int k) const {
-    if (k < connectors.connectors.count) connectors(k);
-    else torques(k - connectors.connectors.count);
+    if (k < connectors.connectors.count)
+      connectors(k);
+    else
+      torques(k - connectors.connectors.count);
   }
 };
 

@@ -16,20 +16,20 @@ struct NodeSets {
   static constexpr int values = 12;
 
   int count = 0, moving = 0;
-  Array<int*> first;              ///< count + 1
+  Array<int*> first;  ///< count + 1
   Array<int*> nodes;
   Array<double*> weight;
-  Array<int*> first_chunk;        ///< moving + 1
+  Array<int*> first_chunk;  ///< moving + 1
   Array<SetChunk*> chunks;
   Array<double* [values]> partial;  ///< by chunk
-  Array<double* [values]> sums;     ///< by set: weighted r (3, m), velocity (3, m/s), r r: xx, yy, zz, yz, zx, xy (m2); r is
-                                    ///< the position less that of the set's first node
+  Array<double* [values]> sums;  ///< by set: weighted r (3, m), velocity (3, m/s), r r: xx, yy, zz, yz, zx, xy (m2); r
+                                 ///< is the position less that of the set's first node
 };
 
 /// Sums over node sets in two passes, between which a team waits, and what follows from them.
 struct SetMotion {
   NodeSets sets;
-  Array<const double* [3]> position, velocity;
+  Array<const double*[3]> position, velocity;
 
   /// First pass.
   KOKKOS_INLINE_FUNCTION void sum_chunk(int c) const {

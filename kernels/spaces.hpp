@@ -5,8 +5,8 @@
 
 namespace railwave {
 
-/// Where everything runs: on the GPU where there is one, else on all processors. RAILWAVE_SERIAL, for comparison, is one
-/// processor without any threading library.
+/// Where everything runs: on the GPU where there is one, else on all processors. RAILWAVE_SERIAL, for comparison, is
+/// one processor without any threading library.
 #ifdef RAILWAVE_SERIAL
 using ExecutionSpace = Kokkos::Serial;
 #else
@@ -14,8 +14,8 @@ using ExecutionSpace = Kokkos::DefaultExecutionSpace;
 #endif
 using MemorySpace = ExecutionSpace::memory_space;
 
-/// A device array. The layout is Kokkos' own choice for the space: rows together on a host (a node's three components in
-/// one cache line), columns together on a GPU (coalesced).
+/// A device array. The layout is Kokkos' own choice for the space: rows together on a host (a node's three components
+/// in one cache line), columns together on a GPU (coalesced).
 template <class T>
 using Array = Kokkos::View<T, MemorySpace>;
 
@@ -30,8 +30,8 @@ using PinnedSpace = Kokkos::HostSpace;
 template <class T>
 using PinnedArray = Kokkos::View<T, typename Array<T>::array_layout, PinnedSpace>;
 
-/// In a policy: the functor goes to a GPU as a kernel argument. A large one Kokkos would else copy to constant memory, and
-/// each launch would wait for the copy before.
+/// In a policy: the functor goes to a GPU as a kernel argument. A large one Kokkos would else copy to constant memory,
+/// and each launch would wait for the copy before.
 using AsArgument = Kokkos::Experimental::WorkItemProperty::HintLightWeight_t;
 
 using Range = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
@@ -39,11 +39,12 @@ using Range = Kokkos::RangePolicy<ExecutionSpace, AsArgument>;
 /// For few threads: few of them a block, so that all of a GPU's multiprocessors share the work.
 using SpreadRange = Kokkos::RangePolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
 
-/// Calls kernel(i) for each i. For few threads whose ways differ much: on a GPU each has a warp of its own, where else all threads of a
-/// warp would wait for each other's.
+/// Calls kernel(i) for each i. For few threads whose ways differ much: on a GPU each has a warp of its own, where else
+/// all threads of a warp would wait for each other's.
 template <class Kernel>
 struct OneAWarp {
-  static constexpr bool on_host = Kokkos::SpaceAccessibility<Kokkos::HostSpace, ExecutionSpace::memory_space>::accessible;
+  static constexpr bool on_host =
+      Kokkos::SpaceAccessibility<Kokkos::HostSpace, ExecutionSpace::memory_space>::accessible;
   static constexpr int lanes = on_host ? 1 : 32;
   Kernel kernel;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {

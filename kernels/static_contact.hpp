@@ -5,8 +5,8 @@
 namespace railwave {
 
 /// Contact by augmented Lagrange while a scene settles, for pairs whose run has multipliers: a node presses with
-/// max(0, lambda - k gap), lambda being what it pressed with at the last update, so that k need not be large for the gap to
-/// vanish. Friction is that of the penalty springs: a node sticks by a spring to where it touched first.
+/// max(0, lambda - k gap), lambda being what it pressed with at the last update, so that k need not be large for the
+/// gap to vanish. Friction is that of the penalty springs: a node sticks by a spring to where it touched first.
 struct AugmentedLaw : PlainContactLaw {
   Array<const double*> multiplier;  ///< N, by slave node
   double stiffening;                ///< k over the penalty's stiffness

@@ -4,8 +4,8 @@
 #include "kernels/tangent.hpp"
 #include "kernels/tie.hpp"
 
-/// What finding a static equilibrium does with vectors of three components a node, and of as many a rotation of a beam node
-/// behind them.
+/// What finding a static equilibrium does with vectors of three components a node, and of as many a rotation of a beam
+/// node behind them.
 namespace railwave {
 
 /// A symmetric tensor of a node: xx, yy, zz, xy, yz, zx.
@@ -19,8 +19,8 @@ KOKKOS_INLINE_FUNCTION Vector3 block_product(const NodeBlocks& blocks, int n, co
 
 /// Directions along which rows are held.
 struct HeldRows {
-  Array<int*> row;                             ///< of the projections, -1: free
-  Array<double* [3][3]> projections;           ///< I - sum d d^T
+  Array<int*> row;                    ///< of the projections, -1: free
+  Array<double* [3][3]> projections;  ///< I - sum d d^T
 
   KOKKOS_INLINE_FUNCTION Vector3 free(int n, const Vector3& a) const { return projected(projections, row(n), a); }
 };
@@ -55,7 +55,7 @@ struct StaticReaction {
 /// Unbalanced moment of each rotation, N m.
 struct StaticMoment {
   BeamNodeMoment node;
-  int first;             ///< row of the first rotation
+  int first;  ///< row of the first rotation
   NodeVector residual;
   KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
     const Vector3 moment = node.moment(b);
@@ -96,7 +96,7 @@ struct PlaceSlaves {
 /// The same for rotations: from where they were, by a share of the way's.
 struct TurnAlong {
   BeamNodeMoment node;
-  int first;                        ///< row of the first rotation
+  int first;  ///< row of the first rotation
   Array<const double* [4]> origin;
   NodeVector way;
   double share;
@@ -155,10 +155,10 @@ struct ShiftAndHold {
 /// Coarse coordinates: for each aggregate of rows as many as a rigid body has, u = sum_m mode_m y_m at its nodes.
 struct CoarseModes {
   static constexpr int of_aggregate = 6;
-  Array<int*> first;              ///< by aggregate, and one more: its nodes
+  Array<int*> first;  ///< by aggregate, and one more: its nodes
   Array<int*> node;
-  Array<int*> aggregate;          ///< by node
-  Array<double* [18]> mode;       ///< by node: mode_m along i is entry 3 m + i; zero along held directions
+  Array<int*> aggregate;     ///< by node
+  Array<double* [18]> mode;  ///< by node: mode_m along i is entry 3 m + i; zero along held directions
 };
 
 /// y = Z^T r

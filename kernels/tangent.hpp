@@ -6,8 +6,8 @@
 #include "kernels/nodes.hpp"
 
 /// The scene as a linear operator on small motions about its present state, for estimates of its highest frequency:
-/// K + C/tau with K the stiffness of elements, hourglass control and springs, C their dashpots, and tau a time. Always in
-/// double, whatever precision the step has. Motions are in mass-weighted coordinates q = M^(1/2) u.
+/// K + C/tau with K the stiffness of elements, hourglass control and springs, C their dashpots, and tau a time. Always
+/// in double, whatever precision the step has. Motions are in mass-weighted coordinates q = M^(1/2) u.
 namespace railwave {
 
 using NodeVector = Array<double* [3]>;
@@ -28,19 +28,20 @@ struct ToDisplacement {
   }
 };
 
-/// Stiffness of an element (Lame's constants with the share of damping in proportion to stiffness; not that in proportion to
-/// mass): linear elastic about the present configuration, stresses' own (geometric) stiffness left out: it is
-/// of the order of stress over modulus.
+/// Stiffness of an element (Lame's constants with the share of damping in proportion to stiffness; not that in
+/// proportion to mass): linear elastic about the present configuration, stresses' own (geometric) stiffness left out:
+/// it is of the order of stress over modulus.
 struct ElementStiffness {
-  double lambda, mu;       ///< Pa
-  double hourglass;        ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
-  bool viscous;            ///< scale goes with V^(2/3), else V^(1/3)
-  double bulk;             ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
+  double lambda, mu;  ///< Pa
+  double hourglass;   ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
+  bool viscous;       ///< scale goes with V^(2/3), else V^(1/3)
+  double bulk;        ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
 
   /// @param x modes of the coordinates, m
   /// @param u modes of the displacements, m
   /// @param force by direction and corner, N
-  KOKKOS_INLINE_FUNCTION void operator()(const double (&x)[3][7], const double (&u)[3][7], double (&force)[3][8]) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const double (&x)[3][7], const double (&u)[3][7],
+                                         double (&force)[3][8]) const {
     double B[3][6], L[3][3];
     mean_gradient<double>(x, B);
     const double volume = along(x[0], B[0]), inverse = 1 / volume, root = std::cbrt(volume);
@@ -66,7 +67,7 @@ struct ElementStiffness {
 
 /// Forces K u + C u / tau of the elements of one part on their corners, element by element.
 struct ElementTangent {
-  int first;               ///< element
+  int first;  ///< element
   ElementStiffness stiffness;
   Array<const int* [8]> corners;
   Array<const double* [3]> position;
@@ -94,15 +95,15 @@ struct ElementTangent {
 /// Springs and dashpots: stretch = sum_k s_k . u_k, of nodes or of any other rows of u.
 struct TangentSprings {
   int count = 0;
-  Array<int*> first;              ///< count + 1
+  Array<int*> first;  ///< count + 1
   Array<int*> node;
-  Array<double* [3]> share;       ///< s: between means of nodes along one direction, weight times that
-  Array<double*> stiffness;       ///< N/m
-  Array<double*> damping;         ///< N s/m
-  Array<double*> force;           ///< N
-  int node_count = 0;             ///< nodes with springs
-  Array<int*> with_springs;       ///< those nodes
-  Array<int*> first_of_node;      ///< node_count + 1
+  Array<double* [3]> share;   ///< s: between means of nodes along one direction, weight times that
+  Array<double*> stiffness;   ///< N/m
+  Array<double*> damping;     ///< N s/m
+  Array<double*> force;       ///< N
+  int node_count = 0;         ///< nodes with springs
+  Array<int*> with_springs;   ///< those nodes
+  Array<int*> first_of_node;  ///< node_count + 1
   Array<int*> spring_of_node;
   Array<double* [3]> share_of_node;
 };

@@ -11,10 +11,10 @@ namespace railwave {
 
 /// Where a slave node is tied.
 struct alignas(16) TiedPlace {
-  int slave, face[4];     ///< model node numbers
+  int slave, face[4];  ///< model node numbers
   int unused;
-  double distance;        ///< m, d
-  double weight[4];       ///< N
+  double distance;                   ///< m, d
+  double weight[4];                  ///< N
   double slope_xi[4], slope_eta[4];  ///< of N
 
   template <class Values>
@@ -41,23 +41,25 @@ struct alignas(16) TieShare {
 
 struct TieArrays {
   int slave_count = 0, master_count = 0;
-  Array<TiedPlace*> places;        ///< by slave
+  Array<TiedPlace*> places;  ///< by slave
   Array<int*> master_nodes;
-  Array<int*> master_rows;         ///< of the extra forces
-  Array<int*> first_share;         ///< master_count + 1
+  Array<int*> master_rows;  ///< of the extra forces
+  Array<int*> first_share;  ///< master_count + 1
   Array<TieShare*> shares;
-  Array<double* [9]> passed_on;    ///< N by slave: its force; what turns the face's normal, for slopes along xi and eta
-  Array<double* [3]> before;       ///< m, where the slave is at the present instant
+  Array<double* [9]> passed_on;  ///< N by slave: its force; what turns the face's normal, for slopes along xi and eta
+  Array<double* [3]> before;     ///< m, where the slave is at the present instant
 
   KOKKOS_INLINE_FUNCTION bool active() const { return slave_count > 0; }
 };
 
 /// What a force on a slave is for its face: F; d (I - n n^T) F / |A|, crossed with the slopes of the face.
-KOKKOS_INLINE_FUNCTION void pass_on(const TieArrays& ties, const Array<const double* [3]>& position, int s, const Vector3& force) {
+KOKKOS_INLINE_FUNCTION void pass_on(const TieArrays& ties, const Array<const double* [3]>& position, int s,
+                                    const Vector3& force) {
   const TiedPlace tied = ties.places(s);
   Vector3 at_xi{{0, 0, 0}}, at_eta{{0, 0, 0}};
   if (tied.distance != 0) {
-    const Vector3 along = tied.sum(tied.slope_xi, position), across = tied.sum(tied.slope_eta, position), area = cross(along, across);
+    const Vector3 along = tied.sum(tied.slope_xi, position), across = tied.sum(tied.slope_eta, position),
+                  area = cross(along, across);
     const double size = norm(area);
     const Vector3 n = (1 / size) * area, t = (tied.distance / size) * (force - dot(n, force) * n);
     at_xi = cross(across, t);
@@ -84,8 +86,8 @@ struct TieForce {
 /// Gives each master node its part of them, in fixed order.
 struct TieGather {
   TieArrays ties;
-  Array<const int*> target;     ///< by master: row of the sum
-  Array<double* [3]> sum;       ///< N
+  Array<const int*> target;  ///< by master: row of the sum
+  Array<double* [3]> sum;    ///< N
 
   /// One team for each component of each master node: where the masters are coarse, they have many slaves.
   template <class Member>
@@ -131,7 +133,8 @@ struct CarriedTieFollow {
     const int n = wide.ties.places(s).slave;
     const CarrierInstant& next = carried.carrier(carrier(s)).next;
     const Vector3 X = row(wide.nodes.reference, n);
-    const Vector3 d = row(wide.nodes.position, n) - next.position(X), w = row(wide.nodes.velocity, n) - next.velocity_of(X);
+    const Vector3 d = row(wide.nodes.position, n) - next.position(X),
+                  w = row(wide.nodes.velocity, n) - next.velocity_of(X);
     CarriedNode& own = carried.node(n);
     for (int k = 0; k < 3; ++k) {
       own.displacement[k] = static_cast<float>(d[k]);
@@ -150,10 +153,12 @@ struct TieMotion {
     const TiedPlace tied = ties.places(s);
     Vector3 moved = tied.sum(tied.weight, motion);
     if (tied.distance != 0) {
-      const Vector3 along = tied.sum(tied.slope_xi, position), across = tied.sum(tied.slope_eta, position), area = cross(along, across);
+      const Vector3 along = tied.sum(tied.slope_xi, position), across = tied.sum(tied.slope_eta, position),
+                    area = cross(along, across);
       const double size = norm(area);
       const Vector3 n = (1 / size) * area;
-      const Vector3 turned = cross(tied.sum(tied.slope_xi, motion), across) + cross(along, tied.sum(tied.slope_eta, motion));
+      const Vector3 turned =
+          cross(tied.sum(tied.slope_xi, motion), across) + cross(along, tied.sum(tied.slope_eta, motion));
       moved = moved + (tied.distance / size) * (turned - dot(n, turned) * n);
     }
     for (int k = 0; k < 3; ++k) motion(tied.slave, k) = moved[k];
@@ -163,8 +168,10 @@ struct TieMotion {
 /// Forces on the slaves of such motions.
 struct TieMotionForce {
   TieArrays ties;
-  Array<const double* [3]> position, force;
-  KOKKOS_INLINE_FUNCTION void operator()(const int s) const { pass_on(ties, position, s, row(force, ties.places(s).slave)); }
+  Array<const double*[3]> position, force;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    pass_on(ties, position, s, row(force, ties.places(s).slave));
+  }
 };
 
 }  // namespace railwave

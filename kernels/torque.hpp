@@ -10,8 +10,8 @@ struct TorqueArrays {
   static constexpr int most = 16;  ///< torques of a scene
   int count = 0;
   Array<int*> set;
-  Array<double* [3]> axis;    ///< unit
-  Array<double* [4]> now;     ///< centre (m), M / sum_K w^K |a x r^K|^2 (N/m)
+  Array<double* [3]> axis;  ///< unit
+  Array<double* [4]> now;   ///< centre (m), M / sum_K w^K |a x r^K|^2 (N/m)
 };
 
 struct TorqueNow {

@@ -7,9 +7,9 @@
 
 namespace railwave {
 
-/// An element's shape where nothing has moved: its smallest Jacobian at a corner, m3, what its change is measured by (that
-/// Jacobian, but no less than a tenth of the mean: corners may be flat from the beginning), the sizes of its four hourglass
-/// modes, m, and its size, m.
+/// An element's shape where nothing has moved: its smallest Jacobian at a corner, m3, what its change is measured by
+/// (that Jacobian, but no less than a tenth of the mean: corners may be flat from the beginning), the sizes of its four
+/// hourglass modes, m, and its size, m.
 struct ElementShapes {
   static constexpr int jacobian = 0, scale = 1, mode = 2, size = 6, values = 7;
   int count = 0;
@@ -49,8 +49,8 @@ struct ElementShape {
   }
 };
 
-/// Minus the smallest Jacobian over the undeformed one, as far as that is large enough (1 + (J - J_0)/scale); the largest
-/// change of an hourglass mode over the element's size.
+/// Minus the smallest Jacobian over the undeformed one, as far as that is large enough (1 + (J - J_0)/scale); the
+/// largest change of an hourglass mode over the element's size.
 struct ElementWatch {
   static constexpr int values = 2;
   ElementShapes shapes;
@@ -59,7 +59,9 @@ struct ElementWatch {
   KOKKOS_INLINE_FUNCTION void operator()(int e, double* value) const {
     ElementShape now;
     for (int N = 0; N < 8; ++N) now.x[N] = row(position, shapes.corners(e, N));
-    value[0] = (shapes.undeformed(e, ElementShapes::jacobian) - now.smallest_jacobian()) / shapes.undeformed(e, ElementShapes::scale) - 1;
+    value[0] = (shapes.undeformed(e, ElementShapes::jacobian) - now.smallest_jacobian()) /
+                   shapes.undeformed(e, ElementShapes::scale) -
+               1;
     value[1] = 0;
     for (int m = 0; m < 4; ++m) {
       const double change = std::fabs(now.hourglass_mode(m) - shapes.undeformed(e, ElementShapes::mode + m));
@@ -84,7 +86,8 @@ struct ContactWatch {
   static constexpr int values = 2;
   ContactArrays contact;
   Array<const double* [3]> position;
-  Array<int*> changes;  ///< by slave: twice the changes of its status that looks have seen, and 1 where it touched at the last
+  Array<int*>
+      changes;  ///< by slave: twice the changes of its status that looks have seen, and 1 where it touched at the last
 
   KOKKOS_INLINE_FUNCTION void operator()(int s, double* value) const {
     const int touches = contact.status(s) == status_apart ? 0 : 1;
@@ -93,8 +96,10 @@ struct ContactWatch {
     value[1] = 0.5 * (changes(s) >> 1);
     if (touches == 0) return;
     const Segment segment = contact.surface(contact.tracked(s));
-    const Vector3 across = row(position, contact.node_of(segment.node[2])) - row(position, contact.node_of(segment.node[0]));
-    const Vector3 other = row(position, contact.node_of(segment.node[3])) - row(position, contact.node_of(segment.node[1]));
+    const Vector3 across =
+        row(position, contact.node_of(segment.node[2])) - row(position, contact.node_of(segment.node[0]));
+    const Vector3 other =
+        row(position, contact.node_of(segment.node[3])) - row(position, contact.node_of(segment.node[1]));
     value[0] = -contact.gap(s) / std::sqrt(0.5 * norm(cross(across, other)));
   }
 };

@@ -23,7 +23,8 @@ namespace {
 /// One part's mesh as it stands in the assembly.
 Mesh mesh_of(const Assembly& assembly, const Assembly::PartRange& part) {
   Mesh mesh;
-  mesh.nodes.assign(assembly.nodes.begin() + part.first_node, assembly.nodes.begin() + part.first_node + part.node_count);
+  mesh.nodes.assign(assembly.nodes.begin() + part.first_node,
+                    assembly.nodes.begin() + part.first_node + part.node_count);
   for (int e = 0; e < part.element_count; ++e) {
     auto corners = assembly.elements[part.first_element + e];
     for (int& n : corners) n -= part.first_node;
@@ -42,8 +43,8 @@ double part_mass(const Model& model, const Assembly::PartRange& part) {
 std::size_t first_unlike(const scene::Scene& scene, std::size_t first) {
   const scene::Part& one = scene.parts[first];
   std::size_t next = first + 1;
-  while (next < scene.parts.size() && scene.parts[next].mesh == one.mesh && scene.parts[next].material == one.material &&
-         scene.parts[next].element_set == one.element_set)
+  while (next < scene.parts.size() && scene.parts[next].mesh == one.mesh &&
+         scene.parts[next].material == one.material && scene.parts[next].element_set == one.element_set)
     ++next;
   return next;
 }
@@ -58,7 +59,8 @@ std::string indented(const std::string& text) {
 void describe_step(const Model& model, std::ostream& out) {
   out << "Step\n";
   for (const std::string& line : describe_stable_step(model)) out << "  " << line << '\n';
-  out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count, model.scene.time.end);
+  out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count,
+                     model.scene.time.end);
   for (const std::string& line : describe_output_times(model)) out << "  " << line << '\n';
   for (const std::string& line : describe_subcycling(model)) out << "  subcycling: " << line << '\n';
 }
@@ -70,13 +72,15 @@ void describe_places(const Model& model, std::ostream& out) {
   out << "Sets by position, hammers and probes\n";
   for (const PlacedSet& one : placed) {
     const Vec3& at = model.assembly.nodes[one.nearest];
-    out << fmt::format("  {}.{}: {} node{}, the nearest at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part, one.set->name, one.count,
-                       one.count == 1 ? "" : "s", at[0], at[1], at[2], 1e3 * one.distance);
+    out << fmt::format("  {}.{}: {} node{}, the nearest at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part,
+                       one.set->name, one.count, one.count == 1 ? "" : "s", at[0], at[1], at[2], 1e3 * one.distance);
     if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
   }
   for (const PlacedElements& one : elements) {
-    out << fmt::format("  {}.{}: {} element{}, {} with its centre at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part, one.set->name, one.count,
-                       one.count == 1 ? "" : "s", one.warning.empty() ? "in one" : "the nearest", one.centre[0], one.centre[1], one.centre[2], 1e3 * one.distance);
+    out << fmt::format("  {}.{}: {} element{}, {} with its centre at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n",
+                       one.set->part, one.set->name, one.count, one.count == 1 ? "" : "s",
+                       one.warning.empty() ? "in one" : "the nearest", one.centre[0], one.centre[1], one.centre[2],
+                       1e3 * one.distance);
     if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
   }
 }
@@ -98,7 +102,8 @@ void describe_motions(const Model& model, std::ostream& out) {
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
     if (motion.rolling) {
       const Vec3& w = motion.angular_velocity;
-      out << fmt::format("[initial_motion.{}] rolls at [{:.6g}, {:.6g}, {:.6g}] rad/s\n", motion.name, w[0], w[1], w[2]);
+      out << fmt::format("[initial_motion.{}] rolls at [{:.6g}, {:.6g}, {:.6g}] rad/s\n", motion.name, w[0], w[1],
+                         w[2]);
     }
   for (const std::string& doubt : scene_doubts(model)) out << "warning: " << doubt << '\n';
 }
@@ -119,7 +124,8 @@ void describe_run(Model& model, std::ostream& out) {
     const scene::Material& material = model.scene.materials[part.material];
     const std::size_t next = first_unlike(model.scene, p);
     const std::string name = next == p + 1 ? part.name
-                                           : fmt::format("{} to {}, {} alike, each", part.name, model.assembly.parts[next - 1].name, next - p);
+                                           : fmt::format("{} to {}, {} alike, each", part.name,
+                                                         model.assembly.parts[next - 1].name, next - p);
     out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", name, part.element_count, part.node_count,
                        part_mass(model, part), material.name);
     out << indented(describe(mesh_quality(mesh_of(model.assembly, part), material.dilatational_speed())));
@@ -127,7 +133,8 @@ void describe_run(Model& model, std::ostream& out) {
   }
   out << fmt::format("  in all: {} elements, {} nodes\n", model.element_count(), model.node_count());
   if (!model.scene.connectors.empty())
-    out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(), model.connectors.cells.size());
+    out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(),
+                       model.connectors.cells.size());
   describe_places(model, out);
   describe_ends(model, out);
   describe_overlaps(model, out);
@@ -136,7 +143,8 @@ void describe_run(Model& model, std::ostream& out) {
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,
                      1e6 * megabytes / static_cast<double>(model.element_count()));
-  out << fmt::format("Runs on: {}, patches of {} elements, {} in a pack\n", ExecutionSpace::name(), patch_size, lane_count<double>);
+  out << fmt::format("Runs on: {}, patches of {} elements, {} in a pack\n", ExecutionSpace::name(), patch_size,
+                     lane_count<double>);
   out << "A step computes\n";
   for (const Stage& stage : force_stages(model)) out << "  " << stage.name << '\n';
   out << "  nodes: gather, constraints, velocities, positions\n";

@@ -6,7 +6,8 @@
 
 namespace railwave {
 
-/// What a user should know of a case that is taken as it is, before anything else: "warning: ..." or "note: ...", a line each.
+/// What a user should know of a case that is taken as it is, before anything else: "warning: ..." or "note: ...", a
+/// line each.
 void tell(const char* kind, const std::vector<std::string>& lines, std::ostream& out);
 
 /// `railwave check`: what a run of this model would be: parts, meshes and their worst elements, step and what sets it,

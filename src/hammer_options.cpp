@@ -22,7 +22,8 @@ void add_response_command(CLI::App& app, ResponseRequest& request, const std::fu
   command->add_option("--to", request.to, "Hz; default: where the force's spectrum is 20 dB down");
   command->add_option("--csv", request.csv, "also write all lines as CSV");
   command->add_option("--hdf5", request.hdf5, "also write them as HDF5: a file of its own");
-  command->add_flag("--overwrite", request.overwrite, "replace files that are there even if railwave has not written them; never the results");
+  command->add_flag("--overwrite", request.overwrite,
+                    "replace files that are there even if railwave has not written them; never the results");
   command->callback(run);
 }
 
@@ -47,7 +48,8 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
                       "what the exponential window comes down to at the end; default 0.05");
   command->add_option("--csv", request.csv, "also write the rates, and the levels along the row, as CSV");
   command->add_option("--hdf5", request.hdf5, "also write them as HDF5: a file of its own");
-  command->add_flag("--overwrite", request.overwrite, "replace files that are there even if railwave has not written them; never the results");
+  command->add_flag("--overwrite", request.overwrite,
+                    "replace files that are there even if railwave has not written them; never the results");
   command->callback(run);
 }
 

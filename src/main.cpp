@@ -102,7 +102,8 @@ int run_case(const Arguments& arguments) {
   stop_on_signals();
   SettledFiles settled(RAILWAVE_VERSION);
   if (arguments.wall_time > 0)
-    keeping.time_left = std::max(1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
+    keeping.time_left = std::max(
+        1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   patience.stop();
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
   tell_next_steps(scene, summary.completed, std::cout);
@@ -157,36 +158,55 @@ int find_modes(const Arguments& arguments) {
 }
 
 int print_reference(const Arguments& arguments) {
-  if (arguments.schema) std::cout << case_schema_json();
-  else std::cout << case_reference_markdown();
+  if (arguments.schema)
+    std::cout << case_schema_json();
+  else
+    std::cout << case_reference_markdown();
   return done;
 }
 
 void add_overwrite_option(CLI::App* command, bool& overwrite) {
-  command->add_flag("--overwrite", overwrite, "replace files that are there even if railwave has not written them; never what the command reads");
+  command->add_flag("--overwrite", overwrite,
+                    "replace files that are there even if railwave has not written them; never what the command reads");
 }
 
 void add_contact_options(CLI::App* command, ContactRequest& request) {
   command->add_option("results", request.results, "results file")->required();
-  command->add_option("--csv", request.csv, "also write the table as CSV, in SI units: a row per output time and patch");
-  command->add_option("--nodes", request.nodes, "also write a CSV of the nodes of each patch: stresses, micro-slip, stick and slip");
-  command->add_option("--cuts", request.cuts, "also write a CSV of cuts along and across through the centre of each patch");
-  command->add_option("--hdf5", request.hdf5, "also write all of this, and the stresses of the facets, as HDF5: a file of its own");
+  command->add_option("--csv", request.csv,
+                      "also write the table as CSV, in SI units: a row per output time and patch");
+  command->add_option("--nodes", request.nodes,
+                      "also write a CSV of the nodes of each patch: stresses, micro-slip, stick and slip");
+  command->add_option("--cuts", request.cuts,
+                      "also write a CSV of cuts along and across through the centre of each patch");
+  command->add_option("--hdf5", request.hdf5,
+                      "also write all of this, and the stresses of the facets, as HDF5: a file of its own");
   add_overwrite_option(command, request.overwrite);
   command->add_option("--from", request.from, "leave out output times before, s");
   command->add_option("--to", request.to, "leave out output times after, s");
-  command->add_option("--rolling-direction", request.rolling_direction, "x,y,z, from which longitudinal is made; default 1,0,0")->delimiter(',');
-  command->add_option("--ring", request.ring, "inner,outer radius, in semi-axes of the patch, of the surface whose rigid motion gives the creepage; default 1.5,3")
+  command
+      ->add_option("--rolling-direction", request.rolling_direction,
+                   "x,y,z, from which longitudinal is made; default 1,0,0")
       ->delimiter(',');
-  command->add_option("--axle", request.axle, "history set that travels with the patch, e.g. wheel.bore, for the rolling velocity; default: the patch's own travel");
+  command
+      ->add_option("--ring", request.ring,
+                   "inner,outer radius, in semi-axes of the patch, of the surface whose rigid motion gives the "
+                   "creepage; default 1.5,3")
+      ->delimiter(',');
+  command->add_option("--axle", request.axle,
+                      "history set that travels with the patch, e.g. wheel.bore, for the rolling velocity; default: "
+                      "the patch's own travel");
   command->add_option("--rolling-velocity", request.rolling_velocity, "the rolling velocity instead, m/s");
 }
 
 void add_modes_options(CLI::App* command, ModesRequest& request) {
-  command->add_option("--part", request.parts, "a part or point mass to take with what joins them; may be repeated; default: all")->allow_extra_args(false);
+  command
+      ->add_option("--part", request.parts,
+                   "a part or point mass to take with what joins them; may be repeated; default: all")
+      ->allow_extra_args(false);
   command->add_option("--up-to", request.up_to, "highest frequency, Hz; default 5000");
   command->add_option("--csv", request.csv, "also write the table as CSV, in SI units");
-  command->add_option("--out", request.shapes, "also write the shapes as HDF5; its XDMF companion, which ParaView opens, lies beside it");
+  command->add_option("--out", request.shapes,
+                      "also write the shapes as HDF5; its XDMF companion, which ParaView opens, lies beside it");
   add_overwrite_option(command, request.overwrite);
 }
 
@@ -199,23 +219,31 @@ int dispatch(int argc, char** argv) {
 
   const auto add_case = [&](CLI::App* command) {
     command->add_option("case", arguments.case_file, "case file (TOML); docs/case-file.md tells its keys")->required();
-    command->add_option("--set", arguments.overrides, "section.key=value in place of what the case file says; may be repeated")
+    command
+        ->add_option("--set", arguments.overrides,
+                     "section.key=value in place of what the case file says; may be repeated")
         ->allow_extra_args(false);
   };
   CLI::App* run_command = app.add_subcommand("run", "run a case and write its results");
   add_case(run_command);
-  CLI::Option* restart = run_command->add_flag("--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
+  CLI::Option* restart = run_command->add_flag(
+      "--restart", arguments.restart, "go on from the last checkpoint of this case's run, adding to its results");
   add_overwrite_option(run_command, arguments.overwrite);
   run_command->get_option("--overwrite")->excludes(restart);
-  run_command->add_flag("--keep-state", arguments.keep_state, "keep the checkpoint at the run's end: --restart with a later time.end goes on from it");
-  run_command->add_option("--wall-time", arguments.wall_time, "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
+  run_command->add_flag("--keep-state", arguments.keep_state,
+                        "keep the checkpoint at the run's end: --restart with a later time.end goes on from it");
+  run_command->add_option("--wall-time", arguments.wall_time,
+                          "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
   run_command->callback([&] { code = run_case(arguments); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
   add_case(check_command);
   check_command->callback([&] { code = check_case(arguments); });
-  CLI::App* mesh = app.add_subcommand("mesh", "write a case's model for ParaView: parts, sets, stable steps, connectors");
+  CLI::App* mesh =
+      app.add_subcommand("mesh", "write a case's model for ParaView: parts, sets, stable steps, connectors");
   add_case(mesh);
-  mesh->add_option("--out", arguments.mesh_file, "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default results/NAME/mesh.h5, NAME being the case file's");
+  mesh->add_option("--out", arguments.mesh_file,
+                   "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default "
+                   "results/NAME/mesh.h5, NAME being the case file's");
   add_overwrite_option(mesh, arguments.overwrite);
   mesh->callback([&] { code = write_mesh(arguments); });
   CLI::App* modes = app.add_subcommand("modes", "frequencies and shapes of a case's free vibrations");
@@ -241,7 +269,8 @@ int dispatch(int argc, char** argv) {
                             [&] { return decay_command(arguments.decay, std::cout); });
   });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means, or a command");
-  help->add_option("topic", arguments.topic, "parts, parts.hourglass, hourglass, run, signal psd ...; nothing: the list of sections");
+  help->add_option("topic", arguments.topic,
+                   "parts, parts.hourglass, hourglass, run, signal psd ...; nothing: the list of sections");
   help->callback([&] { std::cout << help_on(app, arguments.topic) << '\n'; });
   CLI::App* reference = app.add_subcommand("reference", "the case file's reference page or JSON schema");
   reference->add_flag("--markdown", arguments.markdown, "the page (default)");

@@ -23,7 +23,8 @@ constexpr std::size_t large = std::size_t{1} << 20;  ///< bytes; what is smaller
 
 }  // namespace
 
-// The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs; nvcc takes these for functions of the device.
+// The program's own, so that a refusal can say how much was wanted. Sanitizers bring theirs; nvcc takes these for
+// functions of the device.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 [[gnu::noinline]] void* operator new(std::size_t size) {
   if (size < large || railwave::leaves_room(size))
@@ -60,10 +61,14 @@ bool is_out_of_memory(const std::exception& error) {
 std::string out_of_memory(const std::exception& error) try {
   const std::string said = error.what();
   if (const auto* no_room = dynamic_cast<const NoRoom*>(&error)) refused = no_room->wanted();
-  const std::string wanted = is_refusal_of_kokkos(error.what()) ? refused_by_kokkos(said) : refused > 0 ? bytes_text(static_cast<double>(refused)) + " more" : "more memory";
-  return fmt::format("out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or \"float\", or a machine with "
-                     "more; railwave check on a coarser mesh tells the bytes an element",
-                     wanted, there_is());
+  const std::string wanted = is_refusal_of_kokkos(error.what()) ? refused_by_kokkos(said)
+                             : refused > 0                      ? bytes_text(static_cast<double>(refused)) + " more"
+                                                                : "more memory";
+  return fmt::format(
+      "out of memory: {} could not be had; {}; take a coarser mesh or fewer output sets, solver.precision \"mixed\" or "
+      "\"float\", or a machine with "
+      "more; railwave check on a coarser mesh tells the bytes an element",
+      wanted, there_is());
 } catch (const std::bad_alloc&) {
   return "out of memory";  // short enough to need none
 }

@@ -57,7 +57,8 @@ void add_signal_command(CLI::App& app, SignalRequest& request, const std::functi
     }
     c->add_option("--csv", request.csv, "also write the table as CSV, in SI units");
     c->add_option("--hdf5", request.hdf5, "also write everything as HDF5, which scripts/picture --signal draws");
-    c->add_flag("--overwrite", request.overwrite, "replace files that are there even if railwave has not written them; never the results");
+    c->add_flag("--overwrite", request.overwrite,
+                "replace files that are there even if railwave has not written them; never the results");
     c->callback([&request, kind, run] {
       request.kind = kind.kind;
       run();

@@ -13,7 +13,8 @@ void end_on_signals();
 /// From now on it is a wish to stop (request_stop()), which the run's loop looks at.
 void stop_on_signals();
 
-/// From now on such a signal is passed on to a child, which ends in good order itself; this process waits for it. 0: no longer.
+/// From now on such a signal is passed on to a child, which ends in good order itself; this process waits for it. 0: no
+/// longer.
 void pass_signals_to(pid_t child);
 
 /// Whether there was such a wish.

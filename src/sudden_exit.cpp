@@ -18,7 +18,8 @@ void tell() {
   if (!sudden) return;
   remove_unfinished();
   constexpr const char* text =
-      "railwave: out of memory: a library found none and ended the program; take a coarser mesh or fewer outputs, or see what else takes memory; "
+      "railwave: out of memory: a library found none and ended the program; take a coarser mesh or fewer outputs, or "
+      "see what else takes memory; "
       "a run that had written a checkpoint goes on from it with --restart\n";
   const auto written = write(STDERR_FILENO, text, std::strlen(text));
   static_cast<void>(written);

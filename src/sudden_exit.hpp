@@ -2,8 +2,8 @@
 
 namespace railwave {
 
-/// Libraries may end the program by themselves: HDF5 1.10 calls exit(-1) without a word where it finds no memory for an identifier,
-/// on whatever thread. While one of these lives such an end is told, and has the exit code of a failure.
+/// Libraries may end the program by themselves: HDF5 1.10 calls exit(-1) without a word where it finds no memory for an
+/// identifier, on whatever thread. While one of these lives such an end is told, and has the exit code of a failure.
 class NoSuddenExit {
  public:
   NoSuddenExit();

@@ -1,5 +1,5 @@
-/* Times of kernels by name, for any Kokkos program: loaded by KOKKOS_TOOLS_LIBS, see scripts/kernel_times. Kokkos waits for a kernel's end before
-   it calls, so that on a GPU a time holds the launch too. */
+/* Times of kernels by name, for any Kokkos program: loaded by KOKKOS_TOOLS_LIBS, see scripts/kernel_times. Kokkos waits
+   for a kernel's end before it calls, so that on a GPU a time holds the launch too. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,11 +35,17 @@ static void end(uint64_t kernel) {
   ++kernels[kernel].calls;
 }
 
-void kokkosp_begin_parallel_for(const char* name, uint32_t device, uint64_t* kernel) { (void)device, begin(name, kernel); }
+void kokkosp_begin_parallel_for(const char* name, uint32_t device, uint64_t* kernel) {
+  (void)device, begin(name, kernel);
+}
 void kokkosp_end_parallel_for(uint64_t kernel) { end(kernel); }
-void kokkosp_begin_parallel_reduce(const char* name, uint32_t device, uint64_t* kernel) { (void)device, begin(name, kernel); }
+void kokkosp_begin_parallel_reduce(const char* name, uint32_t device, uint64_t* kernel) {
+  (void)device, begin(name, kernel);
+}
 void kokkosp_end_parallel_reduce(uint64_t kernel) { end(kernel); }
-void kokkosp_begin_parallel_scan(const char* name, uint32_t device, uint64_t* kernel) { (void)device, begin(name, kernel); }
+void kokkosp_begin_parallel_scan(const char* name, uint32_t device, uint64_t* kernel) {
+  (void)device, begin(name, kernel);
+}
 void kokkosp_end_parallel_scan(uint64_t kernel) { end(kernel); }
 
 void kokkosp_finalize_library(void) {

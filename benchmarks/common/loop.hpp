@@ -46,7 +46,8 @@ class Loop {
     result.emplace_back("nodes", 0.0);
     for (long k = 0; k < count; ++k) {
       begin(true);
-      for (std::size_t s = 0; s < stages_.size(); ++s) result[s].second += seconds_of([&] { stages_[s].run(instant_); });
+      for (std::size_t s = 0; s < stages_.size(); ++s)
+        result[s].second += seconds_of([&] { stages_[s].run(instant_); });
       result.back().second += seconds_of([&] { finish(); });
     }
     for (auto& entry : result) entry.second /= static_cast<double>(count);

@@ -122,7 +122,8 @@ std::vector<std::pair<std::string, std::string>> describe_machine(int count, cha
   facts.emplace_back("vectors", vectors());
   facts.emplace_back("compiler", compiler());
   facts.emplace_back("options", RAILWAVE_BENCH_OPTIONS);
-  facts.emplace_back("Kokkos", std::to_string(KOKKOS_VERSION / 10000) + "." + std::to_string(KOKKOS_VERSION / 100 % 100) + "." +
+  facts.emplace_back("Kokkos", std::to_string(KOKKOS_VERSION / 10000) + "." +
+                                   std::to_string(KOKKOS_VERSION / 100 % 100) + "." +
                                    std::to_string(KOKKOS_VERSION % 100));
   facts.emplace_back("load average before", load_average());
   return facts;

@@ -11,8 +11,8 @@ namespace railwave::bench {
 /// Kokkos must be initialised.
 std::vector<std::pair<std::string, std::string>> describe_machine(int count, char** arguments);
 
-/// The one-minute load average, as text; "unknown" where the system does not tell. Taken before and after, it says whether
-/// others were using the machine.
+/// The one-minute load average, as text; "unknown" where the system does not tell. Taken before and after, it says
+/// whether others were using the machine.
 std::string load_average();
 
 /// Threads or, on a device, 0.

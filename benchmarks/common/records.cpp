@@ -30,7 +30,8 @@ void Records::write() const {
   file << '\n';
   for (const Row& row : rows_) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
-      const auto cell = std::find_if(row.cells_.begin(), row.cells_.end(), [&](const auto& it) { return it.first == columns[c]; });
+      const auto cell =
+          std::find_if(row.cells_.begin(), row.cells_.end(), [&](const auto& it) { return it.first == columns[c]; });
       file << (c > 0 ? "," : "") << (cell == row.cells_.end() ? "" : quoted(cell->second));
     }
     file << '\n';

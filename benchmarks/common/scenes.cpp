@@ -11,7 +11,8 @@ namespace railwave::bench {
 
 std::string project_folder() { return RAILWAVE_BENCH_SOURCE_DIR; }
 
-std::vector<std::string> overrides_of(const Choice& choice, const std::vector<std::string>& parts, const std::string& material) {
+std::vector<std::string> overrides_of(const Choice& choice, const std::vector<std::string>& parts,
+                                      const std::string& material) {
   std::vector<std::string> result;
   for (const std::string& part : parts) result.push_back("parts." + part + ".hourglass=" + choice.hourglass);
   if (choice.precision != "double") result.push_back("solver.precision=" + choice.precision);
@@ -48,7 +49,8 @@ void set_velocity(Model& model, const std::function<Vec3(const Vec3&)>& field) {
 void stir(Model& model) {
   set_velocity(model, [](const Vec3& x) {
     const double k = 200;  // 1/m: waves of 31 mm
-    return Vec3{5e-3 * std::cos(k * x[0] + 1) * std::cos(k * x[1]), 4e-3 * std::sin(k * x[1] + 0.5) * std::cos(k * x[2]),
+    return Vec3{5e-3 * std::cos(k * x[0] + 1) * std::cos(k * x[1]),
+                4e-3 * std::sin(k * x[1] + 0.5) * std::cos(k * x[2]),
                 3e-3 * std::cos(k * x[2] + 2) * std::sin(k * x[0] + 0.2)};
   });
 }

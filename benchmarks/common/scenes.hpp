@@ -10,16 +10,17 @@ namespace railwave::bench {
 
 /// What a part can be computed with.
 struct Choice {
-  std::string hourglass = "viscous";   ///< or "stiffness"
-  std::string precision = "double";    ///< or "mixed", "float"
-  std::string material = "elastic";    ///< or "bilinear"
+  std::string hourglass = "viscous";  ///< or "stiffness"
+  std::string precision = "double";   ///< or "mixed", "float"
+  std::string material = "elastic";   ///< or "bilinear"
 };
 
 /// Folder of this project, where cases/ and benchmarks/cases/ lie.
 std::string project_folder();
 
 /// Overrides of a case file (`section.key=value`) for a choice; `part` and `material` as named in the file.
-std::vector<std::string> overrides_of(const Choice& choice, const std::vector<std::string>& parts, const std::string& material);
+std::vector<std::string> overrides_of(const Choice& choice, const std::vector<std::string>& parts,
+                                      const std::string& material);
 
 /// A block of about `elements` cubes of 1 mm, without anything else. Throws InputError when this build does not know
 /// the choice.

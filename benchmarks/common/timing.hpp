@@ -48,7 +48,8 @@ long calls_in(double seconds, const Work& work) {
     const double taken = seconds_of([&] {
       for (long k = 0; k < calls; ++k) work();
     });
-    if (taken > 0.1 * seconds || calls > 100000000L) return std::max(1L, static_cast<long>(static_cast<double>(calls) * seconds / taken));
+    if (taken > 0.1 * seconds || calls > 100000000L)
+      return std::max(1L, static_cast<long>(static_cast<double>(calls) * seconds / taken));
   }
 }
 

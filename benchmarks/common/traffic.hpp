@@ -20,8 +20,9 @@ inline double step_traffic(const Model& model) {
   bool velocities = false;
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
-    bytes += bytes_of(p.element_count) + bytes_of(p.node_count) + bytes_of(p.material) + bytes_of(p.node) + bytes_of(p.frame) +
-             bytes_of(p.corner) + bytes_of(p.first_place) + bytes_of(p.place) + bytes_of(p.hourglass_scale);
+    bytes += bytes_of(p.element_count) + bytes_of(p.node_count) + bytes_of(p.material) + bytes_of(p.node) +
+             bytes_of(p.frame) + bytes_of(p.corner) + bytes_of(p.first_place) + bytes_of(p.place) +
+             bytes_of(p.hourglass_scale);
     if (carried) bytes += bytes_of(group.carried.local) + bytes_of(group.carried.arm) - bytes_of(p.frame);
     if (group.hourglass == scene::HourglassType::viscous) {
       bytes += 2 * bytes_of(p.hourglass_energy);
@@ -33,9 +34,11 @@ inline double step_traffic(const Model& model) {
   const double rows = static_cast<double>(n.partial_place.extent(0)), listed_rows = rows - alone;
   const double row_bytes = (bytes_of(model.partial.wide) + bytes_of(model.partial.narrow)) / rows;
   const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;
-  bytes += listed_rows * 2 * row_bytes;                              // partial forces out and in
-  if (carried) return bytes + alone * sizeof(CarriedNode) + listed * (2 * sizeof(CarriedNode) + sizeof(ListedNode) + sizeof(CarriedArm));
-  bytes += alone * (state + mass);                                   // velocities and positions are written, the mass read
+  bytes += listed_rows * 2 * row_bytes;  // partial forces out and in
+  if (carried)
+    return bytes + alone * sizeof(CarriedNode) +
+           listed * (2 * sizeof(CarriedNode) + sizeof(ListedNode) + sizeof(CarriedArm));
+  bytes += alone * (state + mass);  // velocities and positions are written, the mass read
   bytes += listed * (2 * state + mass + sizeof(ListedNode));
   return bytes;
 }

@@ -15,8 +15,8 @@ struct HertzLine {
   }
 };
 
-/// The cylinder pressed on the block by a given approach, settled. Error: the pressure, L2, against Hertz's for the force
-/// that came out. Details: the peak pressure's error, and the force's against Johnson's for this approach.
+/// The cylinder pressed on the block by a given approach, settled. Error: the pressure, L2, against Hertz's for the
+/// force that came out. Details: the peak pressure's error, and the force's against Johnson's for this approach.
 inline Outcome hertz_press(double element_size, const Method& method) {
   PressedCylinder problem;
   problem.element_size = element_size;
@@ -43,8 +43,8 @@ inline Outcome hertz_press(double element_size, const Method& method) {
 }
 
 /// The same, then shifted by a tangential force that grows slowly to 0.6 of what friction can carry (Cattaneo 1938).
-/// Error: the shear, L2, against q = mu p - mu p0 c/b sqrt(1 - x^2/c^2), c/b = sqrt(1 - Q / mu P), for the forces that came
-/// out. Detail: the stick zone's half width.
+/// Error: the shear, L2, against q = mu p - mu p0 c/b sqrt(1 - x^2/c^2), c/b = sqrt(1 - Q / mu P), for the forces that
+/// came out. Detail: the stick zone's half width.
 inline Outcome cattaneo_shift(double element_size, const Method& method) {
   constexpr double friction = 0.4, share = 0.6, ramp = 6e-4;
   PressedCylinder problem;

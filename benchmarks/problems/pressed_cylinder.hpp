@@ -7,8 +7,8 @@
 
 namespace railwave::bench {
 
-/// A cylinder of large radius on a flat block in plane strain, both of steel: Hertz's line contact. Two graded meshes one
-/// element thick, 'upper' (its lower face curved, slave) and 'lower' (master, its nodes between the slave's).
+/// A cylinder of large radius on a flat block in plane strain, both of steel: Hertz's line contact. Two graded meshes
+/// one element thick, 'upper' (its lower face curved, slave) and 'lower' (master, its nodes between the slave's).
 struct PressedCylinder {
   double radius = 0.115;         ///< m
   double half_width = 2e-3;      ///< m, of the contact, about: the pressing is chosen for it
@@ -59,9 +59,8 @@ struct PressedCylinder {
   Assembly assembly(const scene::Material& material) const {
     Assembly made;
     const double pressed = approach(material);
-    add_block(made, "upper", 0.0, [&](double x, double s) {
-      return (1 - s / block_height) * x * x / (2 * radius) + s - pressed;
-    });
+    add_block(made, "upper", 0.0,
+              [&](double x, double s) { return (1 - s / block_height) * x * x / (2 * radius) + s - pressed; });
     add_block(made, "lower", 0.37 * element_size, [](double, double s) { return -s; });
     return made;
   }
@@ -119,7 +118,8 @@ struct PressedCylinder {
         const int e = static_cast<int>(made.elements.size());
         const int low = upwards ? k : k + 1, high = upwards ? k + 1 : k;
         made.elements.push_back({number(i, 0, low), number(i + 1, 0, low), number(i + 1, 1, low), number(i, 1, low),
-                                 number(i, 0, high), number(i + 1, 0, high), number(i + 1, 1, high), number(i, 1, high)});
+                                 number(i, 0, high), number(i + 1, 0, high), number(i + 1, 1, high),
+                                 number(i, 1, high)});
         made.element_sets[name].push_back(e);
         const bool fine = std::fmax(std::fabs(x[i]), std::fabs(x[i + 1])) < 1.5 * half_width + element_size;
         if (k == 0 && fine) made.surfaces[name + ".contact"].push_back({e, upwards ? 0 : 1});

@@ -26,8 +26,8 @@ struct Method {
 /// What came out.
 struct Outcome {
   long elements = 0, steps = 0;
-  double seconds = 0;                 ///< wall time of the steps, building left out
-  double error = 0;                   ///< the problem's own measure, relative
+  double seconds = 0;  ///< wall time of the steps, building left out
+  double error = 0;    ///< the problem's own measure, relative
   std::vector<std::pair<std::string, double>> details;
 };
 
@@ -36,8 +36,9 @@ inline constexpr double pi = 3.14159265358979323846;
 /// Puts a method into a scene of one part. Throws InputError when this build does not know it.
 inline void apply(const Method& method, scene::Scene& scene) {
   scene::Part& part = scene.parts[0];
-  part.hourglass_coefficient = method.hourglass_coefficient > 0 ? method.hourglass_coefficient
-                               : part.hourglass == scene::HourglassType::viscous ? 0.1 : 0.05;
+  part.hourglass_coefficient = method.hourglass_coefficient > 0                  ? method.hourglass_coefficient
+                               : part.hourglass == scene::HourglassType::viscous ? 0.1
+                                                                                 : 0.05;
   if (method.step_rule == "eigenvalue") scene.solver.step_estimate = scene::StepEstimate::eigenvalue;
   if (method.step_rule == "global") scene.solver.step_estimate = scene::StepEstimate::global;
   scene.time.step_scale = method.step_scale;

@@ -7,8 +7,8 @@
 
 namespace railwave::bench {
 
-/// Rayleigh's wave on a half-space, in plane strain: its speed from the root of his equation, and the motion of a packet
-/// of such waves, which runs along the surface without changing (Lamb's surface pulse).
+/// Rayleigh's wave on a half-space, in plane strain: its speed from the root of his equation, and the motion of a
+/// packet of such waves, which runs along the surface without changing (Lamb's surface pulse).
 class RayleighPacket {
  public:
   /// @param wavelength of the packet's middle, m; @param width of its envelope (Gaussian, standard deviation), m
@@ -41,7 +41,8 @@ class RayleighPacket {
 
   double speed = 0;  ///< m/s
 
-  /// Displacement for a unit vertical one in the packet's middle; @param x along the surface from that middle, @param depth
+  /// Displacement for a unit vertical one in the packet's middle; @param x along the surface from that middle, @param
+  /// depth
   scene::Vec3 displacement(double x, double depth) const { return {along(x, depth), 0, -vertical(x, depth)}; }
   /// Its derivative along x; the velocity is -speed times this.
   scene::Vec3 slope(double x, double depth) const {

@@ -5,8 +5,8 @@
 
 namespace railwave::bench {
 
-/// A packet of Rayleigh waves of 10 mm runs 20 mm along the top of a block. Error: displacements of the whole block at the
-/// end, L2. Detail: the speed, from where the packet's phase on the surface fits best.
+/// A packet of Rayleigh waves of 10 mm runs 20 mm along the top of a block. Error: displacements of the whole block at
+/// the end, L2. Detail: the speed, from where the packet's phase on the surface fits best.
 inline Outcome rayleigh_pulse(double element_size, const Method& method) {
   const double length = 0.08, depth = 0.05, wavelength = 0.01, travel = 0.02, from = 0.03, amplitude = 1e-6;
   const int along = static_cast<int>(std::lround(length / element_size));

@@ -16,10 +16,10 @@ namespace railwave::bench {
 struct Distortion {
   std::string name;
   std::array<int, 3> divisions;
-  Vec3 size;                     ///< m, of one element
-  double lean = 0;               ///< of z on x, cotangent of the angle between edges
-  double all_nodes = 0;          ///< largest random move of any node, over the element's smallest edge
-  double inner_nodes = 0;        ///< the same of nodes inside
+  Vec3 size;               ///< m, of one element
+  double lean = 0;         ///< of z on x, cotangent of the angle between edges
+  double all_nodes = 0;    ///< largest random move of any node, over the element's smallest edge
+  double inner_nodes = 0;  ///< the same of nodes inside
 };
 
 /// As many elements as show both inside, surface, edge and corner; and bodies thinner than that.
@@ -47,7 +47,8 @@ inline double smallest_jacobian_at_points(const Assembly& assembly) {
   double least = 1e300;
   for (const auto& element : assembly.elements) {
     const HexahedronCorners x = corners_of(assembly.nodes, element);
-    for (const auto& s : hexahedron_corner_signs) least = std::fmin(least, hexahedron_jacobian(x, g * s[0], g * s[1], g * s[2]));
+    for (const auto& s : hexahedron_corner_signs)
+      least = std::fmin(least, hexahedron_jacobian(x, g * s[0], g * s[1], g * s[2]));
   }
   return least;
 }

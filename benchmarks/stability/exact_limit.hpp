@@ -11,9 +11,9 @@
 
 namespace railwave::bench {
 
-/// The limit of the linearised scheme from the program's own forces: differences of the accelerations to positions, K, and to
-/// velocities, C, about the model's present state at rest. Stable while dt^2/4 K + dt/2 C <= M. Of scenes without friction, whose
-/// forces depend on nothing but places and velocities.
+/// The limit of the linearised scheme from the program's own forces: differences of the accelerations to positions, K,
+/// and to velocities, C, about the model's present state at rest. Stable while dt^2/4 K + dt/2 C <= M. Of scenes
+/// without friction, whose forces depend on nothing but places and velocities.
 class ExactLimit {
  public:
   explicit ExactLimit(Model& model) : model_(model), size_(3 * model.nodes.count) {
@@ -96,7 +96,8 @@ class ExactLimit {
     for (int k = 0; k < most_iterations; ++k) {
       Values image = apply(now, rate);
       diagonal.push_back(inner(now, image));
-      for (int i = 0; i < size_; ++i) image[i] -= diagonal.back() * now[i] + (beside.empty() ? 0.0 : beside.back()) * before[i];
+      for (int i = 0; i < size_; ++i)
+        image[i] -= diagonal.back() * now[i] + (beside.empty() ? 0.0 : beside.back()) * before[i];
       beside.push_back(std::sqrt(inner(image, image)));
       if (beside.back() < 1e-6 * std::fabs(diagonal.front()) || k % 10 == 9) {
         ritz = largest_ritz_value(diagonal, beside);

@@ -35,9 +35,9 @@ inline Setup body(const Distortion& distortion, const Control& control, const st
 /// Two blocks pressed on one another along z.
 struct Pressing {
   std::string name;
-  std::array<int, 3> upper, lower;  ///< divisions
+  std::array<int, 3> upper, lower;                          ///< divisions
   double upper_size = millimetre, lower_size = millimetre;  ///< m, edges along x and y
-  double height = millimetre;       ///< m, of an element
+  double height = millimetre;                               ///< m, of an element
   double friction = 0;
   bool symmetric = false;
 };
@@ -57,10 +57,13 @@ inline std::vector<Pressing> pressings() {
   };
 }
 
-/// @param pressure Pa, on the upper block's far side; the lower one's is held; the upper one reaches nowhere beyond the lower
+/// @param pressure Pa, on the upper block's far side; the lower one's is held; the upper one reaches nowhere beyond the
+/// lower
 inline Setup pressed(const Pressing& pressing, const Control& control, double penalty_scale, double pressure,
                      const std::string& precision) {
-  const auto size = [&](double edge, const std::array<int, 3>& n) { return Vec3{n[0] * edge, n[1] * edge, n[2] * pressing.height}; };
+  const auto size = [&](double edge, const std::array<int, 3>& n) {
+    return Vec3{n[0] * edge, n[1] * edge, n[2] * pressing.height};
+  };
   const Vec3 upper = size(pressing.upper_size, pressing.upper), lower = size(pressing.lower_size, pressing.lower);
   Setup made;
   scene::Scene& scene = made.scene;

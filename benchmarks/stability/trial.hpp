@@ -10,13 +10,14 @@
 
 namespace railwave::bench {
 
-/// The fastest node, m/s, by the velocities that the nodes are moved with (of half a step back: those in the middle of a mode
-/// that turns round at every step vanish). Infinite where one is no number.
+/// The fastest node, m/s, by the velocities that the nodes are moved with (of half a step back: those in the middle of
+/// a mode that turns round at every step vanish). Infinite where one is no number.
 inline double fastest(const Model& model) {
   const auto velocity = to_host(model.nodes.velocity);
   double largest = 0;
   for (int n = 0; n < model.nodes.count; ++n) {
-    const double squared = velocity(n, 0) * velocity(n, 0) + velocity(n, 1) * velocity(n, 1) + velocity(n, 2) * velocity(n, 2);
+    const double squared =
+        velocity(n, 0) * velocity(n, 0) + velocity(n, 1) * velocity(n, 1) + velocity(n, 2) * velocity(n, 2);
     if (!std::isfinite(squared)) return std::numeric_limits<double>::infinity();
     largest = std::fmax(largest, squared);
   }
@@ -43,8 +44,9 @@ inline void shake(Model& model, double size) {
   Kokkos::deep_copy(model.nodes.velocity, velocity);
 }
 
-/// Lets a loaded model come to rest in its own equilibrium, hourglass control as in the run: velocities are put to zero at each
-/// peak of the kinetic energy, until no node is faster than `enough` at one. @return the fastest at the last peak, m/s
+/// Lets a loaded model come to rest in its own equilibrium, hourglass control as in the run: velocities are put to zero
+/// at each peak of the kinetic energy, until no node is faster than `enough` at one. @return the fastest at the last
+/// peak, m/s
 inline double calm(Model& model, double step, double enough, int most_steps) {
   constexpr int between = 10;
   model.step_size = step;
@@ -75,7 +77,7 @@ inline double calm(Model& model, double step, double enough, int most_steps) {
 class Trial {
  public:
   static constexpr double shake_size = 1e-3;  ///< m/s
-  static constexpr double growth = 300;       ///< of the fastest node's speed, 90000 of its energy, which counts as blown up
+  static constexpr double growth = 300;  ///< of the fastest node's speed, 90000 of its energy, which counts as blown up
   static constexpr long between_looks = 50;
 
   explicit Trial(Model& model) : model_(model) {
@@ -130,7 +132,8 @@ inline Border find_border(Trial& trial, double guess, long steps, double width) 
   border.wild = high;
   stride = width;
   while (border.calm == 0) {
-    if (!trial.blows_up(low, steps)) border.calm = low;
+    if (!trial.blows_up(low, steps))
+      border.calm = low;
     else {
       border.wild = low;
       low *= 1 - stride;

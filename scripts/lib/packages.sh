@@ -6,8 +6,8 @@ packages_to_build=(
     libtomlplusplus-dev ninja-build pkg-config
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
-# VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built without.
-packages_to_test=(python3-paraview)
+# clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built without.
+packages_to_test=(clang-format python3-paraview)
 # libFuzzer and what reads its coverage.
 packages_to_fuzz=(clang libclang-rt-dev llvm libeigen3-dev libfmt-dev libspdlog-dev libspectra-dev libcli11-dev libtomlplusplus-dev cmake ninja-build)
 

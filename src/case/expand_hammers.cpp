@@ -42,7 +42,8 @@ class Expansion {
         return std::find(probe.quantities.begin(), probe.quantities.end(), name) != probe.quantities.end();
       });
     };
-    const bool motion = asks({"displacement", "velocity", "acceleration"}), inside = asks({"stress", "strain", "plastic_strain"});
+    const bool motion = asks({"displacement", "velocity", "acceleration"}),
+               inside = asks({"stress", "strain", "plastic_strain"});
     for (int k = 0; k < probe.count; ++k) {
       scene::Vec3 position = probe.position;
       for (int i = 0; i < 3; ++i) position[i] += k * probe.spacing[i];
@@ -61,7 +62,8 @@ class Expansion {
   }
 
   /// @param with_nodes the probe has just made a node set of that name, which its elements share
-  bool add_element_set(const scene::Probe& probe, const std::string& name, const scene::Vec3& position, const std::string& subject, bool with_nodes) {
+  bool add_element_set(const scene::Probe& probe, const std::string& name, const scene::Vec3& position,
+                       const std::string& subject, bool with_nodes) {
     if (is_taken(scene_.element_sets, "element", probe, name, subject)) return false;
     if (!with_nodes && is_taken(scene_.node_sets, "node", probe, name, subject)) return false;
     scene_.element_sets.push_back(placed<scene::ElementSet>(probe, name, position));
@@ -69,12 +71,14 @@ class Expansion {
   }
 
   template <class Set, class Entry>
-  bool is_taken(const std::vector<Set>& sets, const char* kind, const Entry& entry, const std::string& name, const std::string& subject) {
-    const auto taken = std::find_if(sets.begin(), sets.end(), [&](const Set& set) { return set.part == entry.part && set.name == name; });
+  bool is_taken(const std::vector<Set>& sets, const char* kind, const Entry& entry, const std::string& name,
+                const std::string& subject) {
+    const auto taken = std::find_if(sets.begin(), sets.end(),
+                                    [&](const Set& set) { return set.part == entry.part && set.name == name; });
     if (taken == sets.end()) return false;
     complaints_.add({entry.line},
-                    fmt::format("{}: makes the {} set '{}.{}', which is there already (line {}); rename one",
-                                subject, kind, entry.part, name, taken->line));
+                    fmt::format("{}: makes the {} set '{}.{}', which is there already (line {}); rename one", subject,
+                                kind, entry.part, name, taken->line));
     return true;
   }
 

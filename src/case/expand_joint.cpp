@@ -10,8 +10,8 @@ using scene::Track;
 using scene::Vec3;
 
 // Of the bolt's diameter.
-constexpr double head_reach = 0.75;   ///< from its axis to the side of a nut
-constexpr double head_height = 0.6;   ///< of the beam's end above the plate
+constexpr double head_reach = 0.75;  ///< from its axis to the side of a nut
+constexpr double head_height = 0.6;  ///< of the beam's end above the plate
 constexpr double spoke_radius = 0.125;
 /// Of a node set that nothing bounds across the plate.
 constexpr double wide = 0.05;
@@ -45,7 +45,8 @@ void add_plate(TrackEntries& entries, const std::string& material, RailSide side
   plate.gap_start = *track.gap_position - 0.5 * track.gap;
   plate.gap_end = *track.gap_position + 0.5 * track.gap;
   entries.add(scene.meshes, "meshes", mesh);
-  entries.add_part(mesh.name, mesh.name, track.fishplate_material.empty() ? material : track.fishplate_material, track.position);
+  entries.add_part(mesh.name, mesh.name, track.fishplate_material.empty() ? material : track.fishplate_material,
+                   track.position);
   // Bolts press on single nodes, and go on doing so: viscous control would give way for ever.
   scene.parts.back().take_hourglass(scene::HourglassType::stiffness);
 
@@ -93,7 +94,8 @@ void add_bolt(TrackEntries& entries, const std::string& material, double x, int 
     head.surface = "outer";
     const Vec3 middle = placed(track, x, side, outside, z);
     // However coarse the plate is, some nodes must be under the head.
-    const Vec3 half{std::max(head_reach * d, 0.51 * track.fishplate_size.value_or(3 * track.rail.zone_size)), wide, std::max(head_reach * d, 0.75 * track.rail.section_size)};
+    const Vec3 half{std::max(head_reach * d, 0.51 * track.fishplate_size.value_or(3 * track.rail.zone_size)), wide,
+                    std::max(head_reach * d, 0.75 * track.rail.section_size)};
     head.box.emplace();
     for (int i = 0; i < 3; ++i) (*head.box)[0][i] = middle[i] - half[i], (*head.box)[1][i] = middle[i] + half[i];
     // Both plates have a set of this name.

@@ -13,7 +13,8 @@ using scene::Vec3;
 /// More than half of any foot's width, m.
 constexpr double half_foot = 0.08;
 
-void add_springs(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& seat, const Vec3& stiffness, const Vec3& damping) {
+void add_springs(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& seat, const Vec3& stiffness,
+                 const Vec3& damping) {
   scene::Connector fastening;
   fastening.name = entries.own("fastening", seat.number);
   fastening.from = seat.sleeper + ".z_max";
@@ -26,7 +27,8 @@ void add_springs(TrackEntries& entries, const scene::Sleeper& kind, const RailSe
   entries.add(entries.scene.connectors, "connectors", fastening);
 }
 
-void add_tie(TrackEntries& entries, const std::string& name, const std::string& slave, const std::string& master, double max_distance) {
+void add_tie(TrackEntries& entries, const std::string& name, const std::string& slave, const std::string& master,
+             double max_distance) {
   scene::Tie tie;
   tie.name = name;
   tie.slave = slave;
@@ -55,13 +57,15 @@ void add_pad(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& 
   // The pad lies on the foot; the sleeper's top is level, where a real seat leans with the rail.
   const double rounding = 1e-6, lean = half_foot * std::fabs(entries.track.rail.inclination);
   add_tie(entries, mesh.name + "_foot", mesh.name + ".z_max", seat.rail + ".foot", rounding);
-  add_tie(entries, mesh.name + "_seat", mesh.name + ".z_min", seat.sleeper + ".z_max", lean + 0.1 * *kind.pad_thickness);
+  add_tie(entries, mesh.name + "_seat", mesh.name + ".z_min", seat.sleeper + ".z_max",
+          lean + 0.1 * *kind.pad_thickness);
 }
 
 }  // namespace
 
 void add_fastening(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& seat) {
-  if (kind.pad == scene::Sleeper::Pad::springs) return add_springs(entries, kind, seat, *kind.fastening_stiffness, *kind.fastening_damping);
+  if (kind.pad == scene::Sleeper::Pad::springs)
+    return add_springs(entries, kind, seat, *kind.fastening_stiffness, *kind.fastening_damping);
   const SolidPad pad = solid_pad(kind, entries.track.rail.section);
   add_pad(entries, kind, seat, pad.damping);
   if (pad.springs()) add_springs(entries, kind, seat, pad.stiffness, pad.dashpots);

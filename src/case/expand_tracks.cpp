@@ -87,15 +87,16 @@ class Expansion : private TrackEntries {
     if (material.empty()) add(scene.materials, "materials", made_of(material = own("steel"), 210e9, 0.3, 7800));
     for (RailExpansion& rail : rails_) rail.add_rails(material);
     const auto places = sleeper_places(track);
-    if (places.empty())
-      complain("has no sleeper under its rail; make the rail longer than a pitch, or give positions");
+    if (places.empty()) complain("has no sleeper under its rail; make the rail longer than a pitch, or give positions");
     for (std::size_t k = 0; k < places.size(); ++k) add_sleeper(places[k], static_cast<int>(k) + 1);
   }
 
  private:
   static bool centre_is_left(const Track& track) { return track.rail.inclination >= 0; }
   /// y of the track's centre plane in the axes of its meshes.
-  static double centre(const Track& track) { return centre_is_left(track) ? -track.rail_distance : track.rail_distance; }
+  static double centre(const Track& track) {
+    return centre_is_left(track) ? -track.rail_distance : track.rail_distance;
+  }
   static double across(const Track& track, double y) { return track.position[1] + (track.mirror ? -y : y); }
 
   /// The track as its mirror image at the centre plane.
@@ -111,7 +112,8 @@ class Expansion : private TrackEntries {
     const std::string name = own("sleeper", number);
     if (kinds_.insert(*place.kind).second) add_kind(*place.kind, kind);
     const Vec3& at = track.position;
-    add_part(name, own(*place.kind), kind.material.empty() ? own(*place.kind) : kind.material, {at[0] + place.x, at[1], at[2]});
+    add_part(name, own(*place.kind), kind.material.empty() ? own(*place.kind) : kind.material,
+             {at[0] + place.x, at[1], at[2]});
     RailSeat seat;
     seat.x = place.x;
     seat.sleeper = name;
@@ -131,7 +133,8 @@ class Expansion : private TrackEntries {
     }
     if (kind.pad == scene::Sleeper::Pad::solid)
       add(scene.materials, "materials",
-          made_of(own(name + "_pad"), solid_pad(kind, track.rail.section).modulus, kind.pad_poissons_ratio, kind.pad_density));
+          made_of(own(name + "_pad"), solid_pad(kind, track.rail.section).modulus, kind.pad_poissons_ratio,
+                  kind.pad_density));
     scene::MeshSource mesh;
     mesh.name = own(name);
     mesh.type = scene::MeshType::box;
@@ -164,8 +167,8 @@ class Expansion : private TrackEntries {
     add(scene.constraints, "constraints", bed);
   }
 
-  /// Half a sleeper is held where its other half would hold it. Of a whole one the middle of the underside is, unless the ballast has a
-  /// lateral stiffness: only a line along x, about which it may roll.
+  /// Half a sleeper is held where its other half would hold it. Of a whole one the middle of the underside is, unless
+  /// the ballast has a lateral stiffness: only a line along x, about which it may roll.
   void hold_middle(const SleeperPlace& place, const scene::Sleeper& kind, const std::string& sleeper, int number) {
     scene::Constraint middle;
     middle.name = own("centre", number);
@@ -204,7 +207,8 @@ std::vector<SleeperPlace> sleeper_places(const Track& track) {
     if (x >= start - slack && x <= end + slack) places.push_back({x, &kind});
   };
   const auto row = [&](double first, double pitch) {
-    for (int k = 0; first + k * pitch >= start - slack && first + k * pitch <= end + slack; ++k) put(first + k * pitch, track.sleeper);
+    for (int k = 0; first + k * pitch >= start - slack && first + k * pitch <= end + slack; ++k)
+      put(first + k * pitch, track.sleeper);
   };
   if (!track.positions.empty()) {
     for (double x : track.positions) put(x, track.sleeper);

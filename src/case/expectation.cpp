@@ -54,7 +54,9 @@ std::string alternatives(const std::vector<std::string>& choices) {
 
 std::string range_text(const Range& range) {
   // 1e+18 rather than its digits.
-  const auto written_limit = [](double limit) { return std::abs(limit) >= 1e6 ? fmt::format("{:g}", limit) : fmt::format("{}", limit); };
+  const auto written_limit = [](double limit) {
+    return std::abs(limit) >= 1e6 ? fmt::format("{:g}", limit) : fmt::format("{}", limit);
+  };
   const auto low_limit = written_limit(range.low), high_limit = written_limit(range.high);
   const auto low = fmt::format("{} {}", range.low_open ? "above" : "at least", low_limit);
   const auto high = fmt::format("{} {}", range.high_open ? "below" : "at most", high_limit);

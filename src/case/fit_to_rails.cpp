@@ -8,12 +8,14 @@ namespace railwave::case_file {
 namespace {
 
 template <class Mesh>
-void fit(const scene::Scene& scene, const scene::MeshSource& source, Mesh& mesh, const char* what_it_needs, Complaints& complaints) {
+void fit(const scene::Scene& scene, const scene::MeshSource& source, Mesh& mesh, const char* what_it_needs,
+         Complaints& complaints) {
   const scene::MeshSource* rail = find_entry(scene.meshes, mesh.rail);
   if (!rail) return;  // told where names are checked
   if (rail->type != scene::MeshType::rail)
-    complaints.add({source.line}, fmt::format("[meshes.{}] rail: '{}' is no mesh of type \"rail\", which alone has {}; name one", source.name,
-                                              mesh.rail, what_it_needs));
+    complaints.add({source.line},
+                   fmt::format("[meshes.{}] rail: '{}' is no mesh of type \"rail\", which alone has {}; name one",
+                               source.name, mesh.rail, what_it_needs));
   mesh.rail_mesh = rail->rail;
 }
 

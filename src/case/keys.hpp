@@ -36,7 +36,7 @@ Section material_section();  // keys_bodies.cpp
 Section part_section();
 Section point_section();
 
-Section node_set_section();  // keys_track.cpp
+Section node_set_section();     // keys_track.cpp
 Section element_set_section();  // keys_hammers.cpp
 Section sleeper_section();
 Section track_section();

@@ -8,11 +8,24 @@ using scene::Scene;
 
 Section material_section() {
   using scene::Material;
-  auto section = named_section("materials", "material", &Scene::materials, "Isotropic materials, elastic or elastoplastic.");
+  auto section =
+      named_section("materials", "material", &Scene::materials, "Isotropic materials, elastic or elastoplastic.");
   section.keys = {
-      key("youngs_modulus", &Material::youngs_modulus, "Young's modulus").in("Pa").within(above(0)).mostly(between(5e5, 1.5e12)).needed(),
-      key("poissons_ratio", &Material::poissons_ratio, "Poisson's ratio; towards 0.5 waves grow without limit, and steps go to 0").within(between(-0.999, 0.4999)).mostly(between(-0.999, 0.495)).needed(),
-      key("density", &Material::density, "mass per volume").in("kg/m3").within(above(0)).mostly(between(20, 25e3)).needed(),
+      key("youngs_modulus", &Material::youngs_modulus, "Young's modulus")
+          .in("Pa")
+          .within(above(0))
+          .mostly(between(5e5, 1.5e12))
+          .needed(),
+      key("poissons_ratio", &Material::poissons_ratio,
+          "Poisson's ratio; towards 0.5 waves grow without limit, and steps go to 0")
+          .within(between(-0.999, 0.4999))
+          .mostly(between(-0.999, 0.495))
+          .needed(),
+      key("density", &Material::density, "mass per volume")
+          .in("kg/m3")
+          .within(above(0))
+          .mostly(between(20, 25e3))
+          .needed(),
       key("yield_stress", &Material::yield_stress,
           "von Mises stress at which the material begins to flow, with linear hardening beyond")
           .in("Pa")
@@ -23,7 +36,8 @@ Section material_section() {
           .in("Pa")
           .within(at_least(0)),
       key("hardening_beta", &Material::hardening_beta,
-          "share of the hardening that widens the yield surface; the rest moves it: 1 is isotropic, 0 kinematic (Prager), "
+          "share of the hardening that widens the yield surface; the rest moves it: 1 is isotropic, 0 kinematic "
+          "(Prager), "
           "between is mixed")
           .within(between(0, 1)),
   };
@@ -43,27 +57,33 @@ Section part_section() {
       key("position", &Part::position, "where the mesh's own origin is put").in("m"),
       key("mirror", &Part::mirror, "the mesh is mirrored at its plane y = 0; its sets keep their names"),
       key("angle_of_attack", &Part::angle_of_attack,
-          "the mesh is turned by this angle about the vertical axis through its origin, from x to y: a wheel at y > 0 then steers to its flange. Boxes of "
+          "the mesh is turned by this angle about the vertical axis through its origin, from x to y: a wheel at y > 0 "
+          "then steers to its flange. Boxes of "
           "[node_sets] see it unturned; angular velocities of [initial_motion] and axes of torques on it turn along")
           .in("rad")
           .within(between(-0.2, 0.2)),
-      key("hourglass", &Part::hourglass, "how hourglass modes are resisted: by velocity, which takes their energy, or by displacement, which stores it and gives it back; docs/hourglass.md")
+      key("hourglass", &Part::hourglass,
+          "how hourglass modes are resisted: by velocity, which takes their energy, or by displacement, which stores "
+          "it and gives it back; docs/hourglass.md")
           .one_of({"viscous", "stiffness"}),
       key("hourglass_coefficient", &Part::hourglass_coefficient, "how strongly; 0 leaves the modes free")
           .within(between(0, 1))
           .otherwise("0.05; 0.1 viscous"),
       key("mass_damping", &Part::mass_damping,
-          "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows rigid motion "
+          "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows rigid "
+          "motion "
           "too: not for bodies that roll or travel")
           .in("1/s")
           .within(at_least(0)),
       key("stiffness_damping", &Part::stiffness_damping,
-          "Rayleigh's beta: viscous stress of beta times the elastic stress of the strain rate; a mode of angular frequency w is "
+          "Rayleigh's beta: viscous stress of beta times the elastic stress of the strain rate; a mode of angular "
+          "frequency w is "
           "damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - beta")
           .in("s")
           .within(at_least(0)),
       key("linear_bulk_viscosity", &Part::linear_bulk_viscosity,
-          "pressure Q2 rho c l |d| where volume shrinks at the rate d, l the cube root of an element's volume; 0.06 is usual for shocks")
+          "pressure Q2 rho c l |d| where volume shrinks at the rate d, l the cube root of an element's volume; 0.06 is "
+          "usual for shocks")
           .within(between(0, 2)),
       key("quadratic_bulk_viscosity", &Part::quadratic_bulk_viscosity,
           "pressure Q1 rho l^2 d^2 where volume shrinks at the rate d; 1.5 is usual for shocks")
@@ -78,7 +98,10 @@ Section point_section() {
   auto section =
       named_section("points", "point mass", &Scene::points, "Point masses, moved by connectors, loads and gravity.");
   section.keys = {
-      key("mass", &PointMass::mass, "mass; may be 0 where beams end, which give it theirs").in("kg").within(at_least(0)).needed(),
+      key("mass", &PointMass::mass, "mass; may be 0 where beams end, which give it theirs")
+          .in("kg")
+          .within(at_least(0))
+          .needed(),
       key("position", &PointMass::position, "where it is at the beginning").in("m"),
   };
   return section;

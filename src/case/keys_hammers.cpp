@@ -8,9 +8,10 @@ using scene::Scene;
 
 Section element_set_section() {
   using scene::ElementSet;
-  auto section = named_section("element_sets", "element set", &Scene::element_sets,
-                               "Elements of a part picked by where they are; the set is `part.NAME`, with the part given here, for "
-                               "`output.field_sets` and `output.history_sets`.");
+  auto section = named_section(
+      "element_sets", "element set", &Scene::element_sets,
+      "Elements of a part picked by where they are; the set is `part.NAME`, with the part given here, for "
+      "`output.field_sets` and `output.history_sets`.");
   section.keys = {
       key("part", &ElementSet::part, "whose elements; parts of tracks count").names(whole_part).needed(),
       key("box", &ElementSet::box,
@@ -19,10 +20,13 @@ Section element_set_section() {
           .in("m")
           .otherwise("none: give `position`"),
       key("position", &ElementSet::position,
-          "instead of a box: the element in which this place lies, in the same axes; where it lies in none, that with the nearest centre")
+          "instead of a box: the element in which this place lies, in the same axes; where it lies in none, that with "
+          "the nearest centre")
           .in("m")
           .otherwise("none: give `box`"),
-      key("radius", &ElementSet::radius, "besides, elements whose centre is so near the position").in("m").within(at_least(0)),
+      key("radius", &ElementSet::radius, "besides, elements whose centre is so near the position")
+          .in("m")
+          .within(at_least(0)),
       key("surface", &ElementSet::surface, "only elements with a face in this surface of the part, such as z_max")
           .otherwise("any element"),
   };
@@ -70,23 +74,29 @@ Section hammer_section() {
 
 Section probe_section() {
   using scene::Probe;
-  auto section = named_section("probes", "probe", &Scene::probes,
-                               "Places whose motion, stress or strain is recorded, on a surface or inside a body. Each becomes a set "
-                               "`part.NAME` and an entry of `output.history_sets`; a row of several `part.NAME_1`, `part.NAME_2` and so "
-                               "on. Motion is that of the nearest node; stress and strain are those of the element in which the place "
-                               "lies, constant in it: as at the element's centre.");
+  auto section = named_section(
+      "probes", "probe", &Scene::probes,
+      "Places whose motion, stress or strain is recorded, on a surface or inside a body. Each becomes a set "
+      "`part.NAME` and an entry of `output.history_sets`; a row of several `part.NAME_1`, `part.NAME_2` and so "
+      "on. Motion is that of the nearest node; stress and strain are those of the element in which the place "
+      "lies, constant in it: as at the element's centre.");
   section.keys = {
       key("part", &Probe::part, "the body; parts of tracks count").names(whole_part).needed(),
-      key("surface", &Probe::surface, "of the part: only its nodes, and elements with a face in it, count").otherwise("any"),
+      key("surface", &Probe::surface, "of the part: only its nodes, and elements with a face in it, count")
+          .otherwise("any"),
       key("position", &Probe::position, "of the first, in the scene's axes").in("m").needed(),
-      key("radius", &Probe::radius, "nodes so near are averaged by mass, elements whose centre is so near by volume; 0 is the nearest node, and the element in which the place lies")
+      key("radius", &Probe::radius,
+          "nodes so near are averaged by mass, elements whose centre is so near by volume; 0 is the nearest node, and "
+          "the element in which the place lies")
           .in("m")
           .within(at_least(0)),
       key("count", &Probe::count, "how many").within(between(1, 10000)),
       key("spacing", &Probe::spacing, "from one to the next").in("m").otherwise("none: needed where count is above 1"),
       key("quantities", &Probe::quantities,
-          "what is recorded. `stress`: Cauchy stress xx, yy, zz, xy, yz, zx; `strain`: logarithmic strain ln V of the element's mean "
-          "deformation gradient, elastic and plastic together, tensor components; `plastic_strain`: equivalent plastic strain")
+          "what is recorded. `stress`: Cauchy stress xx, yy, zz, xy, yz, zx; `strain`: logarithmic strain ln V of the "
+          "element's mean "
+          "deformation gradient, elastic and plastic together, tensor components; `plastic_strain`: equivalent plastic "
+          "strain")
           .one_of({"displacement", "velocity", "acceleration", "stress", "strain", "plastic_strain"}),
   };
   section.rule = check_probe;

@@ -24,21 +24,32 @@ std::vector<Key> rail_keys(scene::RailMesh Entry::*rail) {
       position("zone_end", &Rail::zone_end, "x where the solution zone ends"),
       position("zone_centre", &Rail::zone_centre, "y of the contact band's middle"),
       length("zone_width", &Rail::zone_width, "width of the contact band").within(between(1e-4, 0.09)),
-      any("zone_layers", &Rail::zone_layers, "layers of zone_size below the running surface; with 2.4 more at most 0.024 m deep").within(between(1, 20)),
+      any("zone_layers", &Rail::zone_layers,
+          "layers of zone_size below the running surface; with 2.4 more at most 0.024 m deep")
+          .within(between(1, 20)),
       any("growth", &Rail::growth, "largest ratio of neighbouring element sizes").within(between(1.05, 2)),
-      length("coarse_size", &Rail::coarse_size, "largest element size along the head's surface, far from the zone").within(between(1e-4, 0.2)),
-      length("core_size", &Rail::core_size, "largest element size along the rail, below the head's surface; at least three times zone_size").within(between(3e-4, 0.5)),
-      length("section_size", &Rail::section_size, "largest element size across the head's surface; at least zone_size").within(between(0.002, 0.012)),
-      position("path_start", &Rail::path_start, "x where the way begins that a wheel rolls over; surface `head` reaches as far").otherwise("zone_start"),
+      length("coarse_size", &Rail::coarse_size, "largest element size along the head's surface, far from the zone")
+          .within(between(1e-4, 0.2)),
+      length("core_size", &Rail::core_size,
+             "largest element size along the rail, below the head's surface; at least three times zone_size")
+          .within(between(3e-4, 0.5)),
+      length("section_size", &Rail::section_size, "largest element size across the head's surface; at least zone_size")
+          .within(between(0.002, 0.012)),
+      position("path_start", &Rail::path_start,
+               "x where the way begins that a wheel rolls over; surface `head` reaches as far")
+          .otherwise("zone_start"),
       position("path_end", &Rail::path_end, "x where it ends").otherwise("zone_end"),
-      length("path_size", &Rail::path_size, "largest element size along the head on that way, outside the zone").within(between(1e-4, 0.2)),
+      length("path_size", &Rail::path_size, "largest element size along the head on that way, outside the zone")
+          .within(between(1e-4, 0.2)),
       any("web_columns", &Rail::web_columns, "elements through the web's thickness").within(between(1, 9)),
       any("height_map", &Rail::height_map,
-          "measured surface: a CSV file with the columns x, y, dz in m, a height for each place of a grid of x and y; nodes of the "
+          "measured surface: a CSV file with the columns x, y, dz in m, a height for each place of a grid of x and y; "
+          "nodes of the "
           "running surface within the grid move up by dz, those below by less")
           .path()
           .otherwise("the nominal surface"),
-      length("height_map_depth", &Rail::height_map_depth, "below the surface, from which down nodes stay where they are"),
+      length("height_map_depth", &Rail::height_map_depth,
+             "below the surface, from which down nodes stay where they are"),
   };
 }
 

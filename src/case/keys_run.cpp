@@ -16,10 +16,10 @@ Section title_keys() {
 
 Section settle_section() {
   using scene::Settle;
-  auto section =
-      single_section("settle", &Scene::settle,
-                     "With this section the scene comes to rest under its static loads before the run; without it the run "
-                     "starts from the undeformed meshes.");
+  auto section = single_section(
+      "settle", &Scene::settle,
+      "With this section the scene comes to rest under its static loads before the run; without it the run "
+      "starts from the undeformed meshes.");
   section.open = [](Scene& scene, const scene::Place&) -> void* {
     scene.settle.active = true;
     return &scene.settle;
@@ -27,17 +27,20 @@ Section settle_section() {
   section.keys = {
       key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
       key("method", &Settle::method,
-          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held; `automatic` is "
+          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held; "
+          "`automatic` is "
           "Newton's method, and relaxation from the start again where that does not settle")
           .one_of({"automatic", "newton", "relaxation"}),
       key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),
       key("friction", &Settle::friction,
-          "`false`: contacts are frictionless while the scene settles, and the run begins without shear. With friction, which a slope "
+          "`false`: contacts are frictionless while the scene settles, and the run begins without shear. With "
+          "friction, which a slope "
           "needs, some of what shear the way into equilibrium happened to bring about stays"),
       key("cache", &Settle::cache,
-          "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads begins with it"),
+          "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads "
+          "begins with it"),
       key("cache_folder", &Settle::cache_folder, "where that file lies").otherwise("beside the results"),
   };
   return section;
@@ -59,15 +62,19 @@ Section time_section() {
 Section checkpoint_section() {
   using scene::Checkpoint;
   auto section = single_section("checkpoint", &Scene::checkpoint,
-                                "What is kept of a run so that `railwave run CASE --restart` goes on where it was stopped or killed; without this "
+                                "What is kept of a run so that `railwave run CASE --restart` goes on where it was "
+                                "stopped or killed; without this "
                                 "section too.");
   section.keys = {
       key("interval", &Checkpoint::interval,
-          "between checkpoints, by the clock on the wall; 0 is none but the one where the run is stopped from outside or its `--wall-time` is spent")
+          "between checkpoints, by the clock on the wall; 0 is none but the one where the run is stopped from outside "
+          "or its `--wall-time` is spent")
           .in("s")
           .within(at_least(0))
           .mostly(at_least(0)),
-      key("file", &Checkpoint::file, "checkpoint file (HDF5), relative to the folder in which the program runs; the one before it is kept as `FILE.previous`")
+      key("file", &Checkpoint::file,
+          "checkpoint file (HDF5), relative to the folder in which the program runs; the one before it is kept as "
+          "`FILE.previous`")
           .otherwise("beside the results: NAME.checkpoint.h5"),
   };
   return section;
@@ -78,9 +85,12 @@ Section solver_section() {
   auto section = single_section("solver", &Scene::solver, "How the time loop computes: its numbers and its steps.");
   section.keys = {
       key("precision", &Solver::precision,
-          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double; `float` keeps "
-          "the nodes in single precision too, as what the rigid motion with which each part begins leaves of their motion, and "
-          "contact, loads, constraints and the energy account in double: for bodies that go on much as they begin, as rounding "
+          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double; "
+          "`float` keeps "
+          "the nodes in single precision too, as what the rigid motion with which each part begins leaves of their "
+          "motion, and "
+          "contact, loads, constraints and the energy account in double: for bodies that go on much as they begin, as "
+          "rounding "
           "grows with the way between")
           .one_of({"double", "mixed", "float"}),
       key("step_estimate", &Solver::step_estimate,
@@ -88,8 +98,10 @@ Section solver_section() {
           "eigenvalue (safe for bodies one element thick), or the whole scene's highest frequency (the longest step)")
           .one_of({"element", "eigenvalue", "global"}),
       key("subcycling", &Solver::subcycling,
-          "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded keeps "
-          "the finest step; outputs fall on whole rounds of the levels, so their intervals are rounded to these; settling "
+          "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded "
+          "keeps "
+          "the finest step; outputs fall on whole rounds of the levels, so their intervals are rounded to these; "
+          "settling "
           "goes on without; not with `step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")
           .within(at_least(0)),
@@ -101,12 +113,16 @@ Section output_section() {
   using scene::Output;
   auto section = single_section("output", &Scene::output, "What is written, and how often.");
   section.keys = {
-      key("file", &Output::file, "results file (HDF5), relative to the folder in which the program runs; its folder must be there")
+      key("file", &Output::file,
+          "results file (HDF5), relative to the folder in which the program runs; its folder must be there")
           .otherwise("results/NAME/NAME.h5, NAME being the case file's name without .toml; the folder is made"),
       key("history_interval", &Output::history_interval,
-          "between samples of the histories, evenly spaced to the last; 0 is every step. The step is shortened, by a tenth at most, so that whole "
-          "steps make an interval; where the run is no whole number of intervals, these are shortened so that it is. An interval of few steps, "
-          "a given `time.step` and a step that is renewed have samples at the nearest steps. Times in the results are true in any case")
+          "between samples of the histories, evenly spaced to the last; 0 is every step. The step is shortened, by a "
+          "tenth at most, so that whole "
+          "steps make an interval; where the run is no whole number of intervals, these are shortened so that it is. "
+          "An interval of few steps, "
+          "a given `time.step` and a step that is renewed have samples at the nearest steps. Times in the results are "
+          "true in any case")
           .in("s")
           .within(at_least(0)),
       key("field_interval", &Output::field_interval,
@@ -114,9 +130,11 @@ Section output_section() {
           .in("s")
           .within(at_least(0)),
       key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
-      key("fields", &Output::fields, "which fields").one_of({"displacement", "velocity", "acceleration", "stress", "plastic_strain"}),
+      key("fields", &Output::fields, "which fields")
+          .one_of({"displacement", "velocity", "acceleration", "stress", "plastic_strain"}),
       key("history_sets", &Output::history_sets,
-          "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by mass; of an element set "
+          "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by "
+          "mass; of an element set "
           "stress and strain, and plastic strain where the material yields, mean by volume")
           .names(node_set | element_set | point),
       key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")

@@ -33,7 +33,9 @@ std::string load_text(const std::string& path) {
   if (fs::is_directory(status))
     throw InputError(path + ": is a folder; give a case file in it, such as " + path + "/NAME.toml");
   if (!fs::is_regular_file(status))
-    throw InputError(path + ": is a pipe, device or socket, which may give no end of text or none; give a case file, such as cases/rolling.toml");
+    throw InputError(path +
+                     ": is a pipe, device or socket, which may give no end of text or none; give a case file, such as "
+                     "cases/rolling.toml");
   if (fs::file_size(path, failed) > largest) {
     throw InputError(path +
                      ": has more than 16 MiB, too large for a case file; meshes and results are named in a case, not "

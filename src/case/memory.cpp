@@ -62,10 +62,12 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
-// Kokkos 3.4 to 4.4: Kokkos failed to allocate memory for label "NAME".  Allocation using MemorySpace named "Host" failed with the
-// following error:  Allocation of size 3.725 G failed. Later: Kokkos ERROR: Host memory space failed to allocate 3.725 GiB (label="NAME").
+// Kokkos 3.4 to 4.4: Kokkos failed to allocate memory for label "NAME".  Allocation using MemorySpace named "Host"
+// failed with the following error:  Allocation of size 3.725 G failed. Later: Kokkos ERROR: Host memory space failed to
+// allocate 3.725 GiB (label="NAME").
 bool is_refusal_of_kokkos(const char* said) {
-  return std::strncmp(said, "Kokkos", 6) == 0 && (std::strstr(said, " failed to allocate memory") || std::strstr(said, " memory space failed to allocate "));
+  return std::strncmp(said, "Kokkos", 6) == 0 &&
+         (std::strstr(said, " failed to allocate memory") || std::strstr(said, " memory space failed to allocate "));
 }
 
 std::string refused_by_kokkos(const std::string& said) {
@@ -77,13 +79,15 @@ std::string refused_by_kokkos(const std::string& said) {
   if (!wanted.empty() && wanted.back() != 'B') wanted += "iB";
   if (wanted.empty()) wanted = "memory";
   if (const std::string name = find("label[ =]\"([^\"]*)\""); !name.empty()) wanted += " for the array " + name;
-  if (const std::string space = find("(?:MemorySpace named \"|ERROR: )(\\w+)"); !space.empty()) wanted += ", in memory of " + space;
+  if (const std::string space = find("(?:MemorySpace named \"|ERROR: )(\\w+)"); !space.empty())
+    wanted += ", in memory of " + space;
   return wanted;
 }
 
 void expect_memory(double bytes, const std::string& what, const std::string& mend, double available) {
   if (bytes <= available) return;
-  throw InputError(fmt::format("{} about {} of memory, but this machine has {} left; {}", what, bytes_text(bytes), bytes_text(available), mend));
+  throw InputError(fmt::format("{} about {} of memory, but this machine has {} left; {}", what, bytes_text(bytes),
+                               bytes_text(available), mend));
 }
 
 void expect_memory(double bytes, const std::string& what, const std::string& mend) {

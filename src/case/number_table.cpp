@@ -15,7 +15,8 @@ using Cells = std::vector<std::string_view>;
 
 std::string_view trimmed(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
-  return first == std::string_view::npos ? std::string_view{} : text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return first == std::string_view::npos ? std::string_view{}
+                                         : text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 std::string quoted(std::string_view text) {
@@ -31,7 +32,11 @@ char separator_of(std::string_view line) {
 }
 
 const char* name_of(char separator) {
-  return separator == ';' ? "semicolons" : separator == '\t' ? "tabs" : separator == ',' ? "commas" : separator == ' ' ? "blanks" : "nothing";
+  return separator == ';'    ? "semicolons"
+         : separator == '\t' ? "tabs"
+         : separator == ','  ? "commas"
+         : separator == ' '  ? "blanks"
+                             : "nothing";
 }
 
 Cells split(std::string_view line, char separator) {
@@ -51,13 +56,16 @@ std::string count_text(std::size_t count) {
   return count < 4 ? words[count] : std::to_string(count);
 }
 
-/// The words of a name, without brackets and the like: "time [ms]" is time and ms. A letter of UTF-8 such as a micro sign belongs to a word.
+/// The words of a name, without brackets and the like: "time [ms]" is time and ms. A letter of UTF-8 such as a micro
+/// sign belongs to a word.
 std::vector<std::string> words_of(std::string_view name) {
   std::vector<std::string> words(1);
   for (const char c : name) {
     const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
-    if (letter) words.back() += c;
-    else if (!words.back().empty()) words.emplace_back();
+    if (letter)
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
   }
   if (words.back().empty()) words.pop_back();
   return words;
@@ -95,8 +103,10 @@ class TableReader {
       first_line_ = number;
       separator_ = separator;
     }
-    if (std::none_of(cells.begin(), cells.end(), looks_like_number) && !line.empty() && std::any_of(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }))
-      refuse(fmt::format("{} is text among numbers; write # before a remark, and names before the first number", quoted(line)));
+    if (std::none_of(cells.begin(), cells.end(), looks_like_number) && !line.empty() &&
+        std::any_of(cells.begin(), cells.end(), [](auto cell) { return !cell.empty(); }))
+      refuse(fmt::format("{} is text among numbers; write # before a remark, and names before the first number",
+                         quoted(line)));
     read_values(line, separator, cells, values);
     return true;
   }
@@ -107,7 +117,8 @@ class TableReader {
 
  private:
   std::string column_text(std::size_t c) const {
-    return fmt::format("column {} ({}{})", c + 1, columns_[c].name, columns_[c].unit.empty() ? "" : " in " + columns_[c].unit);
+    return fmt::format("column {} ({}{})", c + 1, columns_[c].name,
+                       columns_[c].unit.empty() ? "" : " in " + columns_[c].unit);
   }
 
   void read_values(std::string_view line, char separator, const Cells& cells, std::vector<double>& values) const {
@@ -115,17 +126,24 @@ class TableReader {
     for (std::size_t c = 0; c < std::min(cells.size(), columns_.size()); ++c) {
       // A comma may be meant as a decimal one: the cells' own mistakes come first.
       const auto value = parse_real(cells[c]);
-      if (!value) refuse(fmt::format("{}: {} {}{}", column_text(c), quoted(cells[c]), why_no_number(cells[c]), hint_on_names(cells)));
+      if (!value)
+        refuse(fmt::format("{}: {} {}{}", column_text(c), quoted(cells[c]), why_no_number(cells[c]),
+                           hint_on_names(cells)));
       values.push_back(*value);
     }
     if (cells.size() > columns_.size() && cells.back().empty())
-      refuse(fmt::format("{} ends with a separator, behind which column {} is empty; take it away: each line is {}", quoted(line), cells.size(), wanted_));
+      refuse(fmt::format("{} ends with a separator, behind which column {} is empty; take it away: each line is {}",
+                         quoted(line), cells.size(), wanted_));
     if (cells.size() != columns_.size())
-      refuse(fmt::format("has {}, must have {}: {}{}", cells.size() == 1 ? "one value" : fmt::format("{} values", cells.size()), count_text(columns_.size()), wanted_,
-                         cells.size() > columns_.size() && separator == ',' ? " (numbers have decimal points; a comma separates columns)" : ""));
+      refuse(fmt::format("has {}, must have {}: {}{}",
+                         cells.size() == 1 ? "one value" : fmt::format("{} values", cells.size()),
+                         count_text(columns_.size()), wanted_,
+                         cells.size() > columns_.size() && separator == ','
+                             ? " (numbers have decimal points; a comma separates columns)"
+                             : ""));
     if (separator != separator_)
-      refuse(fmt::format("its columns are separated by {}, those of line {} by {}; take the same in all lines", name_of(separator), first_line_,
-                         name_of(separator_)));
+      refuse(fmt::format("its columns are separated by {}, those of line {} by {}; take the same in all lines",
+                         name_of(separator), first_line_, name_of(separator_)));
   }
 
   /// Names with a number among them are taken for numbers.
@@ -140,7 +158,9 @@ class TableReader {
       const auto words = words_of(cells[c]);
       same = !words.empty() && lower(words[0]) == columns_[c].name;
     }
-    if (!same) refuse(fmt::format("the {}line is {}, must name the columns: {}", line_ == 1 ? "first " : "", quoted(line), wanted_));
+    if (!same)
+      refuse(fmt::format("the {}line is {}, must name the columns: {}", line_ == 1 ? "first " : "", quoted(line),
+                         wanted_));
     check_names(cells);
     named_ = true;
   }
@@ -151,18 +171,20 @@ class TableReader {
       const auto words = words_of(cells[c]);
       for (const std::string& word : words)
         if (const auto& others = columns_[c].other_units; std::find(others.begin(), others.end(), word) != others.end())
-          refuse(fmt::format("{} is called {}, but is read in {}; convert the numbers, and the name", column_text(c), quoted(cells[c]), columns_[c].unit));
+          refuse(fmt::format("{} is called {}, but is read in {}; convert the numbers, and the name", column_text(c),
+                             quoted(cells[c]), columns_[c].unit));
       const auto is = [&](std::size_t other) { return !words.empty() && lower(words[0]) == columns_[other].name; };
       for (std::size_t other = 0; other < columns_.size(); ++other)
         if (other != c && is(other) && !is(c))
-          refuse(fmt::format("{} is called {}; the order of the columns must be {}", column_text(c), quoted(cells[c]), wanted_));
+          refuse(fmt::format("{} is called {}; the order of the columns must be {}", column_text(c), quoted(cells[c]),
+                             wanted_));
     }
   }
 
   const std::string& path_;
   const std::vector<TableColumn>& columns_;
   TableNames names_;
-  std::string wanted_;  ///< "time,value"
+  std::string wanted_;             ///< "time,value"
   int line_ = 1, first_line_ = 0;  ///< of numbers; 0: there was none yet
   char separator_ = '\0';
   bool named_ = false;
@@ -171,20 +193,28 @@ class TableReader {
 void refuse_encoding(std::string_view text, const TableReader& reader) {
   const auto begins = [&](std::string_view mark) { return text.substr(0, mark.size()) == mark; };
   if (begins("\xff\xfe") || begins("\xfe\xff") || text.substr(0, 4).find('\0') != std::string_view::npos)
-    reader.refuse("the file is UTF-16 or UTF-32 text, or none; save it as UTF-8 (in a spreadsheet: CSV, encoding UTF-8)");
+    reader.refuse(
+        "the file is UTF-16 or UTF-32 text, or none; save it as UTF-8 (in a spreadsheet: CSV, encoding UTF-8)");
 }
 
 }  // namespace
 
 TableColumn time_column(const std::string& name) {
-  return {name, "s", {"ms", "msec", "millisec", "milliseconds", "us", "usec", "\xc2\xb5s", "\xce\xbcs", "microseconds", "ns", "min", "minutes", "h", "hours"}};
+  return {name,
+          "s",
+          {"ms", "msec", "millisec", "milliseconds", "us", "usec", "\xc2\xb5s", "\xce\xbcs", "microseconds", "ns",
+           "min", "minutes", "h", "hours"}};
 }
 
 TableColumn length_column(const std::string& name) {
-  return {name, "m", {"mm", "millimetres", "millimeters", "cm", "um", "\xc2\xb5m", "\xce\xbcm", "micrometres", "micrometers", "nm", "km", "inch", "ft"}};
+  return {name,
+          "m",
+          {"mm", "millimetres", "millimeters", "cm", "um", "\xc2\xb5m", "\xce\xbcm", "micrometres", "micrometers", "nm",
+           "km", "inch", "ft"}};
 }
 
-void parse_number_table(std::string_view text, const std::string& path, const std::vector<TableColumn>& columns, TableNames names,
+void parse_number_table(std::string_view text, const std::string& path, const std::vector<TableColumn>& columns,
+                        TableNames names,
                         const std::function<void(int line, const std::vector<double>& values)>& take) {
   TableReader reader(path, columns, names);
   refuse_encoding(text, reader);

@@ -67,10 +67,12 @@ std::optional<double> parse_real(std::string_view text) {
   double value = 0;
   const auto result = std::from_chars(number.data(), number.data() + number.size(), value);
   if (result.ptr != number.data() + number.size() || result.ec == std::errc::invalid_argument) return std::nullopt;
-  // from_chars doesn't tell too large from too small. In so few characters only an exponent's sign makes a number too small.
+  // from_chars doesn't tell too large from too small. In so few characters only an exponent's sign makes a number too
+  // small.
   if (result.ec == std::errc::result_out_of_range) {
     const auto exponent = number.find_first_of("eE");
-    const bool small = exponent != std::string_view::npos && exponent + 1 < number.size() && number[exponent + 1] == '-';
+    const bool small =
+        exponent != std::string_view::npos && exponent + 1 < number.size() && number[exponent + 1] == '-';
     return small ? std::optional<double>(0) : std::nullopt;
   }
   if (!std::isfinite(value)) return std::nullopt;
@@ -94,8 +96,10 @@ std::string why_no_number(std::string_view text) {
   if (not_finite_by_name(text)) return "is no finite number";
   if (text.size() > 2 && text[0] == '0' && lower(text[1]) == 'x') return "is hexadecimal; write the number in decimal";
   const std::size_t length = number_length(text);
-  if (length == text.size()) return text.size() > longest_number ? fmt::format("has {} characters, at most {} are read", text.size(), longest_number)
-                                                                 : "is too large; at most 1.79e308 can be computed with";
+  if (length == text.size())
+    return text.size() > longest_number
+               ? fmt::format("has {} characters, at most {} are read", text.size(), longest_number)
+               : "is too large; at most 1.79e308 can be computed with";
   if (const auto comma = text.find(','); comma != std::string_view::npos) {
     std::string mended(text);
     mended[comma] = '.';
@@ -104,11 +108,13 @@ std::string why_no_number(std::string_view text) {
     return "has commas in it; write a decimal point, and thousands without separators";
   }
   for (const char c : text)
-    if (static_cast<unsigned char>(c) >= 0x80) return "has characters other than plain ones, perhaps a typographic minus or blank; write it as -0.5";
+    if (static_cast<unsigned char>(c) >= 0x80)
+      return "has characters other than plain ones, perhaps a typographic minus or blank; write it as -0.5";
   if (length == 0) return "is no number; write one such as 0.5 or 5e-1";
   if (text[length] == '.') return "has more than one decimal point";
   const auto behind = text.find_first_not_of(" \t", length);
-  if (behind != std::string_view::npos && (digit(text[behind]) || text[behind] == '-' || text[behind] == '+' || text[behind] == '\'' || text[behind] == '_'))
+  if (behind != std::string_view::npos && (digit(text[behind]) || text[behind] == '-' || text[behind] == '+' ||
+                                           text[behind] == '\'' || text[behind] == '_'))
     return "has more than one number in it; write one, thousands without separators";
   return "has something behind the number; write the number alone, a unit at most in the line of names";
 }

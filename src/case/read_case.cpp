@@ -115,7 +115,8 @@ void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
 
 }  // namespace
 
-scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides, std::vector<std::string>* warnings) {
+scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides,
+                       std::vector<std::string>* warnings) {
   const auto text = load_text(path);
   Complaints complaints(path);
   auto document = parse_document(text, complaints);
@@ -126,13 +127,15 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
   apply_overrides(overrides, document.root, complaints);
   scene.static_text = static_text(document.root);
   Complaints remarks(path);
-  Reading reading{
-      complaints, remarks, std::filesystem::path(path).parent_path().string(), document.complete, refers_to_nothing, {}};
+  Reading reading{complaints,        remarks,           std::filesystem::path(path).parent_path().string(),
+                  document.complete, refers_to_nothing, {}};
   scene.output.file = default_results_file(path);
   read_sections(document.root, scene, reading);
   // Tracks with mistakes of their own would make more; what their parts are named isn't known then.
-  if (complaints.empty()) expand_tracks(scene, complaints);
-  else if (!scene.tracks.empty()) reading.unsure |= references_to("tracks");
+  if (complaints.empty())
+    expand_tracks(scene, complaints);
+  else if (!scene.tracks.empty())
+    reading.unsure |= references_to("tracks");
   fit_to_rails(scene, complaints);
   if (complaints.empty()) read_curves(scene, complaints);
   if (complaints.empty()) expand_hammers(scene, complaints);

@@ -23,8 +23,8 @@ std::string refusal(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, failed)) return "'" + path + "' is no regular file";
   const auto size = std::filesystem::file_size(path, failed);
   if (!failed && size > largest)
-    return fmt::format("'{}' has {}, at most {} are read; give fewer points, for instance every tenth", path, bytes_text(static_cast<double>(size)),
-                       bytes_text(static_cast<double>(largest)));
+    return fmt::format("'{}' has {}, at most {} are read; give fewer points, for instance every tenth", path,
+                       bytes_text(static_cast<double>(size)), bytes_text(static_cast<double>(largest)));
   return "";
 }
 
@@ -34,11 +34,14 @@ std::vector<std::array<double, 2>> read_pairs(const std::string& path) {
   if (!file) throw InputError("'" + path + "' cannot be opened; check that you may read it");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<std::array<double, 2>> points;
-  parse_number_table(text, path, {time_column("time"), {"value", "", {}}}, TableNames::may_stand, [&](int line, const std::vector<double>& pair) {
-    if (!points.empty() && !(pair[0] > points.back()[0]))
-      throw InputError(fmt::format("{}:{}: time must increase from line to line, but has {} s after {} s", path, line, pair[0], points.back()[0]));
-    points.push_back({pair[0], pair[1]});
-  });
+  parse_number_table(
+      text, path, {time_column("time"), {"value", "", {}}}, TableNames::may_stand,
+      [&](int line, const std::vector<double>& pair) {
+        if (!points.empty() && !(pair[0] > points.back()[0]))
+          throw InputError(fmt::format("{}:{}: time must increase from line to line, but has {} s after {} s", path,
+                                       line, pair[0], points.back()[0]));
+        points.push_back({pair[0], pair[1]});
+      });
   if (points.empty()) throw InputError("'" + path + "' has no line with a pair time,value");
   return points;
 }

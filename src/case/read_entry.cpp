@@ -77,7 +77,9 @@ class EntryReader : public EntryCheck {
     }
     if (!key) return complain_at(node.where, node.name, unknown(node.name));
     const Complain complain = [&](Where where, const std::string& text) { complain_at(where, key->name, text); };
-    const Complain remark = [&](Where where, const std::string& text) { reading_.remarks.add(where, subject_of(key->name) + ": " + text); };
+    const Complain remark = [&](Where where, const std::string& text) {
+      reading_.remarks.add(where, subject_of(key->name) + ": " + text);
+    };
     auto value = read_value(*key, node, complain, remark);
     if (!value) {
       unsound_.insert(key->name);

@@ -15,7 +15,8 @@ namespace {
 /// Reads one value; each member function returns nothing once it has complained.
 class Reader {
  public:
-  Reader(const Key& key, const Complain& complain, const Complain& remark) : key_(key), complain_(complain), remark_(remark) {}
+  Reader(const Key& key, const Complain& complain, const Complain& remark)
+      : key_(key), complain_(complain), remark_(remark) {}
 
   std::optional<Value> read(const Node& node) const {
     switch (key_.kind) {
@@ -66,8 +67,8 @@ class Reader {
 
   std::nullopt_t wrong(const Node& node) const {
     const bool short_list = node.type == Node::Type::list &&
-                            (key_.kind == Kind::vector || key_.kind == Kind::integer_vector || key_.kind == Kind::axes ||
-                             key_.kind == Kind::integer_pair || key_.kind == Kind::box);
+                            (key_.kind == Kind::vector || key_.kind == Kind::integer_vector ||
+                             key_.kind == Kind::axes || key_.kind == Kind::integer_pair || key_.kind == Kind::box);
     const auto is = short_list
                         ? fmt::format("has {} value{}", node.children.size(), node.children.size() == 1 ? "" : "s")
                         : "is " + node.described();
@@ -79,15 +80,18 @@ class Reader {
     const std::string& unit = key_.unit;
     const auto is = which.empty() ? std::string("is") : which + " is";
     if (!node.is_number())
-      return bad(node, fmt::format("{} {}, must be a number{}", is, node.described(), unit.empty() ? "" : " in " + unit));
+      return bad(node,
+                 fmt::format("{} {}, must be a number{}", is, node.described(), unit.empty() ? "" : " in " + unit));
     if (!std::isfinite(node.number))
-      return bad(node, fmt::format("{} {}, must be a finite number{}", is, node.number, unit.empty() ? "" : " in " + unit));
+      return bad(node,
+                 fmt::format("{} {}, must be a finite number{}", is, node.number, unit.empty() ? "" : " in " + unit));
     const Range allowed = key_.range.has(node.number) ? allowed_range(key_) : key_.range;
     if (!allowed.has(node.number))
-      return bad(node, fmt::format("{} {}, must be {}{}{}", is, node.number, range_text(allowed), unit.empty() ? "" : " " + unit,
-                                   unit_hint(key_, node.number)));
+      return bad(node, fmt::format("{} {}, must be {}{}{}", is, node.number, range_text(allowed),
+                                   unit.empty() ? "" : " " + unit, unit_hint(key_, node.number)));
     if (const double least = least_beside_zero(key_); node.number != 0 && std::fabs(node.number) < least)
-      return bad(node, fmt::format("{} {}, must be 0 or at least {}{}{}", is, node.number, least, unit.empty() ? "" : " ", unit));
+      return bad(node, fmt::format("{} {}, must be 0 or at least {}{}{}", is, node.number, least,
+                                   unit.empty() ? "" : " ", unit));
     if (!is_usual(key_, node.number))
       remark_(node.where, (which.empty() ? "" : which + " ") + oddity(key_, node.number));
     return node.number;
@@ -177,8 +181,9 @@ class Reader {
     if (!low || !high) return std::nullopt;
     for (std::size_t i = 0; i < 3; ++i)
       if ((*low)[i] > (*high)[i])
-        return bad(node, fmt::format("begins at {} = {} and ends at {}; the first corner is the lowest in all directions",
-                                     "xyz"[i], (*low)[i], (*high)[i]));
+        return bad(node,
+                   fmt::format("begins at {} = {} and ends at {}; the first corner is the lowest in all directions",
+                               "xyz"[i], (*low)[i], (*high)[i]));
     return Corners{*low, *high};
   }
 
@@ -278,9 +283,12 @@ class Reader {
 
   /// Each number of a pair has a unit and a range of its own.
   std::optional<double> of_pair(const Node& node, std::size_t pair, const std::string& what, const Range& range) const {
-    if (!node.is_number()) return bad(node, fmt::format("the {} of pair {} is {}, must be a number", what, pair, node.described()));
-    if (!std::isfinite(node.number)) return bad(node, fmt::format("the {} of pair {} is {}, must be a finite number", what, pair, node.number));
-    if (!range.has(node.number)) return bad(node, fmt::format("the {} of pair {} is {}, must be {}", what, pair, node.number, range_text(range)));
+    if (!node.is_number())
+      return bad(node, fmt::format("the {} of pair {} is {}, must be a number", what, pair, node.described()));
+    if (!std::isfinite(node.number))
+      return bad(node, fmt::format("the {} of pair {} is {}, must be a finite number", what, pair, node.number));
+    if (!range.has(node.number))
+      return bad(node, fmt::format("the {} of pair {} is {}, must be {}", what, pair, node.number, range_text(range)));
     return node.number;
   }
 

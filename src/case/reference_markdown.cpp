@@ -14,9 +14,10 @@ using namespace case_file;
 
 constexpr const char* introduction = R"(# The case file
 
-A case is one [TOML](https://toml.io) file. `railwave check CASE` reads it and says what a run would be; `railwave run CASE` runs
-it. Whatever is not known, of the wrong kind, out of range or refers to nothing is an error that names the line: nothing is
-silently ignored. This page is made from the program's own table of keys (`railwave reference --markdown`).
+A case is one [TOML](https://toml.io) file. `railwave check CASE` reads it and says what a run would be; `railwave run
+CASE` runs it. Whatever is not known, of the wrong kind, out of range or refers to nothing is an error that names the
+line: nothing is silently ignored. This page is made from the program's own table of keys (`railwave reference
+--markdown`).
 
 ## Its shape
 
@@ -58,16 +59,18 @@ acceleration = [0, 0, -9.81]
 end = 1e-3
 ```
 
-- **Axes.** x runs along the rail, and wheels roll towards +x; y is lateral, with the track's centre and the wheel's flange towards
-  -y; z points up. A wheel that rolls towards +x turns about +y.
+- **Axes.** x runs along the rail, and wheels roll towards +x; y is lateral, with the track's centre and the wheel's
+  flange towards -y; z points up. A wheel that rolls towards +x turns about +y.
 - **Units.** SI: m, kg, s, N, Pa, rad. Only `scale` of a mesh read from a file converts: 0.001 for a mesh in mm.
-- **Sizes.** A number beyond what its unit can be in any scene is refused, see [limits by unit](#limits-by-unit). One that is allowed
-  but unusual, such as a density of 7.8 kg/m3, is taken with a warning, which names the unit that was probably meant.
-- **Names.** Each section `[parts.NAME]`, `[materials.NAME]` and so on makes one thing, which others refer to by its name. A set of a
-  part's mesh is `part.set`. `ground` is the fixed world, to which connectors may lead.
-- **Command line.** `railwave run CASE --set section.key=value` replaces a value: `time.end=1e-3`, `parts.wheel.hourglass=stiffness`.
-- **Editors.** An editor that knows TOML schemas (taplo, Even Better TOML) completes and checks a case whose first line is
-  `#:schema ../docs/case.schema.json`.
+- **Sizes.** A number beyond what its unit can be in any scene is refused, see [limits by unit](#limits-by-unit). One
+  that is allowed but unusual, such as a density of 7.8 kg/m3, is taken with a warning, which names the unit that was
+  probably meant.
+- **Names.** Each section `[parts.NAME]`, `[materials.NAME]` and so on makes one thing, which others refer to by its
+  name. A set of a part's mesh is `part.set`. `ground` is the fixed world, to which connectors may lead.
+- **Command line.** `railwave run CASE --set section.key=value` replaces a value: `time.end=1e-3`,
+  `parts.wheel.hourglass=stiffness`.
+- **Editors.** An editor that knows TOML schemas (taplo, Even Better TOML) completes and checks a case whose first
+  line is `#:schema ../docs/case.schema.json`.
 
 ## Sets of the built-in meshes
 
@@ -78,14 +81,17 @@ end = 1e-3
 | `roller` | `y_min`, `y_max`, `tread`, `bore`; unless it is a ring, `arc_min`, `arc_max` | the same, `zone` | |
 | `cylinder` | `z_min`, `z_max`, `skin` | the same three | |
 | `wheel` | `bore`, `centre_section` | `tread`, `running_surface` | `zone` |
-| `wheelset` | as `wheel`, `middle` | as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the axle | `zone`, `wheel`, `axle` |
-| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `fishing_left`, `fishing_right`, `start_face`, `end_face` | `zone` |
+| `wheelset` | as `wheel`, `middle` | as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the)"
+                                     R"( axle | `zone`, `wheel`, `axle` |
+| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `fishing_left`,)"
+                                     R"( `fishing_right`, `start_face`, `end_face` | `zone` |
 
 `tread` and `head` are where bodies usually touch: the contact band over the solution zone, and a margin around it.
-`running_surface` goes all along the wheel or rail; `zone` is the solution zone; `middle` is where a half wheelset ends, a whole one's sets
-are also there by halves, as `left_tread` and `right_tread`; `centre_section` is the wheel's plane x = 0
-below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file names. `[node_sets.NAME]` makes
-more of them, of the nodes in a box or near a place, `[element_sets.NAME]` of the elements there. A surface is a set of its nodes too.
+`running_surface` goes all along the wheel or rail; `zone` is the solution zone; `middle` is where a half wheelset
+ends, a whole one's sets are also there by halves, as `left_tread` and `right_tread`; `centre_section` is the wheel's
+plane x = 0 below the axle, when a layer of nodes lies there. A mesh read from a file brings the sets that its file
+names. `[node_sets.NAME]` makes more of them, of the nodes in a box or near a place, `[element_sets.NAME]` of the
+elements there. A surface is a set of its nodes too.
 
 ## A track
 
@@ -147,7 +153,10 @@ std::string value_cell(const Key& key) {
   const bool several = key.kind == Kind::texts;
   if (!key.choices.empty()) return (several ? "list of " : "one of ") + code_list(key.choices);
   if (key.refers_to != refers_to_nothing)
-    return (key.may_be_one ? "name or list of names: " : several ? "list of names: " : "name of ") + reference_text(key.refers_to);
+    return (key.may_be_one ? "name or list of names: "
+            : several      ? "list of names: "
+                           : "name of ") +
+           reference_text(key.refers_to);
   return expectation(key, false);
 }
 
@@ -179,7 +188,12 @@ std::vector<Key> keys_of(const Section& section, const std::string& type) {
 
 std::string section_text(const Section& section) {
   std::string text = "\n## " + (section.name.empty() ? "Above all sections" : "`" + section.title() + "`") + "\n";
-  if (!section.name.empty()) text += "\n" + section.help + (!section.required ? "" : section.name == "parts" ? " Required, unless there is a track." : " Required.") + "\n";
+  if (!section.name.empty())
+    text += "\n" + section.help +
+            (!section.required         ? ""
+             : section.name == "parts" ? " Required, unless there is a track."
+                                       : " Required.") +
+            "\n";
   text += table(keys_of(section, ""));
   const auto* type = section.type_key();
   if (!type) return text;
@@ -195,7 +209,10 @@ std::string section_text(const Section& section) {
 std::string case_reference_markdown() {
   std::string text = introduction;
   for (const auto& section : sections()) text += section_text(section);
-  return text + "\n# Limits by unit\n\nBesides what the tables above allow, for every key that has the unit; those of `[watch]` may be larger.\n\n" + unit_limits_markdown();
+  return text +
+         "\n# Limits by unit\n\nBesides what the tables above allow, for every key that has the unit; those of "
+         "`[watch]` may be larger.\n\n" +
+         unit_limits_markdown();
 }
 
 }  // namespace railwave

@@ -41,7 +41,8 @@ Members text_schema(const Key& key) {
 
 Members pair_schema(const Key& key) {
   return {{"type", json::text("array")},
-          {"prefixItems", json::list({json::object(ranged("number", key.pair.first_range)), json::object(ranged("number", key.pair.second_range))})},
+          {"prefixItems", json::list({json::object(ranged("number", key.pair.first_range)),
+                                      json::object(ranged("number", key.pair.second_range))})},
           {"minItems", "2"},
           {"maxItems", "2"}};
 }
@@ -71,7 +72,8 @@ Members value_schema(const Key& key) {
       return list_of({{"enum", json::texts({"x", "y", "z"})}}, "1", "3");
     case Kind::texts:
       if (!key.may_be_one) return list_of(text_schema(key), least, "");
-      return {{"anyOf", json::list({json::object(text_schema(key)), json::object(list_of(text_schema(key), least, ""))})}};
+      return {
+          {"anyOf", json::list({json::object(text_schema(key)), json::object(list_of(text_schema(key), least, ""))})}};
     case Kind::pairs:
       return list_of(pair_schema(key), "1", "");
     case Kind::numbers:

@@ -135,7 +135,8 @@ std::string reference_text(unsigned refers_to) {
   if (refers_to & whole_part) kinds.push_back("a part");
   if (refers_to & sleeper) kinds.push_back("a kind of sleeper");
   if (refers_to & any_set)
-    kinds.push_back(((refers_to & element_set) != 0 && (refers_to & node_set) == 0 ? "an " : "a ") + set_kind(refers_to) + " 'part.set'");
+    kinds.push_back(((refers_to & element_set) != 0 && (refers_to & node_set) == 0 ? "an " : "a ") +
+                    set_kind(refers_to) + " 'part.set'");
   if (refers_to & point) kinds.push_back("a point mass");
   if (refers_to & ground) kinds.push_back("'ground'");
   if (kinds.size() < 2) return joined(kinds);

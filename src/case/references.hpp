@@ -29,8 +29,8 @@ unsigned references_to(const std::string& section);
 /// "a node set 'part.set', a point mass or 'ground'".
 std::string reference_text(unsigned refers_to);
 
-/// Rules that bind several entries (rules_scene.cpp): names that would be ambiguous, pairs of surfaces given twice or tied and in contact, parts and
-/// sets that are given two motions.
+/// Rules that bind several entries (rules_scene.cpp): names that would be ambiguous, pairs of surfaces given twice or
+/// tied and in contact, parts and sets that are given two motions.
 void check_scene(const scene::Scene& scene, Complaints& complaints);
 
 }  // namespace railwave::case_file

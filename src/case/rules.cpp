@@ -89,16 +89,20 @@ std::string part_of(const std::string& set) { return set.substr(0, set.find('.')
 void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
   constexpr double longest_modelled = 200;  // m
   if (const double length = rail.end - rail.start; check.sound({"start", "end"}) && length > longest_modelled)
-    check.remark("end", fmt::format("the rail is {:.6g} m long, which is unusual: mostly it is up to {} m; m are expected: {:.4g}, if it is in mm", length,
-                                    longest_modelled, 1e-3 * length));
+    check.remark("end", fmt::format("the rail is {:.6g} m long, which is unusual: mostly it is up to {} m; m are "
+                                    "expected: {:.4g}, if it is in mm",
+                                    length, longest_modelled, 1e-3 * length));
   ascending(check, {{"start", rail.start}, {"end", rail.end}});
   ascending(check, {{"zone_start", rail.zone_start}, {"zone_end", rail.zone_end}});
   at_most(check, {"zone_size", rail.zone_size}, {"zone_width", rail.zone_width});
   at_most(check, {"zone_size", rail.zone_size}, {"coarse_size", rail.coarse_size});
   if (check.given("height_map_depth") && !check.given("height_map"))
-    check.complain("height_map_depth", "has no effect without height_map; give that too, or leave height_map_depth out");
+    check.complain("height_map_depth",
+                   "has no effect without height_map; give that too, or leave height_map_depth out");
   const bool path = check.given("path_start") || check.given("path_end");
-  if (check.given("path_size") && !path) check.complain("path_size", "has no effect without path_start or path_end; give one of them, or leave path_size out");
+  if (check.given("path_size") && !path)
+    check.complain("path_size",
+                   "has no effect without path_start or path_end; give one of them, or leave path_size out");
   if (path) {
     at_most(check, {"path_size", rail.path_size}, {"coarse_size", rail.coarse_size});
     at_most(check, {"zone_size", rail.zone_size}, {"path_size", rail.path_size});
@@ -116,10 +120,12 @@ void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
 void check_material(void* entry, EntryCheck& check) {
   const auto& material = *static_cast<scene::Material*>(entry);
   if (check.given("tangent_modulus") && !check.given("yield_stress")) {
-    check.complain("tangent_modulus", "has no effect without yield_stress; give that too, or leave tangent_modulus out");
+    check.complain("tangent_modulus",
+                   "has no effect without yield_stress; give that too, or leave tangent_modulus out");
   }
   if (check.given("hardening_beta") && !check.given("tangent_modulus")) {
-    check.complain("hardening_beta", "has no effect without tangent_modulus; give that too, or leave hardening_beta out");
+    check.complain("hardening_beta",
+                   "has no effect without tangent_modulus; give that too, or leave hardening_beta out");
   }
   if (check.sound({"tangent_modulus", "youngs_modulus"}) && material.tangent_modulus > 0 &&
       !(material.tangent_modulus < material.youngs_modulus)) {
@@ -131,11 +137,13 @@ void check_material(void* entry, EntryCheck& check) {
 namespace {
 
 /// Elements of a body of so many divisions, against those that solids of a railway have.
-void remark_element_size(double length, int divisions, const char* size_key, const std::string& which, EntryCheck& check) {
+void remark_element_size(double length, int divisions, const char* size_key, const std::string& which,
+                         EntryCheck& check) {
   const double size = length / divisions;
   if (size >= finest_mesh && size <= coarsest_mesh) return;
-  check.remark(size_key, fmt::format("makes elements {:.4g} m {}, which is unusual: mostly they are {} to {} m; see the lengths, in m, and the divisions", size, which,
-                                     finest_mesh, coarsest_mesh));
+  check.remark(size_key, fmt::format("makes elements {:.4g} m {}, which is unusual: mostly they are {} to {} m; see "
+                                     "the lengths, in m, and the divisions",
+                                     size, which, finest_mesh, coarsest_mesh));
 }
 
 }  // namespace
@@ -144,7 +152,8 @@ void check_mesh(void* entry, EntryCheck& check) {
   const auto& mesh = *static_cast<scene::MeshSource*>(entry);
   if (!check.sound({"type"})) return;
   if (mesh.type == scene::MeshType::box && check.sound({"size", "divisions"}))
-    for (int i = 0; i < 3; ++i) remark_element_size(mesh.box.size[i], mesh.box.divisions[i], "size", std::string("along ") + "xyz"[i], check);
+    for (int i = 0; i < 3; ++i)
+      remark_element_size(mesh.box.size[i], mesh.box.divisions[i], "size", std::string("along ") + "xyz"[i], check);
   if (mesh.type == scene::MeshType::cylinder && check.sound({"length", "length_divisions"}))
     remark_element_size(mesh.cylinder.length, mesh.cylinder.length_divisions, "length", "along z", check);
   if (mesh.type == scene::MeshType::wheel) check_wheel(mesh.wheel, check);
@@ -158,8 +167,10 @@ void check_part(void* entry, EntryCheck& check) {
   auto& part = *static_cast<scene::Part*>(entry);
   if (!check.given("hourglass_coefficient")) return part.take_hourglass(part.hourglass);
   if (!check.given("hourglass") && check.sound({"hourglass_coefficient"}) && part.hourglass_coefficient > 0)
-    check.remark("hourglass_coefficient", "is given without hourglass, and so is one of stiffness control, the default; give hourglass = \"stiffness\" beside it, or \"viscous\" if that "
-                                          "control's coefficient is meant (docs/hourglass.md)");
+    check.remark("hourglass_coefficient",
+                 "is given without hourglass, and so is one of stiffness control, the default; give hourglass = "
+                 "\"stiffness\" beside it, or \"viscous\" if that "
+                 "control's coefficient is meant (docs/hourglass.md)");
 }
 
 void check_beam(void* entry, EntryCheck& check) {
@@ -170,10 +181,12 @@ void check_beam(void* entry, EntryCheck& check) {
   if (!check.sound({"section"})) return;
   const bool circle = beam.section == scene::BeamSection::circle;
   const char* name = circle ? "circle" : "rectangle";
-  for (const auto& [key, value] : {Named{"radius", beam.radius}, Named{"width", beam.width}, Named{"height", beam.height}}) {
+  for (const auto& [key, value] :
+       {Named{"radius", beam.radius}, Named{"width", beam.width}, Named{"height", beam.height}}) {
     const bool belongs = circle == (key[0] == 'r');
     if (belongs && !check.given(key)) check.complain(key, fmt::format("is missing; section = \"{}\" needs it", name));
-    if (!belongs && check.given(key)) check.complain(key, fmt::format("does not belong to section = \"{}\"; leave it out", name));
+    if (!belongs && check.given(key))
+      check.complain(key, fmt::format("does not belong to section = \"{}\"; leave it out", name));
   }
 }
 
@@ -196,13 +209,16 @@ namespace {
 void check_falling_friction(const scene::Contact& contact, EntryCheck& check) {
   if (!check.sound({"friction", "dynamic_friction", "friction_decay"})) return;
   if (contact.dynamic_friction && contact.friction_decay == 0) {
-    check.complain("dynamic_friction", "has no effect without friction_decay above 0; give that too, such as 6 s/m, or leave "
-                                       "dynamic_friction out");
+    check.complain("dynamic_friction",
+                   "has no effect without friction_decay above 0; give that too, such as 6 s/m, or leave "
+                   "dynamic_friction out");
   } else if (contact.friction_decay > 0 && !contact.dynamic_friction) {
-    check.complain("friction_decay", "has no effect without dynamic_friction; give that too, or leave friction_decay out");
+    check.complain("friction_decay",
+                   "has no effect without dynamic_friction; give that too, or leave friction_decay out");
   } else if (contact.dynamic_friction && !(*contact.dynamic_friction < contact.friction)) {
-    check.complain("dynamic_friction", fmt::format("is {}, must be smaller than friction ({}), from which it falls",
-                                                   *contact.dynamic_friction, said(check, {"friction", contact.friction})));
+    check.complain("dynamic_friction",
+                   fmt::format("is {}, must be smaller than friction ({}), from which it falls",
+                               *contact.dynamic_friction, said(check, {"friction", contact.friction})));
   }
 }
 
@@ -212,8 +228,10 @@ void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
   for (std::size_t i = 0; i < contact.penalty_growth.size(); ++i) {
     const double depth = contact.penalty_growth[i][0];
     if (!(depth > before)) {
-      check.complain("penalty_growth", fmt::format("penetration must be at least 0 m and increase from pair to pair, but pair {} has {} m{}",
-                                                   i + 1, depth, i > 0 ? fmt::format(" after {} m", before) : ""));
+      check.complain(
+          "penalty_growth",
+          fmt::format("penetration must be at least 0 m and increase from pair to pair, but pair {} has {} m{}", i + 1,
+                      depth, i > 0 ? fmt::format(" after {} m", before) : ""));
       return;
     }
     before = depth;
@@ -237,13 +255,23 @@ void check_contact(void* entry, EntryCheck& check) {
   check_penalty_growth(contact, check);
   if (!check.sound({"slave", "master"})) return;
   const bool several = contact.master.size() > 1;
-  const bool own = std::any_of(contact.master.begin(), contact.master.end(), [&](const std::string& name) { return part_of(name) == part_of(contact.slave); });
+  const bool own = std::any_of(contact.master.begin(), contact.master.end(),
+                               [&](const std::string& name) { return part_of(name) == part_of(contact.slave); });
   if (contact.master.has(contact.slave)) {
-    check.complain("master", several ? fmt::format("has '{}', which is the `slave`; a surface cannot touch itself: leave it out of the list", contact.slave)
-                                     : fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces", contact.slave));
+    check.complain(
+        "master",
+        several ? fmt::format("has '{}', which is the `slave`; a surface cannot touch itself: leave it out of the list",
+                              contact.slave)
+                : fmt::format("is '{}' like `slave`; a surface cannot touch itself: name two surfaces", contact.slave));
   } else if (contact.close_gap && own) {
-    check.complain("close_gap", several ? fmt::format("the slave and one of the masters are of the part '{}', which cannot be moved towards itself; leave close_gap out", part_of(contact.slave))
-                                        : fmt::format("both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out", part_of(contact.slave)));
+    check.complain(
+        "close_gap",
+        several ? fmt::format("the slave and one of the masters are of the part '{}', which cannot be moved towards "
+                              "itself; leave close_gap out",
+                              part_of(contact.slave))
+                : fmt::format(
+                      "both surfaces are of the part '{}', which cannot be moved towards itself; leave close_gap out",
+                      part_of(contact.slave)));
   }
 }
 
@@ -251,8 +279,9 @@ void check_curve(void* entry, EntryCheck& check) {
   const auto& curve = *static_cast<scene::Curve*>(entry);
   if (!check.sound({"type", "points", "file"})) return;
   if (curve.type == scene::CurveType::table && check.given("points") == check.given("file")) {
-    check.complain("points", check.given("file") ? "has no effect beside file; leave one of them out"
-                                                 : "is missing; must be a list of pairs [[time, value], ...], unless file is given");
+    check.complain("points", check.given("file")
+                                 ? "has no effect beside file; leave one of them out"
+                                 : "is missing; must be a list of pairs [[time, value], ...], unless file is given");
     return;
   }
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
@@ -268,26 +297,35 @@ void check_motion(void* entry, EntryCheck& check) {
   const auto& motion = *static_cast<scene::InitialMotion*>(entry);
   const scene::Vec3 zero{0, 0, 0};
   if (check.given("rolling_radius") && !motion.rolling && check.sound({"rolling"}))
-    check.complain("rolling_radius", "has no effect without rolling = true; give that too, or leave rolling_radius out");
+    check.complain("rolling_radius",
+                   "has no effect without rolling = true; give that too, or leave rolling_radius out");
   if (motion.rolling && check.given("angular_velocity"))
-    check.complain("rolling", "is true beside angular_velocity; leave out angular_velocity, which then follows from the velocity, or rolling");
-  if (motion.centre && motion.angular_velocity == zero && !motion.rolling && check.sound({"centre", "angular_velocity", "rolling"})) {
-    check.complain("centre", "has no effect without angular_velocity or rolling; give one of them too, or leave centre out");
+    check.complain("rolling",
+                   "is true beside angular_velocity; leave out angular_velocity, which then follows from the velocity, "
+                   "or rolling");
+  if (motion.centre && motion.angular_velocity == zero && !motion.rolling &&
+      check.sound({"centre", "angular_velocity", "rolling"})) {
+    check.complain("centre",
+                   "has no effect without angular_velocity or rolling; give one of them too, or leave centre out");
   }
 }
 
 void check_prescribed(void* /*entry*/, EntryCheck& check) {
   const bool displacement = check.given("displacement"), when = check.given("displacement_curve");
   if (displacement && !when)
-    check.complain("displacement", "has no effect without displacement_curve, which says when; give that too, or leave displacement out");
+    check.complain(
+        "displacement",
+        "has no effect without displacement_curve, which says when; give that too, or leave displacement out");
   if (when && !displacement)
-    check.complain("displacement_curve", "has no effect without displacement; give that too, or leave displacement_curve out");
+    check.complain("displacement_curve",
+                   "has no effect without displacement; give that too, or leave displacement_curve out");
 }
 
 void check_tie(void* entry, EntryCheck& check) {
   const auto& tie = *static_cast<scene::Tie*>(entry);
   if (check.sound({"slave", "master"}) && tie.slave == tie.master) {
-    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot be tied to itself: name two surfaces", tie.master));
+    check.complain("master", fmt::format("is '{}' like `slave`; a surface cannot be tied to itself: name two surfaces",
+                                         tie.master));
   }
 }
 

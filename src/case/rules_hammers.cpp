@@ -32,7 +32,8 @@ void check_hammer(void* entry, EntryCheck& check) {
 void check_probe(void* entry, EntryCheck& check) {
   const auto& probe = *static_cast<scene::Probe*>(entry);
   if (probe.quantities.empty() && check.sound({"quantities"}))
-    check.complain("quantities", "is empty, so nothing would be recorded; name for instance [\"stress\"], or leave it out");
+    check.complain("quantities",
+                   "is empty, so nothing would be recorded; name for instance [\"stress\"], or leave it out");
   if (!check.sound({"count", "spacing"})) return;
   const bool no_spacing = probe.spacing == scene::Vec3{0, 0, 0};
   if (probe.count > 1 && no_spacing)

@@ -8,7 +8,8 @@
 #include <set>
 #include <utility>
 
-// Entries of one case file that cannot all hold, as far as their names show it; model/contradictions.cpp looks at what the names mean.
+// Entries of one case file that cannot all hold, as far as their names show it; model/contradictions.cpp looks at what
+// the names mean.
 namespace railwave::case_file {
 namespace {
 
@@ -17,9 +18,10 @@ void check_names(const scene::Scene& scene, Complaints& complaints) {
     for (const auto& part : scene.parts) {
       if (part.name != mass.name) continue;
       const bool mass_later = mass.line >= part.line;
-      complaints.add({mass_later ? mass.line : part.line},
-                     fmt::format("[{}.{}]: a part and a point mass are both called '{}' (line {}); rename one", mass_later ? "points" : "parts", mass.name, mass.name,
-                                 mass_later ? part.line : mass.line));
+      complaints.add(
+          {mass_later ? mass.line : part.line},
+          fmt::format("[{}.{}]: a part and a point mass are both called '{}' (line {}); rename one",
+                      mass_later ? "points" : "parts", mass.name, mass.name, mass_later ? part.line : mass.line));
     }
 }
 
@@ -46,7 +48,8 @@ std::optional<SurfacePair> common_pair(const Later& later, const Earlier& earlie
 /// "has the same two surfaces as", with their names where one of the entries has more.
 template <class Later, class Earlier>
 std::string same_surfaces(const Later& later, const Earlier& earlier, const SurfacePair& pair) {
-  if (scene::SurfaceNames(later.master).size() == 1 && scene::SurfaceNames(earlier.master).size() == 1) return "has the same two surfaces as";
+  if (scene::SurfaceNames(later.master).size() == 1 && scene::SurfaceNames(earlier.master).size() == 1)
+    return "has the same two surfaces as";
   return fmt::format("has '{}' and '{}' like", pair.first, pair.second);
 }
 
@@ -55,9 +58,12 @@ void check_pairs_of(const std::vector<Entry>& entries, const char* section, cons
   for (std::size_t i = 0; i < entries.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (const auto pair = common_pair(entries[i], entries[j])) {
-        const bool several = scene::SurfaceNames(entries[i].master).size() > 1 || scene::SurfaceNames(entries[j].master).size() > 1;
-        complaints.add({entries[i].line}, fmt::format("[{}.{}]: {} [{}.{}], {}; keep {}", section, entries[i].name, same_surfaces(entries[i], entries[j], *pair), section, entries[j].name, why,
-                                                      several ? "them in one of the two" : "one of them"));
+        const bool several =
+            scene::SurfaceNames(entries[i].master).size() > 1 || scene::SurfaceNames(entries[j].master).size() > 1;
+        complaints.add({entries[i].line},
+                       fmt::format("[{}.{}]: {} [{}.{}], {}; keep {}", section, entries[i].name,
+                                   same_surfaces(entries[i], entries[j], *pair), section, entries[j].name, why,
+                                   several ? "them in one of the two" : "one of them"));
       }
 }
 
@@ -65,8 +71,11 @@ void check_ties_and_contacts(const scene::Scene& scene, Complaints& complaints) 
   for (const auto& tie : scene.ties)
     for (const auto& contact : scene.contacts)
       if (const auto pair = common_pair(tie, contact))
-        complaints.add({tie.line}, fmt::format("[ties.{}]: {} [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two", tie.name,
-                                               same_surfaces(tie, contact, *pair), contact.name, contact.line));
+        complaints.add(
+            {tie.line},
+            fmt::format(
+                "[ties.{}]: {} [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two",
+                tie.name, same_surfaces(tie, contact, *pair), contact.name, contact.line));
 }
 
 /// Velocities would add up.
@@ -76,9 +85,11 @@ void check_initial_motions(const scene::Scene& scene, Complaints& complaints) {
     for (const auto& part : motion.parts) {
       const auto [known, first] = moved.try_emplace(part, &motion);
       if (first || known->second == &motion) continue;
-      complaints.add({motion.line}, fmt::format("[initial_motion.{}] parts: '{}' has an initial motion already, [initial_motion.{}] (line {}), and the two would add up; give its velocity and "
-                                                "its angular velocity in one entry",
-                                                motion.name, part, known->second->name, known->second->line));
+      complaints.add({motion.line},
+                     fmt::format("[initial_motion.{}] parts: '{}' has an initial motion already, [initial_motion.{}] "
+                                 "(line {}), and the two would add up; give its velocity and "
+                                 "its angular velocity in one entry",
+                                 motion.name, part, known->second->name, known->second->line));
     }
 }
 
@@ -88,7 +99,8 @@ void check_prescribed_motions(const scene::Scene& scene, Complaints& complaints)
     if (motion.target.empty()) continue;
     const auto [known, first] = moved.try_emplace(motion.target, &motion);
     if (first) continue;
-    complaints.add({motion.line}, fmt::format("[prescribed_motion.{}] target: '{}' has a prescribed motion already, [prescribed_motion.{}] (line {}); keep one of them, which may have "
+    complaints.add({motion.line}, fmt::format("[prescribed_motion.{}] target: '{}' has a prescribed motion already, "
+                                              "[prescribed_motion.{}] (line {}); keep one of them, which may have "
                                               "velocity, rotation and displacement together",
                                               motion.name, motion.target, known->second->name, known->second->line));
   }

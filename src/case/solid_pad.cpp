@@ -32,7 +32,10 @@ SolidPad solid_pad(const scene::Sleeper& kind, const std::string& section) {
   const BondedLayer layer{*kind.pad_length, foot_width(section), *kind.pad_thickness};
   const scene::Vec3 &stiffness = *kind.fastening_stiffness, &dashpots = *kind.fastening_damping;
   if (kind.pad_modulus) return {*kind.pad_modulus, *kind.pad_damping, stiffness, dashpots};
-  SolidPad pad{stiffness[2] / layer.vertical_stiffness(kind.pad_poissons_ratio), kind.pad_damping.value_or(dashpots[2] / stiffness[2]), {}, {}};
+  SolidPad pad{stiffness[2] / layer.vertical_stiffness(kind.pad_poissons_ratio),
+               kind.pad_damping.value_or(dashpots[2] / stiffness[2]),
+               {},
+               {}};
   const double shear = pad.modulus * layer.shear_stiffness(kind.pad_poissons_ratio);
   const scene::Vec3 own{shear, shear, stiffness[2]};
   for (int i = 0; i < 3; ++i) {

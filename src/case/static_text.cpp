@@ -9,24 +9,41 @@ namespace railwave::case_file {
 namespace {
 
 /// * stands for any name.
-constexpr std::array<const char*, 18> without = {
-    ".title", ".time", ".checkpoint", ".watch", ".output", ".solver.step_estimate", ".solver.subcycling", ".solver.renew_steps",
-    ".settle.active", ".settle.max_steps", ".settle.cache", ".settle.cache_folder", ".initial_motion.*.velocity",
-    ".prescribed_motion.*.velocity", ".prescribed_motion.*.displacement",
-    ".probes", ".element_sets", ".absorbing_layers"};
+constexpr std::array<const char*, 18> without = {".title",
+                                                 ".time",
+                                                 ".checkpoint",
+                                                 ".watch",
+                                                 ".output",
+                                                 ".solver.step_estimate",
+                                                 ".solver.subcycling",
+                                                 ".solver.renew_steps",
+                                                 ".settle.active",
+                                                 ".settle.max_steps",
+                                                 ".settle.cache",
+                                                 ".settle.cache_folder",
+                                                 ".initial_motion.*.velocity",
+                                                 ".prescribed_motion.*.velocity",
+                                                 ".prescribed_motion.*.displacement",
+                                                 ".probes",
+                                                 ".element_sets",
+                                                 ".absorbing_layers"};
 
 std::string value_text(const Node& node) {
   switch (node.type) {
-    case Node::Type::text: return '"' + node.text + '"';
-    case Node::Type::boolean: return node.boolean ? "true" : "false";
+    case Node::Type::text:
+      return '"' + node.text + '"';
+    case Node::Type::boolean:
+      return node.boolean ? "true" : "false";
     case Node::Type::integer:
-    case Node::Type::number: return fmt::format("{:.17g}", node.number);  // 1 and 1.0 are the same
+    case Node::Type::number:
+      return fmt::format("{:.17g}", node.number);  // 1 and 1.0 are the same
     case Node::Type::list: {
       std::string text = "[";
       for (const Node& child : node.children) text += value_text(child) + ",";
       return text + "]";
     }
-    default: return node.text;
+    default:
+      return node.text;
   }
 }
 

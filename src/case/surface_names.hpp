@@ -13,7 +13,9 @@ class SurfaceNames {
  public:
   SurfaceNames() = default;
   SurfaceNames(const char* one) : SurfaceNames(std::string(one)) {}
-  SurfaceNames(const std::string& one) { if (!one.empty()) names_.push_back(one); }
+  SurfaceNames(const std::string& one) {
+    if (!one.empty()) names_.push_back(one);
+  }
   SurfaceNames(std::initializer_list<std::string> several) : names_(several) {}
   explicit SurfaceNames(std::vector<std::string> several) : names_(std::move(several)) {}
 

@@ -14,7 +14,8 @@ namespace railwave::case_file {
 
 template <class Entry>
 const Entry* find_entry(const std::vector<Entry>& entries, const std::string& name) {
-  const auto found = std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
   return found == entries.end() ? nullptr : &*found;
 }
 
@@ -24,10 +25,12 @@ inline constexpr double unbounded = 1e3;
 /// Adds an entry that a section makes; complains of a name that is there already.
 /// @param subject the section, and `line` its line
 template <class Entry>
-void add_entry(std::vector<Entry>& entries, const char* section, Entry entry, int line, const std::string& subject, Complaints& complaints) {
+void add_entry(std::vector<Entry>& entries, const char* section, Entry entry, int line, const std::string& subject,
+               Complaints& complaints) {
   entry.line = line;
   if (const Entry* other = find_entry(entries, entry.name)) {
-    complaints.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject, section, entry.name, other->line));
+    complaints.add({line}, fmt::format("{}: makes [{}.{}], which is there already (line {}); rename one", subject,
+                                       section, entry.name, other->line));
     return;
   }
   entries.push_back(std::move(entry));
@@ -51,7 +54,8 @@ class TrackEntries {
     add_entry(entries, section, std::move(entry), track.line, subject(), complaints_);
   }
 
-  void add_part(const std::string& name, const std::string& mesh, const std::string& material, const scene::Vec3& position) {
+  void add_part(const std::string& name, const std::string& mesh, const std::string& material,
+                const scene::Vec3& position) {
     scene::Part part;
     part.name = name;
     part.mesh = mesh;

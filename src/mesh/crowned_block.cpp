@@ -20,12 +20,14 @@ void check(const scene::MeshSource& source) {
   const double smallest = std::min({b.size[0], b.size[1], b.size[2]});
   checks.expect(smallest > 0, "size", smallest, "above 0 in each direction");
   checks.expect(b.zone_size > 0, "zone_size", b.zone_size, "above 0");
-  checks.expect(b.zone_end > b.zone_start, "zone_end", b.zone_end, fmt::format("more than zone_start = {:g} m", b.zone_start));
+  checks.expect(b.zone_end > b.zone_start, "zone_end", b.zone_end,
+                fmt::format("more than zone_start = {:g} m", b.zone_start));
   const double x_end = b.origin[0] + b.size[0], y_end = b.origin[1] + b.size[1];
   checks.expect(b.zone_start < x_end && b.zone_end > b.origin[0], "zone_start", b.zone_start,
                 fmt::format("a zone that meets the block, from x = {:g} to {:g} m", b.origin[0], x_end));
-  checks.expect(b.zone_centre + b.zone_width / 2 > b.origin[1] && b.zone_centre - b.zone_width / 2 < y_end, "zone_centre",
-                b.zone_centre, fmt::format("a zone that meets the block, from y = {:g} to {:g} m", b.origin[1], y_end));
+  checks.expect(b.zone_centre + b.zone_width / 2 > b.origin[1] && b.zone_centre - b.zone_width / 2 < y_end,
+                "zone_centre", b.zone_centre,
+                fmt::format("a zone that meets the block, from y = {:g} to {:g} m", b.origin[1], y_end));
   const double x = farthest(b.origin[0], b.size[0]), y = farthest(b.origin[1], b.size[1]);
   checks.expect(b.radius_along == 0 || b.radius_along > 1.01 * x, "radius_along", b.radius_along,
                 fmt::format("0 (straight) or more than the block's reach along x, {:g} m", x));
@@ -48,9 +50,15 @@ Mesh crowned_block_mesh(const scene::MeshSource& source) {
   check(source);
   const scene::CrownedBlockMesh& b = source.crowned_block;
   const double layer = b.layer_height.value_or(b.zone_size), height = b.size[2];
-  const GradedLine along{b.origin[0], b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth, b.coarse_size};
-  const GradedLine across{b.origin[1], b.origin[1] + b.size[1], b.zone_centre - b.zone_width / 2,
-                          b.zone_centre + b.zone_width / 2, b.zone_size, b.growth, b.coarse_size};
+  const GradedLine along{b.origin[0],  b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth,
+                         b.coarse_size};
+  const GradedLine across{b.origin[1],
+                          b.origin[1] + b.size[1],
+                          b.zone_centre - b.zone_width / 2,
+                          b.zone_centre + b.zone_width / 2,
+                          b.zone_size,
+                          b.growth,
+                          b.coarse_size};
   const auto x = nodes_of(along), y = nodes_of(across);
   const auto depth = nodes_of({0, height, 0, b.zone_layers * layer, layer, b.growth, b.coarse_size});
   const int layers = static_cast<int>(depth.size()) - 1;

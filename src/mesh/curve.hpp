@@ -31,7 +31,8 @@ struct Curve {
 
 Curve line(Point2 from, Point2 to);
 
-/// Circular arc shorter than a half circle. Positive radius: the centre lies on the left of the way from `from` to `to`.
+/// Circular arc shorter than a half circle. Positive radius: the centre lies on the left of the way from `from` to
+/// `to`.
 Curve arc(Point2 from, Point2 to, double radius);
 
 /// The graph (s, height(s)) from s = `from` to `to` (either may be the larger), traversed by arc length.

@@ -38,7 +38,8 @@ Disc disc(const scene::CylinderMesh& c) {
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) disc.nodes.push_back(in_round_core(place(i), place(j), c.core_share * c.radius));
   for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) disc.cells.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
+    for (int i = 0; i < n; ++i)
+      disc.cells.push_back({number(i, j), number(i + 1, j), number(i + 1, j + 1), number(i, j + 1)});
 
   const auto side = core_outline(n, n);
   std::vector<int> inner;
@@ -53,7 +54,8 @@ Disc disc(const scene::CylinderMesh& c) {
       const RoundPoint from = in_round_core(u, v, c.core_share * c.radius), to = on_disc(u, v, c.radius);
       outer.push_back(static_cast<int>(disc.nodes.size()));
       disc.nodes.push_back(ring == c.ring_divisions ? to
-                                                    : RoundPoint{(1 - share) * from[0] + share * to[0], (1 - share) * from[1] + share * to[1]});
+                                                    : RoundPoint{(1 - share) * from[0] + share * to[0],
+                                                                 (1 - share) * from[1] + share * to[1]});
     }
     for (int k = 0; k < around; ++k)
       disc.cells.push_back({inner[k], outer[k], outer[(k + 1) % around], inner[(k + 1) % around]});
@@ -78,8 +80,10 @@ std::vector<double> heights(const scene::CylinderMesh& c) {
 
 Mesh cylinder_mesh(const scene::MeshSource& source) {
   check(source);
-  const double core = source.cylinder.core_divisions, rings = source.cylinder.ring_divisions, layers_wanted = source.cylinder.length_divisions;
-  expect_mesh_room((core + 4 * rings) * core * layers_wanted, ((core + 1) * (core + 1) + 4 * core * rings) * (layers_wanted + 1));
+  const double core = source.cylinder.core_divisions, rings = source.cylinder.ring_divisions,
+               layers_wanted = source.cylinder.length_divisions;
+  expect_mesh_room((core + 4 * rings) * core * layers_wanted,
+                   ((core + 1) * (core + 1) + 4 * core * rings) * (layers_wanted + 1));
   const Disc section = disc(source.cylinder);
   const auto z = heights(source.cylinder);
   const int nodes = static_cast<int>(section.nodes.size()), cells = static_cast<int>(section.cells.size());

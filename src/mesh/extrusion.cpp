@@ -60,7 +60,8 @@ class Extruder {
     const auto key = std::make_pair(std::make_pair(lower, upper), station);
     const auto found = inner_.find(key);
     if (found != inner_.end()) return found->second;
-    const Point2 point = (1 - transition_depth) * section_.position(lower) + transition_depth * section_.position(upper);
+    const Point2 point =
+        (1 - transition_depth) * section_.position(lower) + transition_depth * section_.position(upper);
     return inner_[key] = add_node(-1, station, point, stations_.position[station] + towards_middle);
   }
 
@@ -143,7 +144,8 @@ class Extruder {
 double extruded_elements(const SectionMesh& section, const Stations& stations) {
   double count = 0;
   for (const SectionQuad& quad : section.quads)
-    count += static_cast<double>(quad.transition ? 4 * stations.levels[quad.level + 1].size() : stations.levels[quad.level].size());
+    count += static_cast<double>(quad.transition ? 4 * stations.levels[quad.level + 1].size()
+                                                 : stations.levels[quad.level].size());
   return count;
 }
 
@@ -151,7 +153,8 @@ Extrusion extrude(const SectionMesh& section, const Stations& stations, const Pl
   return Extruder(section, stations, place, turned).run();
 }
 
-std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<SectionEdge>& edges, int first, int last) {
+std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<SectionEdge>& edges, int first,
+                                 int last) {
   std::map<int, std::vector<int>> edges_of_quad;
   for (const SectionEdge& edge : edges) edges_of_quad[edge.quad].push_back(edge.edge);
   std::vector<Face> faces;
@@ -168,7 +171,8 @@ std::vector<int> nodes_on_section_nodes(const Extrusion& extrusion, const std::v
   std::vector<int> sorted = section_nodes, nodes;
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t n = 0; n < extrusion.section_node.size(); ++n)
-    if (std::binary_search(sorted.begin(), sorted.end(), extrusion.section_node[n])) nodes.push_back(static_cast<int>(n));
+    if (std::binary_search(sorted.begin(), sorted.end(), extrusion.section_node[n]))
+      nodes.push_back(static_cast<int>(n));
   return nodes;
 }
 

@@ -12,10 +12,10 @@ namespace railwave {
 /// Where the elements and nodes of an extruded mesh come from.
 struct Extrusion {
   Mesh mesh;
-  std::vector<int> section_quad;  ///< of each element
-  std::vector<int> first_station; ///< of each element: the station at which it begins
-  std::vector<int> section_node;  ///< of each node; -1 inside a transition's template
-  std::vector<int> station;       ///< of each node
+  std::vector<int> section_quad;   ///< of each element
+  std::vector<int> first_station;  ///< of each element: the station at which it begins
+  std::vector<int> section_node;   ///< of each node; -1 inside a transition's template
+  std::vector<int> station;        ///< of each node
 };
 
 /// Maps a section point and a station's coordinate into space.
@@ -31,7 +31,8 @@ Extrusion extrude(const SectionMesh& section, const Stations& stations, const Pl
 double extruded_elements(const SectionMesh& section, const Stations& stations);
 
 /// Faces of elements that lie on the named edges of the section and begin at stations from `first` up to before `last`.
-std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<SectionEdge>& edges, int first, int last);
+std::vector<Face> faces_on_edges(const Extrusion& extrusion, const std::vector<SectionEdge>& edges, int first,
+                                 int last);
 
 /// Mesh nodes made from the given nodes of the section, at all stations.
 std::vector<int> nodes_on_section_nodes(const Extrusion& extrusion, const std::vector<int>& section_nodes);

@@ -24,12 +24,15 @@ void check(const scene::MeshSource& source) {
   checks.expect(plate.end > plate.start, "end", plate.end, fmt::format("more than start = {:g} m", plate.start));
   checks.expect(plate.thickness >= 0.004, "thickness", plate.thickness, "0.004 m or more");
   checks.expect(plate.clearance >= 0 && plate.clearance <= 0.003, "clearance", plate.clearance, "0 to 0.003 m");
-  checks.expect(!plate.size || (*plate.size > 0 && *plate.size <= plate.end - plate.start), "size", plate.size.value_or(0),
-                "above 0, to the plate's length");
+  checks.expect(!plate.size || (*plate.size > 0 && *plate.size <= plate.end - plate.start), "size",
+                plate.size.value_or(0), "above 0, to the plate's length");
   if (plate.gap_start && plate.gap_end) {
-    checks.expect(*plate.gap_start > plate.start, "gap_start", *plate.gap_start, fmt::format("more than start = {:g} m", plate.start));
-    checks.expect(*plate.gap_end > *plate.gap_start, "gap_end", *plate.gap_end, fmt::format("more than gap_start = {:g} m", *plate.gap_start));
-    checks.expect(*plate.gap_end < plate.end, "gap_end", *plate.gap_end, fmt::format("less than end = {:g} m", plate.end));
+    checks.expect(*plate.gap_start > plate.start, "gap_start", *plate.gap_start,
+                  fmt::format("more than start = {:g} m", plate.start));
+    checks.expect(*plate.gap_end > *plate.gap_start, "gap_end", *plate.gap_end,
+                  fmt::format("more than gap_start = {:g} m", *plate.gap_start));
+    checks.expect(*plate.gap_end < plate.end, "gap_end", *plate.gap_end,
+                  fmt::format("less than end = {:g} m", plate.end));
   }
   checks.report();
 }
@@ -48,7 +51,8 @@ Points up_to(const Points& line, double outer) {
   for (std::size_t i = 1; line[i].y < outer; ++i) kept.push_back(line[i]);
   // A point close before the end would leave a sliver.
   const Point2 end = on(line, outer);
-  if (const std::size_t n = kept.size(); n > 1 && norm(end - kept[n - 1]) < 0.3 * norm(kept[n - 1] - kept[n - 2])) kept.pop_back();
+  if (const std::size_t n = kept.size(); n > 1 && norm(end - kept[n - 1]) < 0.3 * norm(kept[n - 1] - kept[n - 2]))
+    kept.pop_back();
   kept.push_back(end);
   return kept;
 }
@@ -92,7 +96,8 @@ Chamber chamber(const SectionMesh& rail, scene::RailSide side) {
   Chamber found{points(fishing_lines[0]), points(fishing_lines[1]), points(fishing_lines[2])};
   std::reverse(found.underside.begin(), found.underside.end());
   found.fine_from = found.underside.back().y;
-  for (int n : rail.lines.at(std::string(fishing_lines[0]) + (left ? "_left" : "_right")))  // from the head's corner inwards
+  for (int n :
+       rail.lines.at(std::string(fishing_lines[0]) + (left ? "_left" : "_right")))  // from the head's corner inwards
     if (rail.nodes[n].level > 0) {
       found.fine_from = std::fabs(rail.position(n).y);
       break;
@@ -116,9 +121,10 @@ PlateSection plate_section(const scene::MeshSource& source, Chamber lines) {
   const double least = std::max(lines.web.front().y, lines.web.back().y) + 0.002;
   const double most = std::min(lines.underside.back().y, lines.foot_top.back().y);
   if (outer < least || outer > most)
-    throw InputError(fmt::format("{}thickness = {:g}; allowed: {:.4f} to {:.4f} m, so that the plate lies on head and foot of {}",
-                                 place_of(source), plate.thickness, least - thinnest - plate.clearance,
-                                 most - thinnest - plate.clearance, plate.rail_mesh.section));
+    throw InputError(
+        fmt::format("{}thickness = {:g}; allowed: {:.4f} to {:.4f} m, so that the plate lies on head and foot of {}",
+                    place_of(source), plate.thickness, least - thinnest - plate.clearance,
+                    most - thinnest - plate.clearance, plate.rail_mesh.section));
   Points top = up_to(lines.underside, outer), bottom = up_to(lines.foot_top, outer);
   const std::size_t columns = std::max({top.size() - 1, bottom.size() - 1, std::size_t{2}});
   top = refined(top, lines.underside, columns);
@@ -184,7 +190,8 @@ Mesh fishplate_mesh(const scene::MeshSource& source) {
   }
 
   const SectionMesh& section = built.mesh;
-  const double default_size = (built.on_fine_layers ? 1 : 3) * plate.rail_mesh.zone_size;  // nowhere coarser than the rail, for ties
+  const double default_size =
+      (built.on_fine_layers ? 1 : 3) * plate.rail_mesh.zone_size;  // nowhere coarser than the rail, for ties
   std::vector<double> ends{plate.start, plate.end};
   if (plate.gap_start && plate.gap_end) ends = {plate.start, *plate.gap_start, *plate.gap_end, plate.end};
   std::vector<int> at;

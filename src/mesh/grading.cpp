@@ -27,7 +27,8 @@ std::vector<double> graded_cells(double length, double first, double growth, dou
   const double limit = std::max(first, largest);
   double size = std::min(first * growth, limit), reached = size;
   int cells = 1;
-  for (; reached < length * (1 - 1e-9); reached += size = std::min(size * growth, limit)) cells = cell_count(cells + 1.0);
+  for (; reached < length * (1 - 1e-9); reached += size = std::min(size * growth, limit))
+    cells = cell_count(cells + 1.0);
   const int rounded = (cells + multiple - 1) / multiple * multiple;
   if (rounded * first <= length) cells = rounded;
   if (cells * first >= length) return std::vector<double>(cells, length / cells);
@@ -84,7 +85,7 @@ namespace {
 struct ZoneCells {
   double first;  // coordinate of the zone's first layer
   int cells;
-  int origin;    // layer from which cells are merged
+  int origin;  // layer from which cells are merged
 };
 
 ZoneCells zone_cells(const StationPlan& plan) {
@@ -130,7 +131,8 @@ struct SideCells {
   int on_path = 0;  ///< so many of them first
 };
 
-/// Cells over `length`, over the first `path` of it up to path_size; the number of those beyond is a multiple of `multiple`.
+/// Cells over `length`, over the first `path` of it up to path_size; the number of those beyond is a multiple of
+/// `multiple`.
 SideCells side_cells(const StationPlan& plan, double length, double path, int multiple = 1) {
   if (path > length - 0.5 * plan.path_size) path = length;  // no sliver beyond
   SideCells cells;

@@ -40,9 +40,9 @@ struct StationPlan {
   double zone_start, zone_end;  ///< cells of exactly zone_size from about start to end
   double zone_size;
   double growth;
-  double coarse_size;           ///< largest cell of level 0
-  double merge_limit;           ///< largest merged cell
-  int levels;                   ///< how many levels, at least 1
+  double coarse_size;                   ///< largest cell of level 0
+  double merge_limit;                   ///< largest merged cell
+  int levels;                           ///< how many levels, at least 1
   double path_start = 0, path_end = 0;  ///< range about the zone with cells up to path_size; none unless it is wider
   double path_size = 0;
 };

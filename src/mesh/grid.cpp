@@ -59,8 +59,10 @@ std::vector<double> nodes_of(const GradedLine& line) {
   if (first - line.start < 0.5 * size) first = line.start;
   if (line.end - last < 0.5 * size) last = line.end;
   int cells = std::max(1, cell_count(std::ceil((last - first) / size - 1e-6)));
-  if (first == line.start && last == line.end) size = (last - first) / cells;
-  else if (last == line.end) first = last - cells * size;
+  if (first == line.start && last == line.end)
+    size = (last - first) / cells;
+  else if (last == line.end)
+    first = last - cells * size;
   if (first < line.start || first + cells * size > line.end - 1e-9 * size) {  // the zone fills the line
     first = line.start;
     cells = std::max(1, cell_count(std::round((line.end - first) / size)));
@@ -93,7 +95,8 @@ std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& fi
   const auto along = in_zone(first), across = in_zone(second);
   std::vector<Face> faces;
   for (const Face& face : side)
-    if (along[face.element % along.size()] != 0 && across[face.element / along.size() % across.size()] != 0) faces.push_back(face);
+    if (along[face.element % along.size()] != 0 && across[face.element / along.size() % across.size()] != 0)
+      faces.push_back(face);
   return faces;
 }
 

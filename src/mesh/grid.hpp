@@ -22,15 +22,17 @@ using GridPlacement = std::function<Vec3(int i, int j, int k)>;
 
 Mesh grid_mesh(const Grid& grid, const GridPlacement& place);
 
-/// Nodes along a line from `start` to `end` (m): cells of `size` from `zone_start` to `zone_end`, as far as those lie on the
-/// line, and cells outwards from there that grow by at most `growth` up to `largest`. The zone's first node lies at
-/// zone_start; where it would leave less than half a cell at an end it is moved there, and fitted if it fills the line.
+/// Nodes along a line from `start` to `end` (m): cells of `size` from `zone_start` to `zone_end`, as far as those lie
+/// on the line, and cells outwards from there that grow by at most `growth` up to `largest`. The zone's first node lies
+/// at zone_start; where it would leave less than half a cell at an end it is moved there, and fitted if it fills the
+/// line.
 struct GradedLine {
   double start, end, zone_start, zone_end, size, growth, largest;
 };
 std::vector<double> nodes_of(const GradedLine& line);
 
-/// Those faces of a side of the third direction whose cells have their middles in the zones of the lines along the first two.
+/// Those faces of a side of the third direction whose cells have their middles in the zones of the lines along the
+/// first two.
 std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& first, const GradedLine& second);
 
 }  // namespace railwave

@@ -29,12 +29,14 @@ HeightMap::HeightMap(const std::string& path) {
   std::map<std::array<double, 2>, double> points;
   const auto take = [&](int line, const std::vector<double>& value) {
     if (!points.insert({{value[0], value[1]}, value[2]}).second)
-      throw InputError(fmt::format("{}:{}: gives the place x = {}, y = {} a second time", path, line, value[0], value[1]));
+      throw InputError(
+          fmt::format("{}:{}: gives the place x = {}, y = {} a second time", path, line, value[0], value[1]));
   };
   const std::string text = read_whole_file(path);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw InputError(fmt::format("{}:1: the first line is '', must name the columns: x,y,dz", path));
-  parse_number_table(text, path, {length_column("x"), length_column("y"), length_column("dz")}, TableNames::must_stand, take);
+  parse_number_table(text, path, {length_column("x"), length_column("y"), length_column("dz")}, TableNames::must_stand,
+                     take);
   for (const auto& [place, height] : points) {
     x_.push_back(place[0]);
     y_.push_back(place[1]);
@@ -45,13 +47,15 @@ HeightMap::HeightMap(const std::string& path) {
     places->erase(std::unique(places->begin(), places->end()), places->end());
   }
   if (x_.size() < 2 || y_.size() < 2)
-    throw InputError(fmt::format("{}: has {} different x and {} different y, must have two of each at least", path, x_.size(), y_.size()));
+    throw InputError(fmt::format("{}: has {} different x and {} different y, must have two of each at least", path,
+                                 x_.size(), y_.size()));
   for (double x : x_)
     for (double y : y_)
       if (points.count({x, y}) == 0)
-        throw InputError(fmt::format("{}: has a hole: no line gives the place x = {}, y = {}; each of the {} x needs each of the {} y "
-                                     "(fill holes by interpolation, or take a coarser grid)",
-                                     path, x, y, x_.size(), y_.size()));
+        throw InputError(fmt::format(
+            "{}: has a hole: no line gives the place x = {}, y = {}; each of the {} x needs each of the {} y "
+            "(fill holes by interpolation, or take a coarser grid)",
+            path, x, y, x_.size(), y_.size()));
 }
 
 double HeightMap::at(double x, double y) const {
@@ -90,7 +94,8 @@ class Crest {
 
 }  // namespace
 
-void apply_height_map(const HeightMap& map, double depth, const std::vector<Face>& surface, const std::string& place, Mesh& mesh) {
+void apply_height_map(const HeightMap& map, double depth, const std::vector<Face>& surface, const std::string& place,
+                      Mesh& mesh) {
   const Crest crest(surface, mesh);
   std::vector<char> moved(mesh.nodes.size(), 0);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
@@ -106,9 +111,10 @@ void apply_height_map(const HeightMap& map, double depth, const std::vector<Face
     const HexahedronCorners x = corners_of(mesh.nodes, element);
     for (const auto& sign : hexahedron_corner_signs)
       if (!(hexahedron_jacobian(x, sign[0], sign[1], sign[2]) > 0))
-        throw InputError(fmt::format("{}height_map: inverts the element at ({:.5g}, {:.5g}, {:.5g}) m, which is smaller than the map's heights "
-                                     "there; give a larger height_map_depth, or see whether the heights are in m",
-                                     place, x[0][0], x[0][1], x[0][2]));
+        throw InputError(fmt::format(
+            "{}height_map: inverts the element at ({:.5g}, {:.5g}, {:.5g}) m, which is smaller than the map's heights "
+            "there; give a larger height_map_depth, or see whether the heights are in m",
+            place, x[0][0], x[0][1], x[0][2]));
   }
 }
 

@@ -26,8 +26,8 @@ class MeshChecks {
   }
 
   /// A path of finer cells: it holds the zone, and lies between two limits.
-  void path(double path_start, double path_end, double zone_start, double zone_end, double first, double last, double path_size,
-            double zone_size, double coarse_size) {
+  void path(double path_start, double path_end, double zone_start, double zone_end, double first, double last,
+            double path_size, double zone_size, double coarse_size) {
     expect(path_start >= first - 1e-9 && path_start <= zone_start, "path_start", path_start,
            fmt::format("{:g} m to zone_start = {:g} m", first, zone_start));
     expect(path_end >= zone_end && path_end <= last + 1e-9, "the path's end", path_end,
@@ -37,8 +37,8 @@ class MeshChecks {
   }
 
   /// What wheel and rail share.
-  void grading(double zone_size, double growth, double coarse_size, double core_size, double section_size, int zone_layers,
-               int web_columns) {
+  void grading(double zone_size, double growth, double coarse_size, double core_size, double section_size,
+               int zone_layers, int web_columns) {
     expect(zone_size >= 1e-4 && zone_size <= 0.01, "zone_size", zone_size, "0.0001 to 0.01 m");
     expect(growth >= 1.05 && growth <= 2, "growth", growth, "1.05 to 2");
     expect(coarse_size >= zone_size && coarse_size <= 0.2, "coarse_size", coarse_size,

@@ -12,11 +12,12 @@ class MeshTooLarge : public std::runtime_error {
 
 inline constexpr const char* smaller_mesh = "make the elements larger, or the body smaller";
 
-/// Throws MeshTooLarge, before memory is asked for, when a mesh's nodes can't be numbered by an int or the mesh is larger than what
-/// this machine has left.
+/// Throws MeshTooLarge, before memory is asked for, when a mesh's nodes can't be numbered by an int or the mesh is
+/// larger than what this machine has left.
 void expect_mesh_room(double elements, double nodes);
 
-/// A number of cells along one line as an int. Throws MeshTooLarge for more than a million, which no mesh has along one direction.
+/// A number of cells along one line as an int. Throws MeshTooLarge for more than a million, which no mesh has along one
+/// direction.
 int cell_count(double cells);
 
 }  // namespace railwave

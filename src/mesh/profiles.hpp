@@ -6,9 +6,9 @@
 
 namespace railwave {
 
-/// S1002 wheel profile of EN 13715 / UIC 510-2 (flange 32.5 mm thick, 28 mm high): by how much the wheel's radius at the
-/// lateral coordinate s exceeds the radius at the tape circle s = 0 (m). The flange lies towards negative s.
-/// Valid from s1002_first (flange back, vertical tangent) to s1002_last.
+/// S1002 wheel profile of EN 13715 / UIC 510-2 (flange 32.5 mm thick, 28 mm high): by how much the wheel's radius at
+/// the lateral coordinate s exceeds the radius at the tape circle s = 0 (m). The flange lies towards negative s. Valid
+/// from s1002_first (flange back, vertical tangent) to s1002_last.
 double s1002_height(double s);
 /// d(height)/ds; infinite at the flange back.
 double s1002_slope(double s);
@@ -25,8 +25,8 @@ inline constexpr double s1002_flange_back_radius = 0.0205;
 /// The profile from the flange back's joint to s = `end`, at the height added by `radius`, by arc length.
 Curve s1002_curve(double radius, double end);
 
-/// The right half (y > 0) of a rail's outline before inclination, from the crown's middle clockwise to the middle of the
-/// underside, cut where a mesh needs corners. z = 0 at the underside of the foot, y = 0 in the middle (m).
+/// The right half (y > 0) of a rail's outline before inclination, from the crown's middle clockwise to the middle of
+/// the underside, cut where a mesh needs corners. z = 0 at the underside of the foot, y = 0 in the middle (m).
 struct RailOutline {
   double height = 0;
   double crown_end = 0;         ///< arc length on `head` at which the gauge corner's arc begins

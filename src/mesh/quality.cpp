@@ -15,9 +15,11 @@ namespace {
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
-constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                              {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 // Neighbours of each corner, ordered so that their triple product is positive.
-constexpr int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+constexpr int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
 Vec3 centroid(const Mesh& mesh, int element) {
   Vec3 sum{0, 0, 0};
@@ -68,10 +70,11 @@ MeshQuality mesh_quality(const Mesh& mesh, double dilatational_wave_speed) {
 
 std::string describe(const MeshQuality& quality) {
   const auto where = [](const QualityExtreme& extreme) {
-    return fmt::format("element {} at ({:.4f}, {:.4f}, {:.4f}) m", extreme.element, extreme.centroid[0], extreme.centroid[1],
-                       extreme.centroid[2]);
+    return fmt::format("element {} at ({:.4f}, {:.4f}, {:.4f}) m", extreme.element, extreme.centroid[0],
+                       extreme.centroid[1], extreme.centroid[2]);
   };
-  std::string text = fmt::format("{} elements, {} nodes, volume {:.6g} m3", quality.elements, quality.nodes, quality.volume);
+  std::string text =
+      fmt::format("{} elements, {} nodes, volume {:.6g} m3", quality.elements, quality.nodes, quality.volume);
   if (quality.elements == 0) return text;
   text += fmt::format("\nsmallest stable step {:.4g} s: {}", quality.step.value, where(quality.step));
   text += fmt::format("\nworst aspect ratio {:.3g}: {}", quality.aspect_ratio.value, where(quality.aspect_ratio));

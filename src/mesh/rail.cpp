@@ -21,18 +21,18 @@ void check_rail_mesh(const scene::MeshSource& source) {
   checks.expect(r.section == "54E1" || r.section == "60E1", "section", r.section, "\"54E1\" or \"60E1\"");
   checks.expect(std::abs(r.inclination) <= 0.2, "inclination", r.inclination, "-0.2 to 0.2");
   checks.expect(r.end > r.start, "end", r.end, fmt::format("more than start = {:g} m", r.start));
-  checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end, fmt::format("more than zone_start = {:g} m", r.zone_start));
+  checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end,
+                fmt::format("more than zone_start = {:g} m", r.zone_start));
   checks.expect(r.zone_start >= r.start, "zone_start", r.zone_start, fmt::format("start = {:g} m or more", r.start));
   checks.expect(r.zone_end <= r.end, "zone_end", r.zone_end, fmt::format("end = {:g} m or less", r.end));
   if (r.path_start || r.path_end)
-    checks.path(r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.zone_start, r.zone_end, r.start, r.end,
-                r.path_size, r.zone_size, r.coarse_size);
+    checks.path(r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.zone_start, r.zone_end, r.start,
+                r.end, r.path_size, r.zone_size, r.coarse_size);
   checks.grading(r.zone_size, r.growth, r.coarse_size, r.core_size, r.section_size, r.zone_layers, r.web_columns);
-  checks.expect(r.zone_width >= r.zone_size && r.zone_width <= 0.09, "zone_width", r.zone_width,
-                "zone_size to 0.09 m");
+  checks.expect(r.zone_width >= r.zone_size && r.zone_width <= 0.09, "zone_width", r.zone_width, "zone_size to 0.09 m");
   checks.expect(r.zone_size * (r.zone_layers + transition_height) <= 0.024, "zone_layers", r.zone_layers,
-                fmt::format("up to {:.0f} layers of {:g} m: the head is not deeper", std::floor(0.024 / r.zone_size - transition_height),
-                            r.zone_size));
+                fmt::format("up to {:.0f} layers of {:g} m: the head is not deeper",
+                            std::floor(0.024 / r.zone_size - transition_height), r.zone_size));
   checks.report();
 }
 
@@ -52,8 +52,16 @@ RailSectionPlan section_plan(const scene::RailMesh& r) {
 }
 
 Stations rail_stations(const scene::RailMesh& r) {
-  const StationPlan along{r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size, r.core_size,
-                          section_plan(r).lower_transition ? 3 : 2, r.path_start.value_or(r.zone_start), r.path_end.value_or(r.zone_end), r.path_size};
+  const StationPlan along{r.zone_start,
+                          r.zone_end,
+                          r.zone_size,
+                          r.growth,
+                          r.coarse_size,
+                          r.core_size,
+                          section_plan(r).lower_transition ? 3 : 2,
+                          r.path_start.value_or(r.zone_start),
+                          r.path_end.value_or(r.zone_end),
+                          r.path_size};
   return open_stations(along, r.start, r.end);
 }
 
@@ -88,11 +96,13 @@ Mesh rail_mesh(const scene::MeshSource& source) {
 
   const int last = static_cast<int>(stations.position.size()) - 1;
   mesh.surfaces["running_surface"] = faces_on_edges(extrusion, section.edges["running_surface"], 0, last);
-  mesh.surfaces["head"] = faces_on_edges(extrusion, section.edges["head"], stations.path_first - 2, stations.path_last + 2);
+  mesh.surfaces["head"] =
+      faces_on_edges(extrusion, section.edges["head"], stations.path_first - 2, stations.path_last + 2);
   for (const char* side : {"_left", "_right"}) {
     auto& fishing = mesh.surfaces[std::string("fishing") + side];
     for (const char* line : fishing_lines) {
-      const auto faces = faces_on_edges(extrusion, section.edges_along(section.lines.at(std::string(line) + side)), 0, last);
+      const auto faces =
+          faces_on_edges(extrusion, section.edges_along(section.lines.at(std::string(line) + side)), 0, last);
       fishing.insert(fishing.end(), faces.begin(), faces.end());
     }
   }
@@ -112,10 +122,12 @@ Mesh rail_mesh(const scene::MeshSource& source) {
   for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
     for (int side = 0; side < 6; ++side) {
       const auto nodes = mesh.face_nodes({e, side});
-      if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return on_foot[n] != 0; })) mesh.surfaces["foot"].push_back({e, side});
+      if (std::all_of(nodes.begin(), nodes.end(), [&](int n) { return on_foot[n] != 0; }))
+        mesh.surfaces["foot"].push_back({e, side});
     }
   if (!r.height_map.empty())
-    apply_height_map(HeightMap(r.height_map), r.height_map_depth, mesh.surfaces["running_surface"], place_of(source), mesh);
+    apply_height_map(HeightMap(r.height_map), r.height_map_depth, mesh.surfaces["running_surface"], place_of(source),
+                     mesh);
   return std::move(extrusion.mesh);
 }
 

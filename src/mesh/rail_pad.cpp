@@ -22,7 +22,8 @@ void check(const scene::MeshSource& source) {
   const scene::RailPadMesh& pad = source.rail_pad;
   const scene::RailMesh& rail = pad.rail_mesh;
   MeshChecks checks(source);
-  checks.expect(pad.start >= rail.start - 1e-9, "start", pad.start, fmt::format("{:g} m, the rail's start, or more", rail.start));
+  checks.expect(pad.start >= rail.start - 1e-9, "start", pad.start,
+                fmt::format("{:g} m, the rail's start, or more", rail.start));
   checks.expect(pad.end <= rail.end + 1e-9, "end", pad.end, fmt::format("{:g} m, the rail's end, or less", rail.end));
   checks.expect(pad.end > pad.start, "end", pad.end, fmt::format("more than start = {:g} m", pad.start));
   checks.report();
@@ -77,8 +78,12 @@ Mesh rail_pad_mesh(const scene::MeshSource& source) {
   }
   const Placement leaning = inclined(rail.rail.inclination);
   const Grid grid{{static_cast<int>(along.size()) - 1, static_cast<int>(across.size()) - 1, pad.layers},
-                  false, {"x_min", "y_min", "z_min"}, {"x_max", "y_max", "z_max"}};
-  return grid_mesh(grid, [&](int i, int j, int k) { return leaning({across[j], pad.thickness * (k - pad.layers) / pad.layers}, along[i]); });
+                  false,
+                  {"x_min", "y_min", "z_min"},
+                  {"x_max", "y_max", "z_max"}};
+  return grid_mesh(grid, [&](int i, int j, int k) {
+    return leaning({across[j], pad.thickness * (k - pad.layers) / pad.layers}, along[i]);
+  });
 }
 
 }  // namespace railwave

@@ -64,8 +64,9 @@ class RailSectionBuilder {
       return p.y * std::cos(angle) - p.z * std::sin(angle);
     };
     if (y < inclined(low) || y > inclined(high))
-      throw std::invalid_argument(fmt::format("zone_centre = {:g} m is not on the running surface; allowed: {:.4f} to {:.4f} m", y,
-                                              inclined(low), inclined(high)));
+      throw std::invalid_argument(
+          fmt::format("zone_centre = {:g} m is not on the running surface; allowed: {:.4f} to {:.4f} m", y,
+                      inclined(low), inclined(high)));
     for (int i = 0; i < 60; ++i) {
       const double middle = (low + high) / 2;
       (inclined(middle) < y ? low : high) = middle;
@@ -80,10 +81,10 @@ class RailSectionBuilder {
     const double first = centre - zone * size() / 2, last = centre + zone * size() / 2;
     const double limit = outline_.gauge_corner_end;
     if (first < -limit || last > limit)
-      throw std::invalid_argument(
-          fmt::format("the contact band reaches {:.4f} to {:.4f} m along the head's surface from the crown, beyond the gauge "
-                      "corner; allowed: {:.4f} to {:.4f} m: reduce zone_width or move zone_centre",
-                      first, last, -limit, limit));
+      throw std::invalid_argument(fmt::format(
+          "the contact band reaches {:.4f} to {:.4f} m along the head's surface from the crown, beyond the gauge "
+          "corner; allowed: {:.4f} to {:.4f} m: reduce zone_width or move zone_centre",
+          first, last, -limit, limit));
     const double middle = (outline_.crown_end + outline_.gauge_corner_end) / 2;
     const double left = std::max(middle, -first), right = std::max(middle, last);
     columns_ = surface_columns(crown - left, crown + first, crown + last, crown + right, zone, size(), plan_.growth,
@@ -133,7 +134,8 @@ class RailSectionBuilder {
     double used = 0;
     for (const Row& row : core_rows_) used += row.height;
     const int plain = std::max(1, static_cast<int>(std::ceil((core_height - used) / (1.15 * plan_.section_size))));
-    for (int i = 0; i < plain; ++i) core_rows_.push_back({RowKind::plain, std::max(core_height - used, 0.3 * core_height) / plain});
+    for (int i = 0; i < plain; ++i)
+      core_rows_.push_back({RowKind::plain, std::max(core_height - used, 0.3 * core_height) / plain});
     const int side_columns = static_cast<int>(core_rows_.size());
 
     std::vector<int> diagonal[2];
@@ -173,7 +175,8 @@ class RailSectionBuilder {
     const int columns = static_cast<int>(widths.size()), web = plan_.web_columns;
     if (columns < web + 2)
       throw std::invalid_argument(
-          fmt::format("web_columns = {} is too many for the {} columns that zone_size and section_size leave in the head; allowed: up to {}",
+          fmt::format("web_columns = {} is too many for the {} columns that zone_size and section_size leave in the "
+                      "head; allowed: up to {}",
                       web, columns, columns - 2));
     const int wing[2] = {(columns - web) / 2, columns - web - (columns - web) / 2};
     const int start[2] = {core_side_[0].back(), core_side_[1].back()};
@@ -238,7 +241,8 @@ class RailSectionBuilder {
     const auto along_base = [&](int from, int to, int parts) {
       const double a = section_.position(from).y, b = section_.position(to).y;
       std::vector<int> nodes{from};
-      for (int i = 1; i < parts; ++i) nodes.push_back(section_.add_curve_node(base, corner.y + a + (b - a) * i / parts));
+      for (int i = 1; i < parts; ++i)
+        nodes.push_back(section_.add_curve_node(base, corner.y + a + (b - a) * i / parts));
       nodes.push_back(to);
       base_nodes.insert(base_nodes.end(), nodes.begin(), nodes.end());
       return nodes;
@@ -255,9 +259,11 @@ class RailSectionBuilder {
       const std::vector<int> toe_line{upper, section_.add_curve_node(half_[side].toe, toe.length / 2), lower};
       if (side == 0) {
         std::reverse(top.begin(), top.end());
-        fill_block(section_, top, rows, {}, toe_line, side_line[0], along_base(lower, side_line[0].back(), columns), level);
+        fill_block(section_, top, rows, {}, toe_line, side_line[0], along_base(lower, side_line[0].back(), columns),
+                   level);
       } else {
-        fill_block(section_, top, rows, {}, side_line[1], toe_line, along_base(side_line[1].back(), lower, columns), level);
+        fill_block(section_, top, rows, {}, side_line[1], toe_line, along_base(side_line[1].back(), lower, columns),
+                   level);
       }
     }
     std::sort(base_nodes.begin(), base_nodes.end());
@@ -295,6 +301,8 @@ class RailSectionBuilder {
 
 }  // namespace
 
-SectionMesh rail_section(const RailSectionPlan& plan, bool smoothed) { return RailSectionBuilder(plan).build(smoothed); }
+SectionMesh rail_section(const RailSectionPlan& plan, bool smoothed) {
+  return RailSectionBuilder(plan).build(smoothed);
+}
 
 }  // namespace railwave

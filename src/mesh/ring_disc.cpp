@@ -18,8 +18,10 @@ void smooth(RingDisc& disc) {
   SectionMesh section;
   for (std::size_t n = 0; n < disc.nodes.size(); ++n) {
     const Point2 p{disc.nodes[n][0], disc.nodes[n][1]};
-    if (static_cast<int>(n) < disc.rim) section.add_fixed_node(p);
-    else section.add_node(p);
+    if (static_cast<int>(n) < disc.rim)
+      section.add_fixed_node(p);
+    else
+      section.add_node(p);
   }
   for (const auto& cell : disc.cells) {
     SectionQuad quad;
@@ -28,7 +30,8 @@ void smooth(RingDisc& disc) {
   }
   set_ideal_shapes(section, 0);
   smooth_section(section);
-  for (std::size_t n = 0; n < disc.nodes.size(); ++n) disc.nodes[n] = {section.nodes[n].position.y, section.nodes[n].position.z};
+  for (std::size_t n = 0; n < disc.nodes.size(); ++n)
+    disc.nodes[n] = {section.nodes[n].position.y, section.nodes[n].position.z};
 }
 
 }  // namespace
@@ -65,7 +68,8 @@ RingDisc ring_disc(const std::vector<double>& angles) {
   for (int j = 0; j <= up; ++j)
     for (int i = 0; i <= along; ++i) {
       const RoundPoint p = in_round_core(place(i, along), place(j, up), core_share);
-      disc.nodes.push_back({p[0] * std::cos(turn) - p[1] * std::sin(turn), p[0] * std::sin(turn) + p[1] * std::cos(turn)});
+      disc.nodes.push_back(
+          {p[0] * std::cos(turn) - p[1] * std::sin(turn), p[0] * std::sin(turn) + p[1] * std::cos(turn)});
     }
   const auto inner = [&](int ring, int k) {
     return ring < rings ? ring_node(ring, k) : core_node(outline[k % rim][0], outline[k % rim][1]);

@@ -21,28 +21,34 @@ void check(const scene::MeshSource& source) {
   checks.expect(r.radius > 0, "radius", r.radius, "above 0");
   checks.expect(r.bore_radius > 0 && r.bore_radius < r.radius, "bore_radius", r.bore_radius,
                 fmt::format("above 0 and below radius = {:g} m", r.radius));
-  checks.expect(r.side_end > r.side_start, "side_end", r.side_end, fmt::format("more than side_start = {:g} m", r.side_start));
+  checks.expect(r.side_end > r.side_start, "side_end", r.side_end,
+                fmt::format("more than side_start = {:g} m", r.side_start));
   checks.expect(r.zone_size > 0, "zone_size", r.zone_size, "above 0");
-  checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end, fmt::format("more than zone_start = {:g} m", r.zone_start));
+  checks.expect(r.zone_end > r.zone_start, "zone_end", r.zone_end,
+                fmt::format("more than zone_start = {:g} m", r.zone_start));
   if (r.ring) {
     checks.expect(r.zone_end - r.zone_start < 0.9 * around, "zone_end", r.zone_end,
                   fmt::format("at most 0.9 of the way round, {:g} m, from zone_start", 0.9 * around));
   } else {
-    checks.expect(r.arc_end > r.arc_start, "arc_end", r.arc_end, fmt::format("more than arc_start = {:g} m", r.arc_start));
+    checks.expect(r.arc_end > r.arc_start, "arc_end", r.arc_end,
+                  fmt::format("more than arc_start = {:g} m", r.arc_start));
     checks.expect(r.arc_end - r.arc_start < 0.99 * around, "arc_end", r.arc_end,
                   fmt::format("less than once round, {:g} m, from arc_start; a whole roller is ring = true", around));
     checks.expect(r.zone_start < r.arc_end && r.zone_end > r.arc_start, "zone_start", r.zone_start,
                   fmt::format("a zone that meets the sector, from {:g} to {:g} m", r.arc_start, r.arc_end));
   }
-  checks.expect(r.zone_centre + r.zone_width / 2 > r.side_start && r.zone_centre - r.zone_width / 2 < r.side_end, "zone_centre",
-                r.zone_centre, fmt::format("a zone that meets the roller, from y = {:g} to {:g} m", r.side_start, r.side_end));
+  checks.expect(r.zone_centre + r.zone_width / 2 > r.side_start && r.zone_centre - r.zone_width / 2 < r.side_end,
+                "zone_centre", r.zone_centre,
+                fmt::format("a zone that meets the roller, from y = {:g} to {:g} m", r.side_start, r.side_end));
   const double reach = std::max(std::fabs(r.side_start), std::fabs(r.side_end));
   checks.expect(r.crown_radius == 0 || r.crown_radius > 1.01 * reach, "crown_radius", r.crown_radius,
                 fmt::format("0 (straight) or more than the roller's reach along y, {:g} m", reach));
   checks.report();
   const double drop = fall(r.crown_radius, reach), wall = r.radius - r.bore_radius;
-  checks.expect(drop < 0.5 * wall, "crown_radius", r.crown_radius,
-                fmt::format("a crown that falls by less than half of radius - bore_radius, {:g} m; this one falls {:g} m", wall / 2, drop));
+  checks.expect(
+      drop < 0.5 * wall, "crown_radius", r.crown_radius,
+      fmt::format("a crown that falls by less than half of radius - bore_radius, {:g} m; this one falls {:g} m",
+                  wall / 2, drop));
   checks.report();
 }
 
@@ -50,7 +56,8 @@ void check(const scene::MeshSource& source) {
 GradedLine line_around(const scene::RollerMesh& r) {
   if (!r.ring) return {r.arc_start, r.arc_end, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
   const double rest = 2 * pi * r.radius - (r.zone_end - r.zone_start);
-  return {r.zone_start - rest / 2, r.zone_end + rest / 2, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
+  return {
+      r.zone_start - rest / 2, r.zone_end + rest / 2, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
 }
 
 }  // namespace
@@ -60,14 +67,16 @@ Mesh roller_mesh(const scene::MeshSource& source) {
   const scene::RollerMesh& r = source.roller;
   const double layer = r.layer_height.value_or(r.zone_size), wall = r.radius - r.bore_radius;
   const GradedLine around = line_around(r);
-  const GradedLine across{r.side_start, r.side_end, r.zone_centre - r.zone_width / 2, r.zone_centre + r.zone_width / 2,
-                          r.zone_size, r.growth, r.coarse_size};
+  const GradedLine across{
+      r.side_start, r.side_end,   r.zone_centre - r.zone_width / 2, r.zone_centre + r.zone_width / 2, r.zone_size,
+      r.growth,     r.coarse_size};
   const auto arc = nodes_of(around), y = nodes_of(across);
   const auto depth = nodes_of({0, wall, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size});
-  const Grid grid{{static_cast<int>(arc.size()) - 1, static_cast<int>(y.size()) - 1, static_cast<int>(depth.size()) - 1},
-                  r.ring,
-                  {"arc_min", "y_min", "tread"},
-                  {"arc_max", "y_max", "bore"}};
+  const Grid grid{
+      {static_cast<int>(arc.size()) - 1, static_cast<int>(y.size()) - 1, static_cast<int>(depth.size()) - 1},
+      r.ring,
+      {"arc_min", "y_min", "tread"},
+      {"arc_max", "y_max", "bore"}};
   Mesh mesh = grid_mesh(grid, [&](int i, int j, int k) {
     const double radius = r.bore_radius + (wall - fall(r.crown_radius, y[j])) * (1 - depth[k] / wall);
     const double angle = arc[i] / r.radius;

@@ -7,8 +7,8 @@ namespace railwave {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-/// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner is
-/// as flat as it would be at either.
+/// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner
+/// is as flat as it would be at either.
 constexpr double bulge = 0.4;
 
 }  // namespace

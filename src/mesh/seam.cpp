@@ -26,7 +26,8 @@ struct LayerFace {
   double area = 0;
 };
 
-/// Over how many times the largest move nodes beside the plane move too: none comes nearer to the next one by more than a third.
+/// Over how many times the largest move nodes beside the plane move too: none comes nearer to the next one by more than
+/// a third.
 constexpr double reach = 3;
 
 Vec3 centre_of(const Mesh& mesh, int element) {
@@ -44,7 +45,9 @@ struct Crack {
 
   /// Along the seam's plane, m.
   double depth_of(const Vec3& x) const { return (surface - x[2]) / std::cos(seam.angle); }
-  bool has(const LayerFace& face) const { return std::fabs(face.centre[1] - seam.place[1]) <= 0.5 * seam.length && depth_of(face.centre) <= seam.depth; }
+  bool has(const LayerFace& face) const {
+    return std::fabs(face.centre[1] - seam.place[1]) <= 0.5 * seam.length && depth_of(face.centre) <= seam.depth;
+  }
 };
 
 std::string at(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
@@ -54,12 +57,17 @@ double surface_over(const scene::Seam& seam, const std::string& place, const Mes
   const SurfaceAbove surface(mesh);
   const auto top = surface.over(seam.place[0], seam.place[1]);
   if (!top)
-    throw InputError(fmt::format("{} place: {} lies beside the mesh: its upper surface is nowhere over or under it; the nearest place on it is {}", place, at(seam.place),
-                                 at(surface.nearest(seam.place))));
+    throw InputError(
+        fmt::format("{} place: {} lies beside the mesh: its upper surface is nowhere over or under it; the nearest "
+                    "place on it is {}",
+                    place, at(seam.place), at(surface.nearest(seam.place))));
   const double above = seam.place[2] - top->z;
   if (std::fabs(above) > top->element_height)
-    throw InputError(fmt::format("{} place: {} is {:.4g} m {} the mesh's upper surface, from which the depth is measured; the nearest place on it is {}", place, at(seam.place),
-                                 std::fabs(above), above > 0 ? "above" : "below", at({seam.place[0], seam.place[1], top->z})));
+    throw InputError(
+        fmt::format("{} place: {} is {:.4g} m {} the mesh's upper surface, from which the depth is measured; the "
+                    "nearest place on it is {}",
+                    place, at(seam.place), std::fabs(above), above > 0 ? "above" : "below",
+                    at({seam.place[0], seam.place[1], top->z})));
   return top->z;
 }
 
@@ -71,7 +79,8 @@ std::map<long, std::vector<LayerFace>> layers_within(const Crack& crack, const M
     for (int side = 0; side < 6; ++side) {
       auto nodes = mesh.face_nodes({e, side});
       const double x = mesh.nodes[nodes[0]][0];
-      if (!std::all_of(nodes.begin(), nodes.end(), [&](int n) { return std::fabs(mesh.nodes[n][0] - x) < tolerance; })) continue;
+      if (!std::all_of(nodes.begin(), nodes.end(), [&](int n) { return std::fabs(mesh.nodes[n][0] - x) < tolerance; }))
+        continue;
       LayerFace face;
       for (int n : nodes)
         for (int i = 0; i < 3; ++i) face.centre[i] += mesh.nodes[n][i] / 4;
@@ -132,7 +141,8 @@ Extent extent_of(const Crack& crack, const Mesh& mesh, const std::vector<LayerFa
 std::string least_size(const scene::Seam& seam, const Mesh& mesh) {
   const auto element = SurfaceAbove(mesh).over(seam.place[0], seam.place[1]);
   if (!element) return "larger than the elements are";
-  return fmt::format("at least two elements ({:.4g} m) long and one ({:.4g} m) deep", 2 * element->element_width, element->element_height);
+  return fmt::format("at least two elements ({:.4g} m) long and one ({:.4g} m) deep", 2 * element->element_width,
+                     element->element_height);
 }
 
 /// Moves the layer of these faces onto the seam's plane, and what is beside it by less.
@@ -141,7 +151,9 @@ void incline(const scene::Seam& seam, const std::string& place, const std::vecto
   double deepest = 0;
   for (const LayerFace& face : faces)
     for (int n : face.nodes) deepest = std::max(deepest, seam.place[2] - mesh.nodes[n][2]);
-  const auto move = [&](const Vec3& at) { return seam.place[0] - x + slope * std::clamp(seam.place[2] - at[2], 0.0, deepest); };
+  const auto move = [&](const Vec3& at) {
+    return seam.place[0] - x + slope * std::clamp(seam.place[2] - at[2], 0.0, deepest);
+  };
   double largest = 0, first = x, last = x;
   for (const Vec3& at : mesh.nodes) {
     largest = std::max(largest, std::fabs(move(at)));
@@ -150,9 +162,11 @@ void incline(const scene::Seam& seam, const std::string& place, const std::vecto
   }
   const double range = reach * largest;
   if (x - range < first || x + range > last)
-    throw InputError(fmt::format("{}: nodes up to {:.4g} m beside x = {:.6g} would have to move onto its plane, beyond the mesh's end; place the "
-                                 "seam farther from the end, or make it less deep or less inclined",
-                                 place, range, x));
+    throw InputError(
+        fmt::format("{}: nodes up to {:.4g} m beside x = {:.6g} would have to move onto its plane, beyond the mesh's "
+                    "end; place the "
+                    "seam farther from the end, or make it less deep or less inclined",
+                    place, range, x));
   for (Vec3& at : mesh.nodes) {
     const double beside = std::fabs(at[0] - x);
     if (beside < range) at[0] += (1 - beside / range) * move(at);
@@ -163,7 +177,8 @@ void incline(const scene::Seam& seam, const std::string& place, const std::vecto
 std::set<int> front_of(const Mesh& mesh, const std::vector<LayerFace>& faces) {
   std::map<std::array<int, 2>, int> edges;
   const auto edges_of = [&](const std::array<int, 4>& corner, const auto& visit) {
-    for (int k = 0; k < 4; ++k) visit(std::array<int, 2>{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])});
+    for (int k = 0; k < 4; ++k)
+      visit(std::array<int, 2>{std::min(corner[k], corner[(k + 1) % 4]), std::max(corner[k], corner[(k + 1) % 4])});
   };
   for (const LayerFace& face : faces) edges_of(mesh.face_nodes(face.before), [&](auto edge) { ++edges[edge]; });
   // The seam may end on the mesh's outside: there it is open.
@@ -194,8 +209,10 @@ std::map<int, int> opened_by(const Crack& crack, const std::vector<LayerFace>& f
     for (int n : face.nodes)
       if (front.count(n) == 0) twin.emplace(n, 0);
   if (twin.empty())
-    throw InputError(fmt::format("{}: opens no node: of its {} element face{} all nodes lie on its front, which stays whole; make it {}, or the elements smaller", crack.place,
-                                 faces.size(), faces.size() == 1 ? "" : "s", least_size(crack.seam, mesh)));
+    throw InputError(
+        fmt::format("{}: opens no node: of its {} element face{} all nodes lie on its front, which stays whole; make "
+                    "it {}, or the elements smaller",
+                    crack.place, faces.size(), faces.size() == 1 ? "" : "s", least_size(crack.seam, mesh)));
   return twin;
 }
 
@@ -231,24 +248,30 @@ void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, std::map
 OpenedSeam open_seam(const scene::Seam& seam, const std::string& place, Mesh& mesh) {
   for (const char* side : {"_before", "_behind"})
     if (mesh.surfaces.count(seam.name + side) != 0)
-      throw InputError(fmt::format("{}: the mesh has a surface '{}{}' already; choose another name", place, seam.name, side));
+      throw InputError(
+          fmt::format("{}: the mesh has a surface '{}{}' already; choose another name", place, seam.name, side));
   const Crack crack{seam, place, surface_over(seam, place, mesh)};
   double shortest = std::numeric_limits<double>::infinity();
-  for (const auto& element : mesh.elements) shortest = std::min(shortest, hexahedron_length(corners_of(mesh.nodes, element)));
+  for (const auto& element : mesh.elements)
+    shortest = std::min(shortest, hexahedron_length(corners_of(mesh.nodes, element)));
   const auto faces = chosen_layer(seam, layers_within(crack, mesh, 1e-4 * shortest));
   if (faces.empty())
-    throw InputError(fmt::format("{}: no layer of element faces across x lies within its length and depth below z = {:.6g}, so that it opens no node; make it {}, or move "
-                                 "`place` along the mesh",
-                                 place, crack.surface, least_size(seam, mesh)));
+    throw InputError(
+        fmt::format("{}: no layer of element faces across x lies within its length and depth below z = {:.6g}, so that "
+                    "it opens no node; make it {}, or move "
+                    "`place` along the mesh",
+                    place, crack.surface, least_size(seam, mesh)));
   const auto twins = opened_by(crack, faces, mesh);
   const Extent extent = extent_of(crack, mesh, faces);
   const int bodies = connected_bodies(mesh);
   incline(seam, place, faces, mesh);
   part(seam, faces, twins, mesh);
   if (connected_bodies(mesh) > bodies)
-    throw InputError(fmt::format("{}: cuts the body in two: it became {:.4g} m long and {:.4g} m deep, through all of it; make its depth less than {:.4g} m, its length less, or "
-                                 "make two meshes of the two bodies",
-                                 place, extent.length, extent.depth, extent.depth));
+    throw InputError(
+        fmt::format("{}: cuts the body in two: it became {:.4g} m long and {:.4g} m deep, through all of it; make its "
+                    "depth less than {:.4g} m, its length less, or "
+                    "make two meshes of the two bodies",
+                    place, extent.length, extent.depth, extent.depth));
   OpenedSeam opened;
   opened.nodes = static_cast<int>(twins.size());
   opened.faces = static_cast<int>(faces.size());
@@ -258,8 +281,11 @@ OpenedSeam open_seam(const scene::Seam& seam, const std::string& place, Mesh& me
 }
 
 std::string describe(const scene::Seam& seam, const OpenedSeam& opened) {
-  return fmt::format("[seams.{}] (line {}) opens {} node{} of mesh {} between {} pairs of element faces: {:.4g} m long ({:.4g} m asked for), {:.4g} m deep ({:.4g} m asked for)",
-                     seam.name, seam.line, opened.nodes, opened.nodes == 1 ? "" : "s", seam.mesh, opened.faces, opened.length, seam.length, opened.depth, seam.depth);
+  return fmt::format(
+      "[seams.{}] (line {}) opens {} node{} of mesh {} between {} pairs of element faces: {:.4g} m long ({:.4g} m "
+      "asked for), {:.4g} m deep ({:.4g} m asked for)",
+      seam.name, seam.line, opened.nodes, opened.nodes == 1 ? "" : "s", seam.mesh, opened.faces, opened.length,
+      seam.length, opened.depth, seam.depth);
 }
 
 }  // namespace railwave

@@ -46,7 +46,8 @@ std::vector<SectionEdge> SectionMesh::edges_along(const std::vector<int>& line) 
   std::vector<SectionEdge> found;
   for (std::size_t q = 0; q < quads.size(); ++q)
     for (int i = 0; i < 4; ++i)
-      if (wanted.count(std::minmax(quads[q].nodes[i], quads[q].nodes[(i + 1) % 4])) != 0) found.push_back({static_cast<int>(q), i});
+      if (wanted.count(std::minmax(quads[q].nodes[i], quads[q].nodes[(i + 1) % 4])) != 0)
+        found.push_back({static_cast<int>(q), i});
   return found;
 }
 

@@ -10,8 +10,8 @@ namespace railwave {
 
 int zone_columns(double width, double size) { return 3 * std::max(1, cell_count(std::ceil(width / size / 3 - 1e-6))); }
 
-SurfaceColumns surface_columns(double begin, double first, double last, double end, int zone, double size, double growth,
-                               double largest, int multiple) {
+SurfaceColumns surface_columns(double begin, double first, double last, double end, int zone, double size,
+                               double growth, double largest, int multiple) {
   SurfaceColumns columns;
   columns.sizes = graded_cells(first - begin, size, growth, largest, multiple);
   std::reverse(columns.sizes.begin(), columns.sizes.end());
@@ -27,8 +27,8 @@ SurfaceColumns surface_columns(double begin, double first, double last, double e
   return columns;
 }
 
-std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit,
-                                          int least, int most) {
+std::vector<std::vector<int>> plan_merges(const SurfaceColumns& columns, double band_limit, double limit, int least,
+                                          int most) {
   std::vector<std::vector<int>> merges;
   std::vector<double> sizes = columns.sizes;
   int middle = columns.zone_first;
@@ -75,8 +75,8 @@ std::vector<int> straight_line(SectionMesh& section, int first, int last, const 
   return nodes;
 }
 
-void fix_zone(SectionMesh& section, const std::vector<BlockRow>& rows, const SurfaceColumns& columns, const Curve& surface,
-              int layers, double size) {
+void fix_zone(SectionMesh& section, const std::vector<BlockRow>& rows, const SurfaceColumns& columns,
+              const Curve& surface, int layers, double size) {
   for (int r = 0; r <= layers; ++r) {
     for (int c = columns.zone_first; c <= columns.zone_last; ++c) {
       SectionNode& node = section.nodes[rows[r].top_line[c]];

@@ -50,8 +50,8 @@ std::vector<Point2> sample_closed(const Curve& curve, double spacing) {
 void match_outline_area(SectionMesh& section, const std::vector<Point2>& outline, const std::vector<char>& kept) {
   struct Share {
     double area = 0;
-    Point2 normal;                  // sum over the node's edges of length times outward normal, which is also the
-    std::size_t sample = 0;         // gradient of twice the area
+    Point2 normal;           // sum over the node's edges of length times outward normal, which is also the
+    std::size_t sample = 0;  // gradient of twice the area
     bool found = false;
   };
   std::map<int, Share> shares;

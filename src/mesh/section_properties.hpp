@@ -10,9 +10,9 @@ namespace railwave {
 struct SectionProperties {
   double area = 0;
   double centroid_y = 0, centroid_z = 0;
-  double moment_y = 0;   ///< integral of (z - centroid_z)^2: vertical bending
-  double moment_z = 0;   ///< integral of (y - centroid_y)^2: lateral bending
-  double product = 0;    ///< integral of (y - centroid_y) (z - centroid_z)
+  double moment_y = 0;                           ///< integral of (z - centroid_z)^2: vertical bending
+  double moment_z = 0;                           ///< integral of (y - centroid_y)^2: lateral bending
+  double product = 0;                            ///< integral of (y - centroid_y) (z - centroid_z)
   double greatest_moment = 0, least_moment = 0;  ///< principal values
 };
 

@@ -24,7 +24,9 @@ class Smoother {
         const Point2 p = quad.ideal[c];
         const Point2 e = quad.ideal[(c + 1) % 4] - p, f = quad.ideal[(c + 3) % 4] - p;
         const double determinant = cross(e, f);
-        corners_.push_back({quad.nodes[c], quad.nodes[(c + 1) % 4], quad.nodes[(c + 3) % 4],
+        corners_.push_back({quad.nodes[c],
+                            quad.nodes[(c + 1) % 4],
+                            quad.nodes[(c + 3) % 4],
                             {f.z / determinant, -f.y / determinant, -e.z / determinant, e.y / determinant}});
         const int number = static_cast<int>(corners_.size()) - 1;
         for (int node : {corners_.back().at, corners_.back().next, corners_.back().previous})

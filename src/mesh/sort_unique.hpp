@@ -17,7 +17,9 @@ inline void sort_unique(std::vector<int>& numbers) {
 inline void sort_unique(std::vector<Face>& faces) {
   const auto place = [](const Face& face) { return std::make_tuple(face.element, face.side); };
   std::sort(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return place(a) < place(b); });
-  faces.erase(std::unique(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return place(a) == place(b); }), faces.end());
+  faces.erase(
+      std::unique(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return place(a) == place(b); }),
+      faces.end());
 }
 
 }  // namespace railwave

@@ -13,11 +13,13 @@ namespace {
 /// Of a triangle's area: what rounding may put a line beside it on whose edge it lies.
 constexpr double on_the_edge = 1e-9;
 
-/// Shares of the corners in the point of a triangle, seen from above, at (x, y); false: outside of it, or the triangle stands upright.
+/// Shares of the corners in the point of a triangle, seen from above, at (x, y); false: outside of it, or the triangle
+/// stands upright.
 bool shares_at(const Vec3& a, const Vec3& b, const Vec3& c, double x, double y, double (&share)[3]) {
   const auto doubled = [](double ux, double uy, double vx, double vy) { return ux * vy - uy * vx; };
   const double area = doubled(b[0] - a[0], b[1] - a[1], c[0] - a[0], c[1] - a[1]);
-  const double size = std::fmax(std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]), std::fabs(c[0] - a[0]) + std::fabs(c[1] - a[1]));
+  const double size =
+      std::fmax(std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]), std::fabs(c[0] - a[0]) + std::fabs(c[1] - a[1]));
   if (!(area > 1e-9 * size * size)) return false;
   share[0] = doubled(b[0] - x, b[1] - y, c[0] - x, c[1] - y) / area;
   share[1] = doubled(c[0] - x, c[1] - y, a[0] - x, a[1] - y) / area;
@@ -54,7 +56,10 @@ std::optional<SurfaceAbove::Point> SurfaceAbove::over(double x, double y) const 
       constexpr int opposite[6] = {1, 0, 4, 5, 2, 3};
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (int n : corner) low = std::fmin(low, mesh_.nodes[n][1]), high = std::fmax(high, mesh_.nodes[n][1]);
-      top = Point{z, length(difference(centre_of(mesh_, corner), centre_of(mesh_, mesh_.face_nodes({face.element, opposite[face.side]})))), high - low};
+      top = Point{z,
+                  length(difference(centre_of(mesh_, corner),
+                                    centre_of(mesh_, mesh_.face_nodes({face.element, opposite[face.side]})))),
+                  high - low};
     }
   }
   return top;
@@ -66,7 +71,8 @@ Vec3 SurfaceAbove::nearest(const Vec3& place) const {
   for (const Face& face : faces_) {
     const auto corner = mesh_.face_nodes(face);
     for (int second : {1, 2}) {
-      const Vec3 x = nearest_on_triangle(mesh_.nodes[corner[0]], mesh_.nodes[corner[second]], mesh_.nodes[corner[second + 1]], place);
+      const Vec3 x = nearest_on_triangle(mesh_.nodes[corner[0]], mesh_.nodes[corner[second]],
+                                         mesh_.nodes[corner[second + 1]], place);
       if (const double away = length(difference(x, place)); away < least) least = away, best = x;
     }
   }

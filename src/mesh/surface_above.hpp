@@ -20,7 +20,8 @@ class SurfaceAbove {
   /// The surface on the vertical line through (x, y); none: the line misses the mesh.
   std::optional<Point> over(double x, double y) const;
 
-  /// The place on the surface nearest to another place, m; where the nearest face is covered by others, the place above it.
+  /// The place on the surface nearest to another place, m; where the nearest face is covered by others, the place above
+  /// it.
   Vec3 nearest(const Vec3& place) const;
 
  private:

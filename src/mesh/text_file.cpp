@@ -55,7 +55,8 @@ std::string read_whole_file(const std::string& path) {
   if (error) throw InputError(fmt::format("{}: can't be read: {}", path, error.message()));
   // What is made of each byte while the mesh is put together takes several more.
   constexpr double bytes_of_byte = 6;
-  expect_memory(bytes_of_byte * static_cast<double>(size), fmt::format("{}: has {}; reading it needs", path, bytes_text(static_cast<double>(size))),
+  expect_memory(bytes_of_byte * static_cast<double>(size),
+                fmt::format("{}: has {}; reading it needs", path, bytes_text(static_cast<double>(size))),
                 "see whether this is the file you mean, or split or coarsen it");
   note_read(path);
   std::string bytes(size, '\0');

@@ -37,15 +37,17 @@ void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& w
                 fmt::format("web_inner_radius + 0.02 = {:g} m or more", w.web_inner_radius + 0.02));
   checks.expect(w.rim_inner_radius >= w.web_outer_radius, "rim_inner_radius", w.rim_inner_radius,
                 fmt::format("web_outer_radius = {:g} m or more", w.web_outer_radius));
-  checks.expect(w.radius >= w.rim_inner_radius + depth + 0.015, "radius", w.radius,
-                fmt::format("rim_inner_radius + the zone's layers + 0.015 = {:g} m or more", w.rim_inner_radius + depth + 0.015));
+  checks.expect(
+      w.radius >= w.rim_inner_radius + depth + 0.015, "radius", w.radius,
+      fmt::format("rim_inner_radius + the zone's layers + 0.015 = {:g} m or more", w.rim_inner_radius + depth + 0.015));
   checks.expect(w.web_inner_thickness > 0.003 && w.web_inner_thickness < w.hub_width, "web_inner_thickness",
                 w.web_inner_thickness, "0.003 m to hub_width");
   checks.expect(w.web_outer_thickness > 0.003 && w.web_outer_thickness <= 0.6 * w.rim_width, "web_outer_thickness",
                 w.web_outer_thickness, "0.003 m to 0.6 rim_width");
   checks.expect(w.rim_width >= 0.1 && w.rim_width <= 0.15, "rim_width", w.rim_width, "0.1 to 0.15 m");
-  checks.expect(std::abs(w.web_centre + 0.070 - w.rim_width / 2) <= 0.25 * w.rim_width, "web_centre", w.web_centre,
-                fmt::format("the rim's middle {:g} m, give or take {:g} m", w.rim_width / 2 - 0.070, 0.25 * w.rim_width));
+  checks.expect(
+      std::abs(w.web_centre + 0.070 - w.rim_width / 2) <= 0.25 * w.rim_width, "web_centre", w.web_centre,
+      fmt::format("the rim's middle {:g} m, give or take {:g} m", w.rim_width / 2 - 0.070, 0.25 * w.rim_width));
   checks.expect(w.hub_width > 0.01 && w.hub_width <= 0.4, "hub_width", w.hub_width, "0.01 to 0.4 m");
   checks.expect(w.zone_length >= w.zone_size && w.zone_length <= 2 * pi * w.radius, "zone_length", w.zone_length,
                 fmt::format("zone_size to the circumference, {:.4f} m", 2 * pi * w.radius));
@@ -55,17 +57,24 @@ void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& w
                 "zone_size to rim_width");
   if (w.path_start) {
     const double middle = w.zone_start + w.zone_length / 2;
-    checks.path(*w.path_start, *w.path_start + w.path_length, w.zone_start, w.zone_start + w.zone_length, middle - pi * w.radius,
-                middle + pi * w.radius, w.path_size, w.zone_size, w.coarse_size);
+    checks.path(*w.path_start, *w.path_start + w.path_length, w.zone_start, w.zone_start + w.zone_length,
+                middle - pi * w.radius, middle + pi * w.radius, w.path_size, w.zone_size, w.coarse_size);
   }
   checks.grading(w.zone_size, w.growth, w.coarse_size, w.core_size, w.section_size, w.zone_layers, w.web_columns);
   checks.report();
 }
 
 Stations wheel_stations(const scene::WheelMesh& w) {
-  const StationPlan around{w.zone_start, w.zone_start + w.zone_length, w.zone_size, w.growth, w.coarse_size, w.core_size,
-                           wheel_levels(w), w.path_start.value_or(w.zone_start),
-                           w.path_start ? *w.path_start + w.path_length : w.zone_start, w.path_size};
+  const StationPlan around{w.zone_start,
+                           w.zone_start + w.zone_length,
+                           w.zone_size,
+                           w.growth,
+                           w.coarse_size,
+                           w.core_size,
+                           wheel_levels(w),
+                           w.path_start.value_or(w.zone_start),
+                           w.path_start ? *w.path_start + w.path_length : w.zone_start,
+                           w.path_size};
   return periodic_stations(around, 2 * pi * w.radius);
 }
 

@@ -17,8 +17,8 @@ namespace railwave {
 
 namespace {
 
-constexpr double inner_side = s1002_first;    // lateral position of the rim's inner face
-constexpr double tread_from = -0.020;         // flange root: inside of it the layers' base runs level
+constexpr double inner_side = s1002_first;  // lateral position of the rim's inner face
+constexpr double tread_from = -0.020;       // flange root: inside of it the layers' base runs level
 constexpr int hub_rows = 4;
 
 bool has_flange(const scene::WheelMesh& wheel) { return wheel.profile == "S1002"; }
@@ -56,16 +56,19 @@ class WheelSectionBuilder {
     const int zone = zone_columns(wheel_.zone_width, size());
     const double first = low - zone * size() / 2, last = low + zone * size() / 2;
     if (first < -1e-9 || last > surface_.length + 1e-9)
-      throw std::invalid_argument(fmt::format(
-          "the contact band of zone_width = {:g} m about zone_centre = {:g} m does not lie on the running surface; allowed: "
-          "lateral positions {:.4f} to {:.4f} m",
-          wheel_.zone_width, wheel_.zone_centre, surface_.begin().y, surface_.end().y));
+      throw std::invalid_argument(
+          fmt::format("the contact band of zone_width = {:g} m about zone_centre = {:g} m does not lie on the running "
+                      "surface; allowed: "
+                      "lateral positions {:.4f} to {:.4f} m",
+                      wheel_.zone_width, wheel_.zone_centre, surface_.begin().y, surface_.end().y));
     columns_ = surface_columns(0, first, last, surface_.length, zone, size(), wheel_.growth, wheel_.section_size, 3);
-    merges_ = plan_merges(columns_, 1.6 * wheel_.section_size, 3.3 * wheel_.section_size, wheel_.web_columns + 2, 1 << 20);
+    merges_ =
+        plan_merges(columns_, 1.6 * wheel_.section_size, 3.3 * wheel_.section_size, wheel_.web_columns + 2, 1 << 20);
   }
 
   Point2 base_point(double y) const {
-    return {y, wheel_surface_radius(wheel_, std::clamp(y, tread_from, std::min(s1002_last, field_side(wheel_)))) - layer_depth()};
+    return {y, wheel_surface_radius(wheel_, std::clamp(y, tread_from, std::min(s1002_last, field_side(wheel_)))) -
+                   layer_depth()};
   }
 
   void add_layers() {
@@ -96,9 +99,8 @@ class WheelSectionBuilder {
     const double root_arc = arc_at(tread_from);
     for (std::size_t i = 1; i + 1 < columns_.boundaries.size(); ++i) {
       const double arc_length = columns_.boundaries[i];
-      const double y = arc_length < root_arc
-                           ? inner_side + (tread_from - inner_side) * arc_length / root_arc
-                           : surface_.at(arc_length).y;
+      const double y = arc_length < root_arc ? inner_side + (tread_from - inner_side) * arc_length / root_arc
+                                             : surface_.at(arc_length).y;
       base.push_back(section_.add_node(base_point(y)));
     }
     base.push_back(right.back());
@@ -164,8 +166,8 @@ class WheelSectionBuilder {
     for (const auto& groups : merges_) widths = merged_sizes(widths, groups);
     const int columns = static_cast<int>(widths.size()), web = wheel_.web_columns;
     if (columns < web + 2)
-      throw std::invalid_argument(fmt::format("web_columns = {} is too many for the rim's {} columns; allowed: up to {}", web,
-                                              columns, columns - 2));
+      throw std::invalid_argument(fmt::format(
+          "web_columns = {} is too many for the rim's {} columns; allowed: up to {}", web, columns, columns - 2));
     const int wing = wing_columns(widths, web);
     const double half = wheel_.web_outer_thickness / 2;
     const int web_left = section_.add_fixed_node({wheel_.web_centre - half, wheel_.web_outer_radius});
@@ -254,8 +256,8 @@ class WheelSectionBuilder {
     top.insert(top.end(), right.begin() + 1, right.end());
     const auto bore = on_line(bottom_corner[0], bottom_corner[1], 2 * wing + wheel_.web_columns);
     fill_block(section_, top, std::vector<Row>(hub_rows, Row{RowKind::plain, 1}), {},
-               on_line(top_corner[0], bottom_corner[0], hub_rows), on_line(top_corner[1], bottom_corner[1], hub_rows), bore,
-               level);
+               on_line(top_corner[0], bottom_corner[0], hub_rows), on_line(top_corner[1], bottom_corner[1], hub_rows),
+               bore, level);
     section_.node_sets["bore"] = bore;
   }
 

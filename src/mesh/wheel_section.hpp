@@ -5,10 +5,11 @@
 
 namespace railwave {
 
-/// Quads of a wheel's section; the section's z is the radius. Layers follow the running surface from the flange's back to
-/// the field side: zone layers, the first longitudinal transition, the merging of the band's columns, the rim; then web and
-/// hub. Edges tread (contact band and a margin of two columns) and running_surface; node set bore. Levels 0 to 1, or 2
-/// with the second transition in the web. Throws std::invalid_argument with a sentence when the band doesn't fit.
+/// Quads of a wheel's section; the section's z is the radius. Layers follow the running surface from the flange's back
+/// to the field side: zone layers, the first longitudinal transition, the merging of the band's columns, the rim; then
+/// web and hub. Edges tread (contact band and a margin of two columns) and running_surface; node set bore. Levels 0 to
+/// 1, or 2 with the second transition in the web. Throws std::invalid_argument with a sentence when the band doesn't
+/// fit.
 /// @param smoothed false: only its quads count, not where the nodes lie, which takes a fraction of the time
 SectionMesh wheel_section(const scene::WheelMesh& wheel, bool lower_transition, bool smoothed = true);
 

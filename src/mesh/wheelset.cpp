@@ -25,17 +25,24 @@ void check(const scene::MeshSource& source) {
   checks.expect(w.axle_size >= 0.005 && w.axle_size <= 0.5, "axle_size", w.axle_size, "0.005 to 0.5 m");
   const double first = tape_circle(w) + w.web_centre - 0.5 * w.hub_width, last = first + w.hub_width;
   checks.expect(first > 0.02, "flange_back_distance", w.flange_back_distance,
-                fmt::format("more than {:g} m: the hub ends before the axle's middle", w.flange_back_distance + 2 * (0.02 - first)));
+                fmt::format("more than {:g} m: the hub ends before the axle's middle",
+                            w.flange_back_distance + 2 * (0.02 - first)));
   const auto text = [](const std::array<double, 2>& p) { return fmt::format("[{:g}, {:g}]", p[0], p[1]); };
   for (std::size_t i = 0; i < w.axle.size(); ++i) {
     const auto& p = w.axle[i];
-    if (i == 0) checks.expect(p[0] == 0, "axle", text(p), "a first pair at y = 0");
-    else checks.expect(p[0] >= w.axle[i - 1][0] + 0.001, "axle", text(p), fmt::format("a y above that of the pair before, {:g} m", w.axle[i - 1][0]));
-    checks.expect(p[1] >= 0.02 && p[1] <= 2 * w.bore_radius, "axle", text(p), fmt::format("a radius from 0.02 m to 2 bore_radius = {:g} m", 2 * w.bore_radius));
-    checks.expect(p[0] < first - 0.001 || p[0] > last + 0.001, "axle", text(p),
-                  fmt::format("a y outside the hub, which goes from {:g} to {:g} m and has bore_radius inside", first, last));
+    if (i == 0)
+      checks.expect(p[0] == 0, "axle", text(p), "a first pair at y = 0");
+    else
+      checks.expect(p[0] >= w.axle[i - 1][0] + 0.001, "axle", text(p),
+                    fmt::format("a y above that of the pair before, {:g} m", w.axle[i - 1][0]));
+    checks.expect(p[1] >= 0.02 && p[1] <= 2 * w.bore_radius, "axle", text(p),
+                  fmt::format("a radius from 0.02 m to 2 bore_radius = {:g} m", 2 * w.bore_radius));
+    checks.expect(
+        p[0] < first - 0.001 || p[0] > last + 0.001, "axle", text(p),
+        fmt::format("a y outside the hub, which goes from {:g} to {:g} m and has bore_radius inside", first, last));
   }
-  checks.expect(w.axle.size() >= 2 && w.axle.back()[0] > last, "axle", w.axle.empty() ? std::string("[]") : text(w.axle.back()),
+  checks.expect(w.axle.size() >= 2 && w.axle.back()[0] > last, "axle",
+                w.axle.empty() ? std::string("[]") : text(w.axle.back()),
                 fmt::format("a last pair beyond the hub's end, y = {:g} m", last));
   checks.report();
 }
@@ -60,7 +67,8 @@ void add_stretch(std::vector<Layer>& layers, const Layer& to, double largest) {
 std::vector<Layer> layers_of(const scene::WheelsetMesh& w, const std::vector<double>& bore) {
   std::vector<Layer> layers{{w.axle[0][0], w.axle[0][1]}};
   std::size_t i = 1;
-  for (; i < w.axle.size() && w.axle[i][0] < bore.front(); ++i) add_stretch(layers, {w.axle[i][0], w.axle[i][1]}, w.axle_size);
+  for (; i < w.axle.size() && w.axle[i][0] < bore.front(); ++i)
+    add_stretch(layers, {w.axle[i][0], w.axle[i][1]}, w.axle_size);
   add_stretch(layers, {bore.front(), w.bore_radius, 0}, w.axle_size);
   for (std::size_t k = 1; k < bore.size(); ++k) layers.push_back({bore[k], w.bore_radius, static_cast<int>(k)});
   for (; i < w.axle.size(); ++i) add_stretch(layers, {w.axle[i][0], w.axle[i][1]}, w.axle_size);
@@ -81,7 +89,8 @@ std::vector<std::vector<int>> bore_nodes(const WheelBody& body) {
 }
 
 void add_axle(const scene::WheelsetMesh& w, const WheelBody& body, Mesh& mesh) {
-  // Angles of the wheel rise from the lowest point towards +x; in the plane of x and z that is counter-clockwise from -90 degrees.
+  // Angles of the wheel rise from the lowest point towards +x; in the plane of x and z that is counter-clockwise from
+  // -90 degrees.
   constexpr double quarter = 1.57079632679489661923;
   std::vector<double> angles = body.bore_angles;
   for (double& angle : angles) angle -= quarter;
@@ -180,9 +189,11 @@ scene::WheelMesh with_even_bore(const scene::MeshSource& source) {
       const std::size_t round = wheel_stations(wheel).levels.back().size();
       if (round % 2 == 0 && round >= 8) return wheel;
     }
-  throw InputError(fmt::format("{}coarse_size = {:g}; allowed: one that makes at least 8 cells, and an even number, round the bore; try another, or "
-                               "another zone_length",
-                               place_of(source), source.wheelset.coarse_size));
+  throw InputError(
+      fmt::format("{}coarse_size = {:g}; allowed: one that makes at least 8 cells, and an even number, round the bore; "
+                  "try another, or "
+                  "another zone_length",
+                  place_of(source), source.wheelset.coarse_size));
 }
 
 }  // namespace
@@ -191,7 +202,8 @@ double wheelset_elements(const scene::MeshSource& source) {
   const scene::WheelsetMesh& w = source.wheelset;
   const double wheel = wheel_elements(source, w);
   check(source);
-  // As many cells in a disc of the axle as ring_disc() lays on so many round the bore: rings to a core of a quarter of them squared.
+  // As many cells in a disc of the axle as ring_disc() lays on so many round the bore: rings to a core of a quarter of
+  // them squared.
   const double round = static_cast<double>(wheel_stations(w).levels.back().size());
   const double disc = round * std::max(2.0, 0.12 * round) + round * round / 16;
   const double layers = w.axle.back()[0] / w.axle_size + static_cast<double>(w.axle.size()) + w.web_columns + 2;

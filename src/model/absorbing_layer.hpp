@@ -9,16 +9,18 @@ namespace railwave {
 
 /// Where a scene's absorbing layers lie, and the rate alpha (1/s) by which they damp each node, a force - alpha m v:
 ///   alpha(d) = alpha_end (1 - d/L)^3,  d the distance from the end's plane, up to the layer's length L.
-/// Mass-proportional damping takes from waves of all kinds alpha/2 of their amplitude in a second, wherever they go at their group velocity c. There and back a
-/// layer leaves exp(-alpha_end L / (4 c)), so that alpha_end = 4 C_d ln(1/reflection) / L leaves `reflection` of the fastest waves, and less of slower ones.
-/// What the growth of alpha itself sends back depends on the layer's length over the wavelength (docs/verification.md).
-/// Throws InputError for an end that is no plane, a layer that holds no nodes but the end's own, and a part that layers fill.
+/// Mass-proportional damping takes from waves of all kinds alpha/2 of their amplitude in a second, wherever they go at
+/// their group velocity c. There and back a layer leaves exp(-alpha_end L / (4 c)), so that alpha_end = 4 C_d
+/// ln(1/reflection) / L leaves `reflection` of the fastest waves, and less of slower ones. What the growth of alpha
+/// itself sends back depends on the layer's length over the wavelength (docs/verification.md). Throws InputError for an
+/// end that is no plane, a layer that holds no nodes but the end's own, and a part that layers fill.
 AbsorbingLayers absorbing_layers(const scene::Scene& scene, const Assembly& assembly);
 
 /// A line for each layer: nodes, damping at the end, and the waves that it takes.
 std::vector<std::string> describe_absorbing_layers(const Model& model);
 
-/// A line for each non-reflecting end of a slender part without an absorbing layer: it takes plane waves, and sends a bar's back in part.
+/// A line for each non-reflecting end of a slender part without an absorbing layer: it takes plane waves, and sends a
+/// bar's back in part.
 std::vector<std::string> describe_slender_ends(const Model& model);
 
 /// Layers of few elements, and on bodies that travel.

@@ -60,12 +60,15 @@ Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
 Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std::string>& notes) {
   const auto source = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                    [&](const auto& candidate) { return candidate.name == part.mesh; });
-  const Activity making(fmt::format("{} the mesh of part {}, about {} elements", source->type == scene::MeshType::file ? "reading" : "making", part.name,
+  const Activity making(fmt::format("{} the mesh of part {}, about {} elements",
+                                    source->type == scene::MeshType::file ? "reading" : "making", part.name,
                                     rounded_count(expected_elements(*source))));
   std::vector<std::string> own;
   Mesh mesh = build_mesh(*source, &own);
   for (const scene::Seam& seam : scene.seams)
-    if (seam.mesh == part.mesh) own.push_back(describe(seam, open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh)));
+    if (seam.mesh == part.mesh)
+      own.push_back(
+          describe(seam, open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh)));
   for (std::string& note : own)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   if (part.element_set.empty()) return mesh;
@@ -131,14 +134,16 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
     for (const Face& face : master) {
       const auto corner = assembly.face_nodes(face);
       for (int second : {1, 2})
-        nearest = std::min(nearest, distance_to_triangle(assembly.nodes[n], direction, assembly.nodes[corner[0]],
-                                                         assembly.nodes[corner[second]], assembly.nodes[corner[second + 1]]));
+        nearest =
+            std::min(nearest, distance_to_triangle(assembly.nodes[n], direction, assembly.nodes[corner[0]],
+                                                   assembly.nodes[corner[second]], assembly.nodes[corner[second + 1]]));
     }
   if (!std::isfinite(nearest))
-    throw InputError(fmt::format("{}:{}: [contacts.{}] close_gap: moved along [{}, {}, {}], no node of '{}' ever meets '{}'; "
-                                 "turn the direction, or place the part so that the surfaces face each other",
-                                 scene.path, contact.line, contact.name, direction[0], direction[1], direction[2],
-                                 contact.slave, contact.master.text()));
+    throw InputError(
+        fmt::format("{}:{}: [contacts.{}] close_gap: moved along [{}, {}, {}], no node of '{}' ever meets '{}'; "
+                    "turn the direction, or place the part so that the surfaces face each other",
+                    scene.path, contact.line, contact.name, direction[0], direction[1], direction[2], contact.slave,
+                    contact.master.text()));
   const std::string part = contact.slave.substr(0, contact.slave.find('.'));
   for (int n : assembly.node_sets.at(part))
     for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
@@ -210,9 +215,11 @@ std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assemb
     for (const Face& face : find_surface(scene, assembly, contact, "master", name)) {
       const auto [known, first] = owner.try_emplace({face.element, face.side}, &name);
       if (!first && known->second != &name)
-        throw InputError(fmt::format("{}:{}: [contacts.{}] master: '{}' and '{}' have faces in common, which would press twice; leave one of the two out, or name surfaces "
-                                     "without common faces",
-                                     scene.path, contact.line, contact.name, *known->second, name));
+        throw InputError(
+            fmt::format("{}:{}: [contacts.{}] master: '{}' and '{}' have faces in common, which would press twice; "
+                        "leave one of the two out, or name surfaces "
+                        "without common faces",
+                        scene.path, contact.line, contact.name, *known->second, name));
       faces.push_back(face);
     }
   return faces;
@@ -220,13 +227,16 @@ std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assemb
 
 int part_of_element(const Assembly& assembly, int element) {
   for (std::size_t p = 0; p < assembly.parts.size(); ++p)
-    if (const int within = element - assembly.parts[p].first_element; within >= 0 && within < assembly.parts[p].element_count) return static_cast<int>(p);
+    if (const int within = element - assembly.parts[p].first_element;
+        within >= 0 && within < assembly.parts[p].element_count)
+      return static_cast<int>(p);
   return -1;
 }
 
 int part_of_node(const Assembly& assembly, int node) {
   for (std::size_t p = 0; p < assembly.parts.size(); ++p)
-    if (const int within = node - assembly.parts[p].first_node; within >= 0 && within < assembly.parts[p].node_count) return static_cast<int>(p);
+    if (const int within = node - assembly.parts[p].first_node; within >= 0 && within < assembly.parts[p].node_count)
+      return static_cast<int>(p);
   return -1;
 }
 
@@ -255,9 +265,10 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
       for (int i = 0; i < 3; ++i) node[i] += part.position[i];
     const std::size_t nodes = assembly.nodes.size() + mesh.nodes.size();
     if (nodes > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-      throw InputError(fmt::format("{}:{}: [parts.{}] is the part with which the scene has {} nodes, more than {} can be numbered; "
-                                   "make the elements larger",
-                                   scene.path, part.line, part.name, nodes, std::numeric_limits<int>::max()));
+      throw InputError(
+          fmt::format("{}:{}: [parts.{}] is the part with which the scene has {} nodes, more than {} can be numbered; "
+                      "make the elements larger",
+                      scene.path, part.line, part.name, nodes, std::numeric_limits<int>::max()));
     Assembly::PartRange range;
     range.name = part.name;
     range.origin = part.position;
@@ -265,10 +276,10 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
     range.node_count = static_cast<int>(mesh.nodes.size());
     range.first_element = static_cast<int>(assembly.elements.size());
     range.element_count = static_cast<int>(mesh.elements.size());
-    range.material = static_cast<int>(
-        std::find_if(scene.materials.begin(), scene.materials.end(),
-                     [&](const auto& material) { return material.name == part.material; }) -
-        scene.materials.begin());
+    range.material =
+        static_cast<int>(std::find_if(scene.materials.begin(), scene.materials.end(),
+                                      [&](const auto& material) { return material.name == part.material; }) -
+                         scene.materials.begin());
     assembly.parts.push_back(range);
     append(assembly, mesh, part.name);
   }

@@ -11,29 +11,29 @@
 namespace railwave {
 
 /// All parts of a scene put together on the host: one numbering of nodes and elements, sets under the names that a case
-/// file uses (`part.set`; a part's own name means all of it). Point masses are nodes after those of the meshes, then come the
-/// nodes inside beams.
+/// file uses (`part.set`; a part's own name means all of it). Point masses are nodes after those of the meshes, then
+/// come the nodes inside beams.
 struct Assembly {
   struct PartRange {
     std::string name;
     int first_node = 0, node_count = 0;
     int first_element = 0, element_count = 0;
-    int material = 0;  ///< position in scene.materials
+    int material = 0;      ///< position in scene.materials
     Vec3 origin{0, 0, 0};  ///< m, where the mesh's origin lies, after close_gap: a point of a round part's axis
   };
 
   /// A beam's nodes, from end to end.
   struct BeamChain {
-    int beam = 0;      ///< position in scene.beams
+    int beam = 0;  ///< position in scene.beams
     std::vector<int> nodes;
   };
 
-  std::vector<Vec3> nodes;                       ///< as placed, undeformed, m
+  std::vector<Vec3> nodes;  ///< as placed, undeformed, m
   std::vector<std::array<int, 8>> elements;
   std::vector<PartRange> parts;
-  std::vector<int> point_nodes;                  ///< node of each of scene.points
+  std::vector<int> point_nodes;  ///< node of each of scene.points
   std::vector<BeamChain> beam_chains;
-  std::vector<std::array<int, 2>> beam_nodes;    ///< by scene.beams: first, and how many, of the nodes inside its chains
+  std::vector<std::array<int, 2>> beam_nodes;  ///< by scene.beams: first, and how many, of the nodes inside its chains
   std::map<std::string, std::vector<int>> node_sets;
   std::map<std::string, std::vector<int>> element_sets;
   std::map<std::string, std::vector<Face>> surfaces;
@@ -49,18 +49,19 @@ struct Assembly {
 /// `close_gap` contacts that never meet.
 Assembly assemble(const scene::Scene& scene);
 
-/// The nodes of `part`, `part.node_set`, `part.surface` or a point mass. Throws InputError naming the entry and key of the
-/// case file, its line, and the nearest valid name.
+/// The nodes of `part`, `part.node_set`, `part.surface` or a point mass. Throws InputError naming the entry and key of
+/// the case file, its line, and the nearest valid name.
 const std::vector<int>& find_node_set(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
                                       const std::string& key, const std::string& name);
 const std::vector<Face>& find_surface(const scene::Scene& scene, const Assembly& assembly, const scene::Place& entry,
                                       const std::string& key, const std::string& name);
 
-/// Faces of all of a contact's masters, in the order in which they are named. Throws InputError where one does not exist, and where two have a
-/// face in common, which would press twice.
+/// Faces of all of a contact's masters, in the order in which they are named. Throws InputError where one does not
+/// exist, and where two have a face in common, which would press twice.
 std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assembly, const scene::Contact& contact);
 
-/// A vector turned by a part's angle of attack; by that of the part that a name `part` or `part.set` names, if it names one.
+/// A vector turned by a part's angle of attack; by that of the part that a name `part` or `part.set` names, if it names
+/// one.
 Vec3 turned_with(const scene::Part& part, const Vec3& v);
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v);
 

@@ -23,7 +23,8 @@ BeamSectionValues section_values(const scene::Beam& beam, const scene::Material&
   values.shear = 10 * (1 + nu) / (12 + 11 * nu);
   // Roark's formula of the rectangle: within 4 parts in a thousand of Saint-Venant's series.
   const double longer = std::max(b, h), ratio = std::min(b, h) / longer;
-  values.torsion = std::pow(longer, 4) * ratio * ratio * ratio * (1.0 / 3 - 0.21 * ratio * (1 - std::pow(ratio, 4) / 12));
+  values.torsion =
+      std::pow(longer, 4) * ratio * ratio * ratio * (1.0 / 3 - 0.21 * ratio * (1 - std::pow(ratio, 4) / 12));
   return values;
 }
 

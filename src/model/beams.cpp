@@ -75,7 +75,9 @@ void add_chain(Model& model, BeamStage& stage, Lists& lists, const Assembly::Bea
     const double pretension = beam.pretension.value_or(0);
     lists.pretension.push_back(pretension);
     // One alone holds it while the scene settles: what lies between two such would be free to move along the bolt.
-    lists.tightened.push_back(!beam.pretension ? 0 : k == beam.divisions / 2 ? BeamArrays::holding : BeamArrays::beginning);
+    lists.tightened.push_back(!beam.pretension          ? 0
+                              : k == beam.divisions / 2 ? BeamArrays::holding
+                                                        : BeamArrays::beginning);
   }
 }
 
@@ -109,9 +111,10 @@ void hold_rotations(const Model& model) {
         if (constraint.fixed_rotation[a]) add_direction(held[b], constraint.axes[a]);
     }
     if (!any)
-      throw InputError(fmt::format("{}:{}: [constraints.{}] fixed_rotation: no beam ends at '{}', and only there nodes have rotations; "
-                                   "leave it out, or hold displacements of more nodes",
-                                   model.scene.path, constraint.line, constraint.name, constraint.target));
+      throw InputError(fmt::format(
+          "{}:{}: [constraints.{}] fixed_rotation: no beam ends at '{}', and only there nodes have rotations; "
+          "leave it out, or hold displacements of more nodes",
+          model.scene.path, constraint.line, constraint.name, constraint.target));
   }
   if (!model.beams) return;
   BeamArrays& arrays = model.beams->arrays;
@@ -124,8 +127,9 @@ void refuse_points_without_mass(const Model& model) {
   for (std::size_t i = 0; i < model.scene.points.size(); ++i) {
     const scene::PointMass& point = model.scene.points[i];
     if (!(model.mass[model.assembly.point_nodes[i]] > 0))
-      throw InputError(fmt::format("{}:{}: [points.{}] mass: is 0, and no beam ends there to give it one; give it a mass",
-                                   model.scene.path, point.line, point.name));
+      throw InputError(
+          fmt::format("{}:{}: [points.{}] mass: is 0, and no beam ends there to give it one; give it a mass",
+                      model.scene.path, point.line, point.name));
   }
 }
 
@@ -190,8 +194,8 @@ void add_moments(Model& model) {
     axis.push_back({a[0] / size, a[1] / size, a[2] / size});
   }
   if (loaded.size() > BeamArrays::most_moments)
-    throw InputError(fmt::format("{}: [loads] {} torques on points are too many; a scene can have {}", model.scene.path, loaded.size(),
-                                 BeamArrays::most_moments));
+    throw InputError(fmt::format("{}: [loads] {} torques on points are too many; a scene can have {}", model.scene.path,
+                                 loaded.size(), BeamArrays::most_moments));
   BeamArrays& arrays = stage.arrays;
   arrays.moment_count = static_cast<int>(loaded.size());
   arrays.loaded = to_device("beam node of moment", loaded);
@@ -223,16 +227,20 @@ void tighten_beams(const Model& model, bool all) {
 std::size_t beam_bytes(const Model& model) {
   if (!model.beams) return 0;
   const BeamArrays& b = model.beams->arrays;
-  const auto bytes = [](const auto&... views) { return (std::size_t{0} + ... + (views.span() * sizeof(*views.data()))); };
-  return bytes(b.end, b.axes, b.length, b.stiffness, b.bending, b.stretch, b.pretension, b.tightened, b.node, b.rotation, b.spin, b.inertia,
-               b.constraint, b.projections, b.first_moment, b.moment_of_node, b.moment, b.loaded, b.moment_axis, b.work,
-               model.beams->relaxation_inertia, model.beams->arm);
+  const auto bytes = [](const auto&... views) {
+    return (std::size_t{0} + ... + (views.span() * sizeof(*views.data())));
+  };
+  return bytes(b.end, b.axes, b.length, b.stiffness, b.bending, b.stretch, b.pretension, b.tightened, b.node,
+               b.rotation, b.spin, b.inertia, b.constraint, b.projections, b.first_moment, b.moment_of_node, b.moment,
+               b.loaded, b.moment_axis, b.work, model.beams->relaxation_inertia, model.beams->arm);
 }
 
 std::string describe_beam_inertia(const Model& model) {
   if (!model.beams || model.beams->scaled == 0) return {};
-  return fmt::format("rotary inertia of {} of {} beam elements is up to {:.3g} times their section's, so that it does not shorten the step",
-                     model.beams->scaled, model.beams->arrays.count, model.beams->inertia_scale);
+  return fmt::format(
+      "rotary inertia of {} of {} beam elements is up to {:.3g} times their section's, so that it does not shorten the "
+      "step",
+      model.beams->scaled, model.beams->arrays.count, model.beams->inertia_scale);
 }
 
 }  // namespace railwave

@@ -8,21 +8,22 @@ namespace railwave {
 /// The beams of a scene on the device, and what the host must know of them.
 struct BeamStage {
   BeamArrays arrays;
-  Array<double*> relaxation_inertia;   ///< kg m2 by beam node, see BeamRelaxation
-  Array<double*> arm;                  ///< m by beam node: the mean length of elements there
-  std::vector<double> relaxation_mass; ///< kg by node of the model, of the beams alone; a unit of pseudo-time is stable
-  std::vector<int> number;             ///< beam node by node of the model, -1: no beam ends there
-  std::vector<int> first_of_beam;      ///< by scene.beams and one more: first element
+  Array<double*> relaxation_inertia;  ///< kg m2 by beam node, see BeamRelaxation
+  Array<double*> arm;                 ///< m by beam node: the mean length of elements there
+  std::vector<double>
+      relaxation_mass;             ///< kg by node of the model, of the beams alone; a unit of pseudo-time is stable
+  std::vector<int> number;         ///< beam node by node of the model, -1: no beam ends there
+  std::vector<int> first_of_beam;  ///< by scene.beams and one more: first element
   std::vector<const LoadArrays*> moments;  ///< from outside, in the arrays' order
-  double step = 0;                     ///< s, the smallest element's own
-  double inertia_scale = 1;            ///< largest factor on a section's rotary inertia
-  int scaled = 0;                      ///< elements with such a factor above 1.001
+  double step = 0;                         ///< s, the smallest element's own
+  double inertia_scale = 1;                ///< largest factor on a section's rotary inertia
+  int scaled = 0;                          ///< elements with such a factor above 1.001
 
   int elements_of(int beam) const { return first_of_beam[beam + 1] - first_of_beam[beam]; }
 };
 
-/// Puts the chains of the scene's beams into the assembly, with nodes of their own inside. Throws InputError for ends that
-/// coincide, an orientation along the beam, more beams than a set has nodes.
+/// Puts the chains of the scene's beams into the assembly, with nodes of their own inside. Throws InputError for ends
+/// that coincide, an orientation along the beam, more beams than a set has nodes.
 void lay_beams(const scene::Scene& scene, Assembly& assembly);
 
 /// Unit vectors along a beam, across, and along its section's height.

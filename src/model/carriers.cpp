@@ -95,7 +95,8 @@ Array<float*> local_places(const Model& model, const ElementGroup& group) {
     for (int l = 0; l < patches.node_stride; ++l) {
       const int n = number(static_cast<std::size_t>(p) * patches.node_stride + l) & ~advance_bit;
       for (int i = 0; i < 3; ++i)
-        local[(3 * static_cast<std::size_t>(p) + i) * patches.node_stride + l] = static_cast<float>(model.assembly.nodes[n][i] - point[i]);
+        local[(3 * static_cast<std::size_t>(p) + i) * patches.node_stride + l] =
+            static_cast<float>(model.assembly.nodes[n][i] - point[i]);
     }
   }
   return to_device("local places", local);
@@ -135,9 +136,10 @@ void take_nodes_over(Model& model) {
   Kokkos::deep_copy(carried.motion, motion);
   set_arms(model);
   for (std::size_t c = 0; c < carried.range.size(); ++c)
-    Kokkos::parallel_for("take_nodes", Range(0, carried.range[c].count),
-                         TakeNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], 0, 2 * model.velocity_lag),
-                                   carried.range[c].first});
+    Kokkos::parallel_for(
+        "take_nodes", Range(0, carried.range[c].count),
+        TakeNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], 0, 2 * model.velocity_lag),
+                  carried.range[c].first});
   carried.begun = true;
   carried.block_step = model.step;
   carried.block_time = carried.block_size = 0;
@@ -150,17 +152,19 @@ void lay_carrier_steps(Model& model, double step) {
   carried.block_step = model.step;
   carried.block_size = step;
   const int carriers = static_cast<int>(carried.range.size());
-  Kokkos::parallel_for("carrier_steps", Range(0, steps_of_block * carriers),
-                       LayCarrierSteps{carried.motion, carried.steps, carriers, carried.block_time, 2 * model.velocity_lag, step});
+  Kokkos::parallel_for(
+      "carrier_steps", Range(0, steps_of_block * carriers),
+      LayCarrierSteps{carried.motion, carried.steps, carriers, carried.block_time, 2 * model.velocity_lag, step});
 }
 
 void give_nodes_back(const Model& model) {
   const CarriedNodes& carried = model.carried;
   const double time = carried.time_of(model.step);
   for (std::size_t c = 0; c < carried.range.size(); ++c)
-    Kokkos::parallel_for("give_nodes", Range(0, carried.range[c].count),
-                         GiveNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], time, 2 * model.velocity_lag),
-                                   carried.range[c].first});
+    Kokkos::parallel_for(
+        "give_nodes", Range(0, carried.range[c].count),
+        GiveNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], time, 2 * model.velocity_lag),
+                  carried.range[c].first});
 }
 
 CarriedAdvance carried_advance(const Model& model, const CarriedPatches& patches, double step) {

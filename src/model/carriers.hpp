@@ -8,7 +8,8 @@ namespace railwave {
 /// Takes the nodes over as they stand in double precision. Whoever writes to those later calls this again.
 void take_nodes_over(Model& model);
 
-/// Has the carriers' values at hand on the device for the step from the present instant to the next, of size `step` (s).
+/// Has the carriers' values at hand on the device for the step from the present instant to the next, of size `step`
+/// (s).
 void lay_carrier_steps(Model& model, double step);
 
 /// Brings the nodes in double precision to the present instant.

@@ -16,8 +16,8 @@ namespace {
 constexpr int samples = 4;
 
 /// Nodes of a set by their mass.
-WeightedNodes by_mass(const scene::Scene& scene, const Assembly& assembly, const scene::Connector& connector, const char* key,
-                      const std::string& name, const std::vector<double>& mass) {
+WeightedNodes by_mass(const scene::Scene& scene, const Assembly& assembly, const scene::Connector& connector,
+                      const char* key, const std::string& name, const std::vector<double>& mass) {
   WeightedNodes end;
   if (name == "ground") return end;
   end.set = name;
@@ -75,10 +75,12 @@ class Spreader {
     if (name == "ground") return std::nullopt;
     find_node_set(scene_, assembly_, connector_, key, name);
     if (assembly_.surfaces.find(name) == assembly_.surfaces.end())
-      refuse(fmt::format("{}: '{}' is a set of nodes without faces; a connector with spread needs a surface there", key, name));
+      refuse(fmt::format("{}: '{}' is a set of nodes without faces; a connector with spread needs a surface there", key,
+                         name));
     const scene::Box* box = connector_.area ? &*connector_.area : nullptr;
     ProjectedSurface seen(assembly_, assembly_.surfaces.at(name), connector_.axes, box);
-    if (seen.empty()) refuse(fmt::format("area: has no face of '{}' in it along the third of the axes; make it higher", name));
+    if (seen.empty())
+      refuse(fmt::format("area: has no face of '{}' in it along the third of the axes; make it higher", name));
     return seen;
   }
 
@@ -102,8 +104,8 @@ class Spreader {
       high_[i] = std::min(high_[i], most);
     }
     if (!(high_[0] > low_[0]) || !(high_[1] > low_[1]))
-      refuse(fmt::format("spread: '{}' and '{}' do not face each other along the third of the axes{}", connector_.from, connector_.to,
-                         connector_.area ? ", or not within the area" : ""));
+      refuse(fmt::format("spread: '{}' and '{}' do not face each other along the third of the axes{}", connector_.from,
+                         connector_.to, connector_.area ? ", or not within the area" : ""));
   }
 
   /// Means over the cell of both surfaces' motion, at the same places of both.
@@ -120,8 +122,10 @@ class Spreader {
       to.insert(to.end(), there.begin(), there.end());
     }
     if (from.empty() && to.empty())
-      refuse(fmt::format("spread: cell {}, {} of {} x {} has no faces of both ends in it; use fewer cells, or an area that the surfaces fill",
-                         at[0] + 1, at[1] + 1, connector_.spread[0], connector_.spread[1]));
+      refuse(
+          fmt::format("spread: cell {}, {} of {} x {} has no faces of both ends in it; use fewer cells, or an area "
+                      "that the surfaces fill",
+                      at[0] + 1, at[1] + 1, connector_.spread[0], connector_.spread[1]));
     if (from_) cell.from = gathered(std::move(from));
     if (to_) cell.to = gathered(std::move(to));
   }
@@ -135,7 +139,8 @@ class Spreader {
 
 }  // namespace
 
-std::vector<ConnectorCell> connector_cells(const scene::Scene& scene, const Assembly& assembly, const std::vector<double>& mass) {
+std::vector<ConnectorCell> connector_cells(const scene::Scene& scene, const Assembly& assembly,
+                                           const std::vector<double>& mass) {
   std::vector<ConnectorCell> cells;
   for (std::size_t c = 0; c < scene.connectors.size(); ++c) {
     const scene::Connector& connector = scene.connectors[c];

@@ -29,8 +29,9 @@ std::vector<std::array<double, 5>> growth_points(std::vector<std::array<double, 
 
 ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves) {
   ContactLawArrays law;
-  law.active = contact.falling_friction() || !contact.penalty_growth.empty() || contact.damping > 0 ||
-               (contact.normals != scene::ContactNormals::facet && contact.algorithm == scene::ContactAlgorithm::penalty);
+  law.active =
+      contact.falling_friction() || !contact.penalty_growth.empty() || contact.damping > 0 ||
+      (contact.normals != scene::ContactNormals::facet && contact.algorithm == scene::ContactAlgorithm::penalty);
   if (!law.active) return law;
   law.growth.points = to_device("penalty growth", growth_points(contact.penalty_growth));
   law.damping = contact.damping;

@@ -13,7 +13,8 @@ ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves);
 /// Nothing dissipated yet; the static coefficient everywhere.
 void reset_contact_law(const ContactLawArrays& law, double static_friction);
 
-/// The largest tangent stiffness of a pair's springs over that of its segments, in any direction and at any penetration.
+/// The largest tangent stiffness of a pair's springs over that of its segments, in any direction and at any
+/// penetration.
 double largest_growth(const scene::Contact& contact);
 
 /// A contact by its name; with those of its masters where there are several.

@@ -67,7 +67,9 @@ double widest_mouth(const Model& model, const scene::Contact& contact, const std
   for (const Face& face : slave) {
     const auto corner = model.assembly.face_nodes(face);
     double longest = 0;
-    for (int k = 0; k < 4; ++k) longest = std::max(longest, length(difference(model.assembly.nodes[corner[k]], model.assembly.nodes[corner[(k + 1) % 4]])));
+    for (int k = 0; k < 4; ++k)
+      longest = std::max(
+          longest, length(difference(model.assembly.nodes[corner[k]], model.assembly.nodes[corner[(k + 1) % 4]])));
     smallest = std::min(smallest, longest);
   }
   return std::max(smallest, std::min(scene::usual_bridged_gap, 4 * smallest));
@@ -91,10 +93,11 @@ std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contac
     if (dot(a, b) > facing * std::sqrt(dot(a, a) * dot(b, b))) ++no_seam;
   }
   if (no_seam > 0 || shared == slave_nodes.size())
-    throw InputError(fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
-                                 "choose surfaces without common nodes (but for the ends of a seam, whose two sides face each "
-                                 "other and have nodes of their own)",
-                                 model.scene.path, contact.line, contact.name, contact.slave, contact.master.text(), shared));
+    throw InputError(
+        fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
+                    "choose surfaces without common nodes (but for the ends of a seam, whose two sides face each "
+                    "other and have nodes of their own)",
+                    model.scene.path, contact.line, contact.name, contact.slave, contact.master.text(), shared));
   return on_both;
 }
 
@@ -112,7 +115,8 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   pair.slave_facets = local_facets(assembly, slave, pair.slave_nodes);
   pair.master_segments = local_facets(assembly, master, pair.master_nodes);
   for (const Face& face : master) {
-    pair.segment_stiffness.push_back(penalty_stiffness(model, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
+    pair.segment_stiffness.push_back(
+        penalty_stiffness(model, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
     const auto corner = assembly.face_nodes(face);
     for (int k : {0, 1}) {
       const Vec3 &a = assembly.nodes[corner[k]], &b = assembly.nodes[corner[k + 2]];
@@ -148,7 +152,9 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(model, contact, slave));
   for (MouthCorner& corner : linked.mouth_corners)
     for (int p = 0; p < MouthCorner::pieces; ++p)
-      corner.master[p] = static_cast<int>(std::lower_bound(pair.master_nodes.begin(), pair.master_nodes.end(), corner.node[p]) - pair.master_nodes.begin());
+      corner.master[p] =
+          static_cast<int>(std::lower_bound(pair.master_nodes.begin(), pair.master_nodes.end(), corner.node[p]) -
+                           pair.master_nodes.begin());
   arrays.surface = to_device("surface", linked.segments);
   arrays.mouth_corners = to_device("mouth corners", linked.mouth_corners);
   arrays.boxes = make_boxes(assembly.nodes, corners);
@@ -162,7 +168,8 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
   if (contact.algorithm == scene::ContactAlgorithm::multiplier)
     pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
-                        Array<std::uint64_t*>("crowd", masters), Array<double* [3]>("way since stuck", arrays.slave_count),
+                        Array<std::uint64_t*>("crowd", masters),
+                        Array<double* [3]>("way since stuck", arrays.slave_count),
                         linked.mouth_corners.empty() ? nodes_of_multiplier : most_nodes_of_multiplier,
                         Array<double*>("impact energy", arrays.slave_count)};
   pair.law = make_contact_law(contact, arrays.slave_count);
@@ -184,7 +191,8 @@ void build_contacts(Model& model) {
   for (ContactPair& pair : model.contacts) {
     pair.own_master = !common(pair.master_nodes, pair.slave_nodes);
     for (const ContactPair& other : model.contacts)
-      if (&other != &pair && (common(pair.master_nodes, other.slave_nodes) || common(pair.master_nodes, other.master_nodes)))
+      if (&other != &pair &&
+          (common(pair.master_nodes, other.slave_nodes) || common(pair.master_nodes, other.master_nodes)))
         pair.own_master = false;
   }
 }

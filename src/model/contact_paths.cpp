@@ -16,10 +16,10 @@
 namespace railwave {
 namespace {
 
-constexpr double elements_ahead = 3;     ///< of a patch's middle
-constexpr double least_way = 0.25;       ///< of a facet's side: less is no way
+constexpr double elements_ahead = 3;  ///< of a patch's middle
+constexpr double least_way = 0.25;    ///< of a facet's side: less is no way
 constexpr int most_steps = 20000;
-constexpr double near_share = 1e-3;      ///< of the radius: as near as the nearest place of a round part
+constexpr double near_share = 1e-3;  ///< of the radius: as near as the nearest place of a round part
 
 Vec3 turned(const Vec3& x, const Vec3& axis, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -35,13 +35,16 @@ class BodyWay {
     for (int i = 0; i < 3; ++i) {
       Vec3 unit{0, 0, 0};
       unit[i] = 1;
-      spin_ = sum(spin_, scaled(0.5, cross(unit, difference(initial_velocity(model, part, sum(place, unit)), velocity_))));
+      spin_ =
+          sum(spin_, scaled(0.5, cross(unit, difference(initial_velocity(model, part, sum(place, unit)), velocity_))));
     }
     for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
       if (part_of_name(motion.target) == part) prescribed_ = &motion;
     if (prescribed_ == nullptr) return;
     const auto& nodes = find_node_set(model.scene, model.assembly, *prescribed_, "target", prescribed_->target);
-    const Vec3 own = prescribed_->centre ? *prescribed_->centre : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+    const Vec3 own = prescribed_->centre
+                         ? *prescribed_->centre
+                         : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
     prescribed_velocity_ = sum(prescribed_->velocity, cross(prescribed_->angular_velocity, difference(place, own)));
     if (length(prescribed_->angular_velocity) > 0) {
       spin_ = prescribed_->angular_velocity;
@@ -53,17 +56,23 @@ class BodyWay {
   Vec3 travel(double time) const {
     Vec3 way = scaled(time, velocity_);
     if (prescribed_ == nullptr) return way;
-    const Vec3 wanted = sum(scaled(curve_integral(curve_of(model_.scene, prescribed_->curve), time), prescribed_velocity_),
-                            scaled(prescribed_->displacement_curve.empty() ? 0 : curve_value(curve_of(model_.scene, prescribed_->displacement_curve), time), prescribed_->displacement));
+    const Vec3 wanted =
+        sum(scaled(curve_integral(curve_of(model_.scene, prescribed_->curve), time), prescribed_velocity_),
+            scaled(prescribed_->displacement_curve.empty()
+                       ? 0
+                       : curve_value(curve_of(model_.scene, prescribed_->displacement_curve), time),
+                   prescribed_->displacement));
     for (int a = 0; a < 3; ++a)
-      if (prescribed_->directions[a]) way = sum(way, scaled(dot(difference(wanted, way), prescribed_->axes[a]), prescribed_->axes[a]));
+      if (prescribed_->directions[a])
+        way = sum(way, scaled(dot(difference(wanted, way), prescribed_->axes[a]), prescribed_->axes[a]));
     return way;
   }
 
   /// Where the material that is at `x` then was when the run began, m.
   Vec3 material(const Vec3& x, double time) const {
     const Vec3 arm = difference(difference(x, centre_), travel(time));
-    const double speed = length(spin_), angle = speed * (spin_curve_ != nullptr ? curve_integral(spin_curve_, time) : time);
+    const double speed = length(spin_),
+                 angle = speed * (spin_curve_ != nullptr ? curve_integral(spin_curve_, time) : time);
     return sum(centre_, speed > 0 ? turned(arm, scaled(1 / speed, spin_), -angle) : arm);
   }
 
@@ -85,7 +94,9 @@ struct Places {
 };
 using Way = WayOverFacets<FacetRows, Places>;
 
-Way way_over(const Model& model, const SurfaceEnds& ends) { return {{ends.corners}, {ends.beyond}, {model.assembly.nodes}}; }
+Way way_over(const Model& model, const SurfaceEnds& ends) {
+  return {{ends.corners}, {ends.beyond}, {model.assembly.nodes}};
+}
 
 Vector3 as_vector(const Vec3& x) { return {{x[0], x[1], x[2]}}; }
 
@@ -114,9 +125,9 @@ double side_of(const Model& model, const std::array<int, 4>& corners) {
 
 /// Where a way over a surface meets something.
 struct Met {
-  double time = 0;         ///< s
-  Vec3 place{0, 0, 0};     ///< m, undeformed
-  bool end = false;        ///< else the fine zone
+  double time = 0;      ///< s
+  Vec3 place{0, 0, 0};  ///< m, undeformed
+  bool end = false;     ///< else the fine zone
   Beyond beyond = Beyond::goes_on;
 };
 
@@ -125,7 +136,8 @@ struct Met {
 /// @param ahead how many elements beyond it count
 /// @return the end of the fine zone, if it passes that, and of the surface
 template <class Place>
-std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::string& part, double ahead, const Place& place) {
+std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::string& part, double ahead,
+                        const Place& place) {
   const double end_time = model.scene.time.end, wanted = finest_wanted(model.scene, part);
   int facet = nearest_facet(model, ends, place(0)), side = -1;
   const Way way = way_over(model, ends);
@@ -141,7 +153,8 @@ std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::
   arrive(place(0));
   double travelled = 0;
   constexpr int coarse_steps = 200;
-  for (int i = 0; i < coarse_steps; ++i) travelled += length(difference(place(end_time * (i + 1) / coarse_steps), place(end_time * i / coarse_steps)));
+  for (int i = 0; i < coarse_steps; ++i)
+    travelled += length(difference(place(end_time * (i + 1) / coarse_steps), place(end_time * i / coarse_steps)));
   std::vector<Met> met;
   if (travelled < least_way * size) return met;
   const int steps = static_cast<int>(std::min<double>(most_steps, std::max<double>(coarse_steps, travelled / size)));
@@ -171,15 +184,26 @@ std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::
   return met;
 }
 
-std::string told(const Model& model, const scene::Contact& contact, const std::string& surface, const std::string& part, const Met& met) {
-  const std::string head = fmt::format("[contacts.{}] (line {}): if its parts go on as initial and prescribed motions say, its patch ", contact.name, contact.line);
-  const std::string where = fmt::format("near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.4g} s, and the run ends at {:.4g} s; ", met.place[0], met.place[1], met.place[2], met.time, model.scene.time.end);
+std::string told(const Model& model, const scene::Contact& contact, const std::string& surface, const std::string& part,
+                 const Met& met) {
+  const std::string head =
+      fmt::format("[contacts.{}] (line {}): if its parts go on as initial and prescribed motions say, its patch ",
+                  contact.name, contact.line);
+  const std::string where =
+      fmt::format("near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.4g} s, and the run ends at {:.4g} s; ", met.place[0],
+                  met.place[1], met.place[2], met.time, model.scene.time.end);
   if (!met.end)
     return head + fmt::format("leaves the fine zone of '{}' ", part) + where +
-           fmt::format("beyond it elements are longer than {:.3g} m: make the zone of its mesh reach farther, or end the run before", finest_wanted(model.scene, part));
+           fmt::format(
+               "beyond it elements are longer than {:.3g} m: make the zone of its mesh reach farther, or end the run "
+               "before",
+               finest_wanted(model.scene, part));
   return head + fmt::format("comes to the end of '{}' ", surface) + where +
-         (met.beyond == Beyond::set_ends ? fmt::format("the body goes on there, but contact beyond is not seen: name a surface that reaches farther in contacts.{}, or end the run before", contact.name)
-                                         : std::string("the body ends there: make it longer, begin farther from its end, or end the run before"));
+         (met.beyond == Beyond::set_ends
+              ? fmt::format("the body goes on there, but contact beyond is not seen: name a surface that reaches "
+                            "farther in contacts.{}, or end the run before",
+                            contact.name)
+              : std::string("the body ends there: make it longer, begin farther from its end, or end the run before"));
 }
 
 /// How far a surface reaches along a direction, m.
@@ -196,7 +220,11 @@ double extent(const Model& model, const std::vector<int>& nodes, const Vec3& alo
 class PairPath {
  public:
   PairPath(const Model& model, const ContactPair& pair)
-      : model_(model), pair_(pair), contact_(*pair.contact), slave_(part_name(pair.slave_nodes)), master_(part_name(pair.master_nodes)) {}
+      : model_(model),
+        pair_(pair),
+        contact_(*pair.contact),
+        slave_(part_name(pair.slave_nodes)),
+        master_(part_name(pair.master_nodes)) {}
 
   void tell(std::vector<std::string>& doubts) {
     if (slave_.empty() || master_.empty() || slave_ == master_) return;
@@ -218,14 +246,19 @@ class PairPath {
 
   bool moves(const std::string& part) const {
     const auto named = [&](const std::string& name) { return part_of_name(name) == part; };
-    return std::any_of(model_.scene.initial_motions.begin(), model_.scene.initial_motions.end(),
-                       [&](const auto& motion) { return std::any_of(motion.parts.begin(), motion.parts.end(), named); }) ||
-           std::any_of(model_.scene.prescribed_motions.begin(), model_.scene.prescribed_motions.end(), [&](const auto& motion) { return named(motion.target); });
+    return std::any_of(
+               model_.scene.initial_motions.begin(), model_.scene.initial_motions.end(),
+               [&](const auto& motion) { return std::any_of(motion.parts.begin(), motion.parts.end(), named); }) ||
+           std::any_of(model_.scene.prescribed_motions.begin(), model_.scene.prescribed_motions.end(),
+                       [&](const auto& motion) { return named(motion.target); });
   }
 
-  std::string surface(bool of_master) const { return of_master != pair_.reversed ? contact_.master.text() : contact_.slave; }
+  std::string surface(bool of_master) const {
+    return of_master != pair_.reversed ? contact_.master.text() : contact_.slave;
+  }
 
-  /// Where the round part stands on the other; where it does not stand on that first of all, its nearest place on anything.
+  /// Where the round part stands on the other; where it does not stand on that first of all, its nearest place on
+  /// anything.
   std::optional<Vec3> where_it_rolls(const RoundPart& round) const {
     std::optional<Vec3> place, nearest;
     double least = 1e300, own = 1e300;
@@ -241,13 +274,17 @@ class PairPath {
     return own > least + near_share * round.nominal_radius ? nearest : place;
   }
 
-  void tell_rolling(const RoundPart& round, bool round_is_master, const Vec3& place, std::vector<std::string>& doubts) const {
+  void tell_rolling(const RoundPart& round, bool round_is_master, const Vec3& place,
+                    std::vector<std::string>& doubts) const {
     // Abreast of the contact.
     const Vec3 on_axis = sum(round.origin, scaled(dot(difference(place, round.origin), round.axis), round.axis));
     const BodyWay carrier(model_, round.part->name, on_axis);
     const std::string& other = round_is_master ? slave_ : master_;
     const auto other_round = round_part(model_, other);
-    const Vec3 other_place = other_round ? sum(other_round->origin, scaled(dot(difference(place, other_round->origin), other_round->axis), other_round->axis)) : place;
+    const Vec3 other_place =
+        other_round ? sum(other_round->origin,
+                          scaled(dot(difference(place, other_round->origin), other_round->axis), other_round->axis))
+                    : place;
     const BodyWay carried(model_, other, other_place);
     // Of both surfaces what comes first, end and zone apart.
     std::optional<Met> first[2];
@@ -270,7 +307,8 @@ class PairPath {
   void tell_sliding(std::vector<std::string>& doubts) const {
     const auto mean = [&](const std::vector<int>& nodes) {
       Vec3 middle{0, 0, 0};
-      for (int n : nodes) middle = sum(middle, scaled(1.0 / static_cast<double>(nodes.size()), model_.assembly.nodes[n]));
+      for (int n : nodes)
+        middle = sum(middle, scaled(1.0 / static_cast<double>(nodes.size()), model_.assembly.nodes[n]));
       return middle;
     };
     const BodyWay ways[2] = {{model_, slave_, mean(pair_.slave_nodes)}, {model_, master_, mean(pair_.master_nodes)}};
@@ -306,7 +344,8 @@ class PairPath {
     if (foremost < 0) return;
     const Vec3 from = model_.assembly.nodes[foremost];
     const bool over_master = !master_is_short;
-    for (const Met& met : follow(model_, ends, over_master ? master_ : slave_, 0, [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
+    for (const Met& met : follow(model_, ends, over_master ? master_ : slave_, 0,
+                                 [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
       doubts.push_back(told(model_, contact_, surface(over_master), over_master ? master_ : slave_, met));
   }
 

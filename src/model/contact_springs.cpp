@@ -34,11 +34,14 @@ struct MasterNodes {
   double largest_size = 0;
 
   MasterNodes(const ContactPair& pair, const std::vector<Vec3>& position)
-      : normal(position.size(), Vec3{}), size(position.size(), 0), stiffness(position.size(), 0),
+      : normal(position.size(), Vec3{}),
+        size(position.size(), 0),
+        stiffness(position.size(), 0),
         segments(position.size()) {
     for (std::size_t s = 0; s < pair.master_segments.size(); ++s) {
       const auto& corner = pair.master_segments[s];
-      const Vec3 p = difference(position[corner[2]], position[corner[0]]), q = difference(position[corner[3]], position[corner[1]]);
+      const Vec3 p = difference(position[corner[2]], position[corner[0]]),
+                 q = difference(position[corner[3]], position[corner[1]]);
       const double diagonal = std::sqrt(std::fmax(dot(p, p), dot(q, q)));
       largest_size = std::fmax(largest_size, diagonal);
       for (int m : corner) {
@@ -60,14 +63,15 @@ struct MasterNodes {
 };
 
 /// Where a place that is `away` from master node m lies on the segments around it, taken as parallelograms.
-void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position, const std::vector<int>& segments, int m,
-                      const Vec3& away, ContactSpring& spring) {
+void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position, const std::vector<int>& segments,
+                      int m, const Vec3& away, ContactSpring& spring) {
   double least = 1e300;
   for (int s : segments) {
     const auto& corner = pair.master_segments[s];
     int own = 0;
     while (corner[own] != m) ++own;
-    const Vec3 p = difference(position[corner[(own + 1) % 4]], position[m]), q = difference(position[corner[(own + 3) % 4]], position[m]);
+    const Vec3 p = difference(position[corner[(own + 1) % 4]], position[m]),
+               q = difference(position[corner[(own + 3) % 4]], position[m]);
     const double pp = dot(p, p), pq = dot(p, q), qq = dot(q, q), ap = dot(away, p), aq = dot(away, q);
     const double determinant = pp * qq - pq * pq;
     const double a = (ap * qq - aq * pq) / determinant, b = (aq * pp - ap * pq) / determinant;
@@ -75,7 +79,8 @@ void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position
     const double outside = std::fabs(a - inside_a) + std::fabs(b - inside_b);
     if (!(outside < least)) continue;
     least = outside;
-    const double share[4] = {(1 - inside_a) * (1 - inside_b), inside_a * (1 - inside_b), inside_a * inside_b, (1 - inside_a) * inside_b};
+    const double share[4] = {(1 - inside_a) * (1 - inside_b), inside_a * (1 - inside_b), inside_a * inside_b,
+                             (1 - inside_a) * inside_b};
     for (int k = 0; k < 4; ++k) {
       spring.master_nodes[k] = pair.master_nodes[corner[(own + k) % 4]];
       spring.share[k] = share[k];
@@ -147,9 +152,11 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
     const double gap = dot(away, around.normal[m]);
     const double aside = std::sqrt(std::fmax(0.0, dot(away, away) - gap * gap));
     const double closing = closing_factor * horizon * std::sqrt(dot(relative, relative));
-    const bool may_touch = aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
+    const bool may_touch =
+        aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
     if (status(static_cast<int>(s)) == status_apart && !may_touch) continue;
-    ContactSpring spring{static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
+    ContactSpring spring{
+        static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);
     spring.damping = damping_of(model, pair.law.damping, spring);
     springs.push_back(spring);

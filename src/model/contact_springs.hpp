@@ -6,11 +6,11 @@ namespace railwave {
 
 /// A slave node that presses, or may soon press, on a master's segment.
 struct ContactSpring {
-  int slave = 0;          ///< position among the pair's slave nodes
-  int slave_node = 0;     ///< model node number
-  double stiffness = 0;   ///< N/m, of the stiffest segment about the place, at the penetration where it is largest
-  double damping = 0;     ///< N s/m along the normal, the most that the law takes of it
-  Vec3 normal{};          ///< of the master's surface there
+  int slave = 0;         ///< position among the pair's slave nodes
+  int slave_node = 0;    ///< model node number
+  double stiffness = 0;  ///< N/m, of the stiffest segment about the place, at the penetration where it is largest
+  double damping = 0;    ///< N s/m along the normal, the most that the law takes of it
+  Vec3 normal{};         ///< of the master's surface there
   std::array<int, 4> master_nodes{};  ///< corners of the segment, model node numbers
   std::array<double, 4> share{};      ///< shape functions at the place, thesis eq. 2.24b
 };
@@ -24,8 +24,9 @@ struct ContactOnNodes {
   std::vector<double> stiffness, damping;  ///< N/m, N s/m
 };
 
-/// The stiffest and most strongly damped springs that the pairs' laws allow, wherever the bodies may touch; where slaves
-/// are finer than the master, several on each of its nodes; and those of all pairs that a node belongs to together.
+/// The stiffest and most strongly damped springs that the pairs' laws allow, wherever the bodies may touch; where
+/// slaves are finer than the master, several on each of its nodes; and those of all pairs that a node belongs to
+/// together.
 ContactOnNodes contact_on_nodes(const Model& model);
 
 }  // namespace railwave

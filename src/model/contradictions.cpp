@@ -16,8 +16,8 @@
 #include "model/outside.hpp"
 #include "model/overlapping_parts.hpp"
 
-// Entries of a scene that cannot all hold, as far as it takes the meshes to see it. What the case file alone shows is in
-// case/rules_scene.cpp; what may be meant is told by model/doubts.cpp.
+// Entries of a scene that cannot all hold, as far as it takes the meshes to see it. What the case file alone shows is
+// in case/rules_scene.cpp; what may be meant is told by model/doubts.cpp.
 namespace railwave {
 namespace {
 
@@ -29,14 +29,16 @@ template <class Entry>
 std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
 std::string along(const Vec3& d) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", d[0], d[1], d[2]); }
 
-/// How fast a prescribed motion moves a node, m/s, and how far its displacement does, m, in what it leaves free nothing.
+/// How fast a prescribed motion moves a node, m/s, and how far its displacement does, m, in what it leaves free
+/// nothing.
 struct Prescribed {
   Vec3 velocity, displacement;
 };
 
 Prescribed prescribed_at(const scene::PrescribedMotion& motion, const Vec3& centre, const Vec3& x) {
   const Vec3 turning = cross(motion.angular_velocity, difference(x, centre));
-  const Vec3 velocity = {motion.velocity[0] + turning[0], motion.velocity[1] + turning[1], motion.velocity[2] + turning[2]};
+  const Vec3 velocity = {motion.velocity[0] + turning[0], motion.velocity[1] + turning[1],
+                         motion.velocity[2] + turning[2]};
   Prescribed result{{0, 0, 0}, {0, 0, 0}};
   for (int a = 0; a < 3; ++a)
     for (int i = 0; motion.directions[a] && i < 3; ++i) {
@@ -52,7 +54,9 @@ void refuse_moved_constraints(const Model& model) {
   double fastest = 0, farthest = 0;
   for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
     const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-    const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+    const Vec3 centre = motion.centre
+                            ? *motion.centre
+                            : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
     for (int n : nodes) {
       const Prescribed here = prescribed_at(motion, centre, model.assembly.nodes[n]);
       fastest = std::max(fastest, length(here.velocity));
@@ -73,19 +77,23 @@ void refuse_moved_constraints(const Model& model) {
         const bool fast = std::fabs(speed) > rounding * fastest, far = std::fabs(way) > rounding * farthest;
         if (!fast && !far) continue;
         refuse(model, "constraints", constraint,
-               fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; leave the common nodes of '{}' and '{}' out of one of the "
+               fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; "
+                           "leave the common nodes of '{}' and '{}' out of one of the "
                            "two, or give only the other `directions`",
                            at(model.assembly.nodes[n]), along(constraint.axes[a]), motion->name, motion->line,
-                           fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way), constraint.target, motion->target));
+                           fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way), constraint.target,
+                           motion->target));
       }
     }
 }
 
 /// The faces of one side of a contact or tie, to be compared with those of others.
-std::set<std::array<int, 2>> faces_of(const Model& model, const scene::Place& entry, const char* key, const scene::SurfaceNames& names) {
+std::set<std::array<int, 2>> faces_of(const Model& model, const scene::Place& entry, const char* key,
+                                      const scene::SurfaceNames& names) {
   std::set<std::array<int, 2>> faces;
   for (const std::string& name : names)
-    for (const Face& face : find_surface(model.scene, model.assembly, entry, key, name)) faces.insert({face.element, face.side});
+    for (const Face& face : find_surface(model.scene, model.assembly, entry, key, name))
+      faces.insert({face.element, face.side});
   return faces;
 }
 
@@ -99,7 +107,8 @@ template <class Entry>
 std::vector<Pair> pairs_of(const Model& model, const std::vector<Entry>& entries) {
   std::vector<Pair> pairs;
   for (const Entry& entry : entries)
-    pairs.push_back({&entry, entry.slave, scene::SurfaceNames(entry.master).text(), faces_of(model, entry, "slave", entry.slave), faces_of(model, entry, "master", entry.master)});
+    pairs.push_back({&entry, entry.slave, scene::SurfaceNames(entry.master).text(),
+                     faces_of(model, entry, "slave", entry.slave), faces_of(model, entry, "master", entry.master)});
   return pairs;
 }
 
@@ -109,11 +118,13 @@ bool share(const std::set<std::array<int, 2>>& a, const std::set<std::array<int,
 
 /// Common faces on both sides.
 bool meet(const Pair& a, const Pair& b) {
-  return (share(a.slave, b.slave) && share(a.master, b.master)) || (share(a.slave, b.master) && share(a.master, b.slave));
+  return (share(a.slave, b.slave) && share(a.master, b.master)) ||
+         (share(a.slave, b.master) && share(a.master, b.slave));
 }
 
 bool same_names(const Pair& a, const Pair& b) {
-  return (a.slave_name == b.slave_name && a.master_name == b.master_name) || (a.slave_name == b.master_name && a.master_name == b.slave_name);
+  return (a.slave_name == b.slave_name && a.master_name == b.master_name) ||
+         (a.slave_name == b.master_name && a.master_name == b.slave_name);
 }
 
 void refuse_double_pairs(const Model& model) {
@@ -123,14 +134,17 @@ void refuse_double_pairs(const Model& model) {
       // The same two names are refused when the case is read.
       if (!same_names(contacts[i], contacts[j]) && meet(contacts[i], contacts[j]))
         refuse(model, "contacts", *contacts[i].entry,
-               fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), where their forces would count twice; keep one of them, or name "
+               fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), where "
+                           "their forces would count twice; keep one of them, or name "
                            "surfaces without common faces",
-                           contacts[i].slave_name, contacts[i].master_name, contacts[j].entry->name, contacts[j].entry->line));
+                           contacts[i].slave_name, contacts[i].master_name, contacts[j].entry->name,
+                           contacts[j].entry->line));
   for (const Pair& tie : ties)
     for (const Pair& contact : contacts)
       if (meet(tie, contact))
         refuse(model, "ties", *tie.entry,
-               fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), but what is tied neither opens nor slides; keep one of the two, "
+               fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), but what "
+                           "is tied neither opens nor slides; keep one of the two, "
                            "or name surfaces without common faces",
                            tie.slave_name, tie.master_name, contact.entry->name, contact.entry->line));
 }
@@ -139,7 +153,8 @@ void refuse_double_pairs(const Model& model) {
 void refuse_inner_faces(const Model& model) {
   if (model.scene.contacts.empty() && model.scene.non_reflecting.empty()) return;
   const OutsideFaces outside(model.assembly);
-  const auto check = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name, const char* why) {
+  const auto check = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name,
+                         const char* why) {
     const auto& surface = find_surface(model.scene, model.assembly, entry, key, name);
     std::size_t inside = 0;
     Vec3 place{};
@@ -150,8 +165,9 @@ void refuse_inner_faces(const Model& model) {
         for (int i = 0; i < 3; ++i) place[i] += 0.25 * model.assembly.nodes[n][i];
     }
     if (inside == 0) return;
-    throw InputError(fmt::format("{}:{}: [{}.{}] {}: {} of the {} faces of '{}' lie inside the body, between two elements, the first at {}; {}", model.scene.path, entry.line,
-                                 section, entry.name, key, inside, surface.size(), name, at(place), why));
+    throw InputError(fmt::format(
+        "{}:{}: [{}.{}] {}: {} of the {} faces of '{}' lie inside the body, between two elements, the first at {}; {}",
+        model.scene.path, entry.line, section, entry.name, key, inside, surface.size(), name, at(place), why));
   };
   constexpr const char* no_contact = "nothing can touch them: name a surface on the outside";
   for (const scene::Contact& contact : model.scene.contacts) {
@@ -170,8 +186,12 @@ void refuse_empty_connectors(const Model& model) {
     return result;
   };
   for (const scene::Connector& connector : model.scene.connectors) {
-    if (connector.from == "ground" || connector.to == "ground" || nodes(connector, "from", connector.from) != nodes(connector, "to", connector.to)) continue;
-    refuse(model, "connectors", connector, fmt::format("'{}' and '{}' are the same nodes, between which nothing is ever stretched; name two ends", connector.from, connector.to));
+    if (connector.from == "ground" || connector.to == "ground" ||
+        nodes(connector, "from", connector.from) != nodes(connector, "to", connector.to))
+      continue;
+    refuse(model, "connectors", connector,
+           fmt::format("'{}' and '{}' are the same nodes, between which nothing is ever stretched; name two ends",
+                       connector.from, connector.to));
   }
 }
 
@@ -180,7 +200,10 @@ void refuse_coincident_parts(const Model& model) {
   for (const PartOverlap& overlap : part_overlaps(model.assembly)) {
     if (!overlap.coincident) continue;
     const scene::Part &first = model.scene.parts[overlap.first], &second = model.scene.parts[overlap.second];
-    refuse(model, "parts", second, fmt::format("lies in the place of [parts.{}] (line {}), node on node; give it another position, or leave one of the two out", first.name, first.line));
+    refuse(model, "parts", second,
+           fmt::format("lies in the place of [parts.{}] (line {}), node on node; give it another position, or leave "
+                       "one of the two out",
+                       first.name, first.line));
   }
 }
 
@@ -193,7 +216,8 @@ void refuse_held_hammers(const Model& model) {
     const auto stays = [&](int n) { return force_is_held(held, n, hammer.direction); };
     if (std::all_of(nodes.begin(), nodes.end(), stays))
       refuse(model, "hammers", hammer,
-             fmt::format("strikes {} along {}, where constraints or prescribed motions hold all that it strikes; strike another place, or in another direction",
+             fmt::format("strikes {} along {}, where constraints or prescribed motions hold all that it strikes; "
+                         "strike another place, or in another direction",
                          at(model.assembly.nodes[nodes.front()]), along(hammer.direction)));
   }
 }
@@ -202,11 +226,13 @@ void refuse_held_hammers(const Model& model) {
 std::string holder_of(const Model& model, int node) {
   for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
     const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return fmt::format("[prescribed_motion.{}] (line {})", motion.name, motion.line);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+      return fmt::format("[prescribed_motion.{}] (line {})", motion.name, motion.line);
   }
   for (const scene::Constraint& constraint : model.scene.constraints) {
     const auto& nodes = find_node_set(model.scene, model.assembly, constraint, "target", constraint.target);
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return fmt::format("[constraints.{}] (line {})", constraint.name, constraint.line);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+      return fmt::format("[constraints.{}] (line {})", constraint.name, constraint.line);
   }
   return "constraints";
 }
@@ -214,10 +240,14 @@ std::string holder_of(const Model& model, int node) {
 /// m, no less than any node of that motion goes in the run.
 double travel_of(const Model& model, const scene::PrescribedMotion& motion) {
   const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-  const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+  const Vec3 centre = motion.centre
+                          ? *motion.centre
+                          : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
   double fastest = 0;
-  for (int n : nodes) fastest = std::max(fastest, length(prescribed_at(motion, centre, model.assembly.nodes[n]).velocity));
-  const scene::Curve *curve = curve_of(model.scene, motion.curve), *displacement = curve_of(model.scene, motion.displacement_curve);
+  for (int n : nodes)
+    fastest = std::max(fastest, length(prescribed_at(motion, centre, model.assembly.nodes[n]).velocity));
+  const scene::Curve *curve = curve_of(model.scene, motion.curve),
+                     *displacement = curve_of(model.scene, motion.displacement_curve);
   constexpr int instants = 1000;
   double way = 0, most = 0;
   for (int i = 0; i < instants; ++i) {
@@ -243,7 +273,8 @@ std::vector<int> stiff_slaves(const Model& model, const ContactPair& pair, const
       for (int i = 0; i < 3; ++i) normal[corner][i] += doubled_area(model.assembly, pair.slave_nodes, face)[i];
   std::vector<int> stiff;
   for (std::size_t s = 0; s < normal.size(); ++s)
-    if (length(normal[s]) > 0 && force_is_held(held, pair.slave_nodes[s], normal[s])) stiff.push_back(pair.slave_nodes[s]);
+    if (length(normal[s]) > 0 && force_is_held(held, pair.slave_nodes[s], normal[s]))
+      stiff.push_back(pair.slave_nodes[s]);
   return stiff;
 }
 
@@ -253,7 +284,8 @@ std::vector<std::array<int, 4>> stiff_faces(const Model& model, const ContactPai
   for (std::array<int, 4> face : pair.master_segments) {
     const Vec3 normal = doubled_area(model.assembly, pair.master_nodes, face);
     for (int& n : face) n = pair.master_nodes[n];
-    if (std::all_of(face.begin(), face.end(), [&](int n) { return force_is_held(held, n, normal); })) stiff.push_back(face);
+    if (std::all_of(face.begin(), face.end(), [&](int n) { return force_is_held(held, n, normal); }))
+      stiff.push_back(face);
   }
   return stiff;
 }
@@ -263,14 +295,18 @@ bool may_meet(const Model& model, int node, const std::array<int, 4>& face, doub
   const auto& x = model.assembly.nodes;
   double away = std::numeric_limits<double>::infinity();
   for (int second : {1, 2})
-    away = std::min(away, length(difference(nearest_on_triangle(x[face[0]], x[face[second]], x[face[second + 1]], x[node]), x[node])));
+    away = std::min(
+        away,
+        length(difference(nearest_on_triangle(x[face[0]], x[face[second]], x[face[second + 1]], x[node]), x[node])));
   return away <= travel + 0.01 * length(difference(x[face[2]], x[face[0]]));
 }
 
-/// Multipliers find the force that lets surfaces move as far as they must: between two that no force moves there is none, and it grows
-/// without end. Springs just press as far as they are pressed in.
+/// Multipliers find the force that lets surfaces move as far as they must: between two that no force moves there is
+/// none, and it grows without end. Springs just press as far as they are pressed in.
 void refuse_stiff_multipliers(const Model& model) {
-  if (std::none_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); })) return;
+  if (std::none_of(model.contacts.begin(), model.contacts.end(),
+                   [](const ContactPair& pair) { return !pair.has_springs(); }))
+    return;
   const HeldNodes held = held_directions(model.scene, model.assembly);
   double travel = 0;
   for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) travel += travel_of(model, motion);
@@ -283,10 +319,12 @@ void refuse_stiff_multipliers(const Model& model) {
       for (const auto& face : faces) {
         if (!wholly && !may_meet(model, n, face, travel)) continue;
         refuse(model, "contacts", *pair.contact,
-               fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' along its normal at {} and {} '{}' at {}: no force moves either, "
-                           "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive one of the two bodies at another surface",
-                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]), holder_of(model, face[0]), pair.contact->master.text(),
-                           at(model.assembly.nodes[face[0]])));
+               fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' "
+                           "along its normal at {} and {} '{}' at {}: no force moves either, "
+                           "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive "
+                           "one of the two bodies at another surface",
+                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]),
+                           holder_of(model, face[0]), pair.contact->master.text(), at(model.assembly.nodes[face[0]])));
       }
   }
 }

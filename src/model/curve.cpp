@@ -43,13 +43,15 @@ double table_integral(const Points& points, double time) {
 double curve_value(const scene::Curve* curve, double time) {
   if (curve == nullptr) return 1;
   switch (curve->type) {
-    case scene::CurveType::constant: return 1;
+    case scene::CurveType::constant:
+      return 1;
     case scene::CurveType::cosine_ramp: {  // thesis eq. 3.2
       if (time <= curve->start) return 0;
       if (time >= curve->start + curve->duration) return 1;
       return 0.5 * (1 - std::cos(M_PI * (time - curve->start) / curve->duration));
     }
-    case scene::CurveType::table: return table_value(curve->points, time);
+    case scene::CurveType::table:
+      return table_value(curve->points, time);
     case scene::CurveType::half_sine: {
       const double since = time - curve->start;
       return since <= 0 || since >= curve->duration ? 0.0 : std::sin(M_PI * since / curve->duration);
@@ -61,7 +63,8 @@ double curve_value(const scene::Curve* curve, double time) {
 double curve_integral(const scene::Curve* curve, double time) {
   if (curve == nullptr) return time;
   switch (curve->type) {
-    case scene::CurveType::constant: return time;
+    case scene::CurveType::constant:
+      return time;
     case scene::CurveType::cosine_ramp: {
       const auto primitive = [&](double t) {
         const double since = t - curve->start;
@@ -71,7 +74,8 @@ double curve_integral(const scene::Curve* curve, double time) {
       };
       return primitive(time) - primitive(0);
     }
-    case scene::CurveType::table: return table_integral(curve->points, time);
+    case scene::CurveType::table:
+      return table_integral(curve->points, time);
     case scene::CurveType::half_sine: {
       const auto primitive = [&](double t) {
         const double since = std::min(std::max(t - curve->start, 0.0), curve->duration);

@@ -15,7 +15,8 @@ std::string near(const Model& model, int element) {
 }
 
 /// What one estimate allows, in all and in parts.
-std::string line(const char* by, double all, double elements, const std::string& place, const StableStep& stable, double contact) {
+std::string line(const char* by, double all, double elements, const std::string& place, const StableStep& stable,
+                 double contact) {
   std::string text = fmt::format("{}: {:.4g} s; elements {:.4g} s{}", by, all, elements, place);
   if (contact > 0) text += fmt::format(", contact springs {:.4g} s", contact);
   if (stable.beam > 0) text += fmt::format(", beams {:.4g} s", stable.beam);
@@ -38,32 +39,37 @@ std::string what_sets_step(const Model& model) {
   const StableStep& stable = model.stable_step;
   if (model.scene.time.step > 0) return "time.step";
   const bool heights = model.scene.solver.step_estimate == scene::StepEstimate::element;
-  const double elements = heights ? stable.elements : stable.eigenvalue, contact = heights ? stable.contact : stable.eigenvalue_contact;
+  const double elements = heights ? stable.elements : stable.eigenvalue,
+               contact = heights ? stable.contact : stable.eigenvalue_contact;
   const auto least = [&](double step) { return step > 0 && step <= elements; };
-  if (least(stable.connector) && !(contact > 0 && contact < stable.connector)) return "springs and dashpots of connectors, by their stiffness, damping and masses";
+  if (least(stable.connector) && !(contact > 0 && contact < stable.connector))
+    return "springs and dashpots of connectors, by their stiffness, damping and masses";
   if (least(contact)) return "contact springs, by penalty_scale and damping";
   if (least(stable.beam)) return "beams, by their sections, lengths and material";
   const int element = heights ? stable.element : stable.eigenvalue_element;
   if (const int part = part_of_element(model.assembly, element); part >= 0)
-    return fmt::format("elements of part {} by their size, material and damping{}", model.assembly.parts[part].name, near(model, element));
+    return fmt::format("elements of part {} by their size, material and damping{}", model.assembly.parts[part].name,
+                       near(model, element));
   return "the scene as a whole";
 }
 
 std::vector<std::string> describe_stable_step(const Model& model) {
   const StableStep& stable = model.stable_step;
   const scene::StepEstimate choice = model.scene.solver.step_estimate;
-  std::vector<std::string> lines{
-      line("stable by element heights", stable.by_elements, stable.elements, near(model, stable.element), stable,
-           stable.contact),
-      line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue, near(model, stable.eigenvalue_element),
-           stable, stable.eigenvalue_contact)};
+  std::vector<std::string> lines{line("stable by element heights", stable.by_elements, stable.elements,
+                                      near(model, stable.element), stable, stable.contact),
+                                 line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue,
+                                      near(model, stable.eigenvalue_element), stable, stable.eigenvalue_contact)};
   if (shortened(stable)) lines[0] += "; shortened to what they allow together at free surfaces and in contact";
   if (choice == scene::StepEstimate::global)
-    lines.push_back(fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
-                                stable.global,
-                                model.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
-                                stable.global / stable.by_elements) +
-                    (stable.limit < stable.global ? fmt::format("; {:.4g} s for contact springs that bodies strike undamped", stable.limit) : ""));
+    lines.push_back(
+        fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
+                    stable.global,
+                    model.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
+                    stable.global / stable.by_elements) +
+        (stable.limit < stable.global
+             ? fmt::format("; {:.4g} s for contact springs that bodies strike undamped", stable.limit)
+             : ""));
   const char* names[] = {"element", "eigenvalue", "global"};
   lines.push_back(model.scene.time.step > 0
                       ? fmt::format("set by time.step = {:.4g} s", model.scene.time.step)

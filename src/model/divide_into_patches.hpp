@@ -9,10 +9,11 @@
 namespace railwave {
 
 /// By halving, between layers of elements: as good as can be where the elements lie in straight rows.
-void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first);
+void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                        std::vector<int>& first);
 
-/// By growing one patch after the other, each time by the element that fits in best: fills patches also where rows bend,
-/// and where element sizes are graded.
+/// By growing one patch after the other, each time by the element that fits in best: fills patches also where rows
+/// bend, and where element sizes are graded.
 void grow_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first);
 
 }  // namespace railwave

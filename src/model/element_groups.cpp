@@ -8,8 +8,8 @@
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/build_steps.hpp"
-#include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
+#include "model/hourglass_scale.hpp"
 
 namespace railwave {
 namespace {
@@ -22,7 +22,8 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
     if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
     throw InputError(fmt::format(
         "{}: part '{}': element {} (counted from 0 in its mesh) near ({:.6g}, {:.6g}, {:.6g}) m is inverted or flat; "
-        "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the same way",
+        "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the "
+        "same way",
         model.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
   }
 }
@@ -69,7 +70,8 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
     double volume = 0;
     for (double part_of_it : integrals) volume += part_of_it;
     scale[e] = static_cast<float>(hourglass_scale(part.hourglass, own, material, volume));
-    settling[e] = static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material, volume));
+    settling[e] =
+        static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material, volume));
     model.element_length[e] = hexahedron_length(x);
     // Lumped mass by row sums (thesis 2.2.2).
     for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
@@ -83,8 +85,8 @@ ElasticConstants elastic_constants(const scene::Material& material) {
 /// The host side of a group's patches.
 struct PatchLists {
   std::vector<int> element_count, material;
-  std::vector<std::vector<int>> node;                             ///< by patch
-  std::vector<std::vector<std::uint16_t>> first_place, place;     ///< by patch
+  std::vector<std::vector<int>> node;                          ///< by patch
+  std::vector<std::vector<std::uint16_t>> first_place, place;  ///< by patch
   std::vector<std::array<int, 3>> frame_node;
   std::vector<std::uint8_t> corner;
   std::vector<float> scale, settling;
@@ -120,9 +122,10 @@ std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int
   return {a, b, c};
 }
 
-/// A patch's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and in the
-/// mesh's own order among those, which lies well in memory.
-std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, int first, int end, std::vector<int>& corners) {
+/// A patch's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and
+/// in the mesh's own order among those, which lies well in memory.
+std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, int first, int end,
+                             std::vector<int>& corners) {
   std::vector<int> all;
   for (int e = first; e < end; ++e) all.insert(all.end(), assembly.elements[e].begin(), assembly.elements[e].end());
   std::sort(all.begin(), all.end());
@@ -171,7 +174,8 @@ void append_patch(const Assembly& assembly, const PatchOrder& order, int first, 
   for (int slot = 0; slot < patch_size; ++slot)
     for (int N = 0; N < 8; ++N) {
       const int l = local[assembly.elements[first + std::min(slot, count - 1)][N]];
-      lists.corner[base + (static_cast<std::size_t>(slot / lanes) * 8 + N) * lanes + slot % lanes] = static_cast<std::uint8_t>(l);
+      lists.corner[base + (static_cast<std::size_t>(slot / lanes) * 8 + N) * lanes + slot % lanes] =
+          static_cast<std::uint8_t>(l);
       if (slot < count) places[l].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
     }
   append_packs(places, lanes, lists);
@@ -205,7 +209,7 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
   patches.material = to_device("patch material", lists.material);
   patches.node = even_rows("patch nodes", lists.node, 16, patches.node_stride);
   patches.frame_node = to_device("patch frame nodes", lists.frame_node);
-  if (single_precision) patches.frame = Array<double* [PatchFrame::values]>("patch frames", patches.count);
+  if (single_precision) patches.frame = Array<double * [PatchFrame::values]>("patch frames", patches.count);
   patches.corner = to_device("patch corners", lists.corner);
   patches.first_place = even_rows("first corner places", lists.first_place, places_at_once, patches.pack_stride);
   patches.place = even_rows("corner places", lists.place, places_at_once, patches.place_stride);
@@ -216,8 +220,8 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
 }
 
 /// History and volumes of a group whose materials yield.
-PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, const std::vector<const scene::Material*>& materials,
-                             bool kinematic) {
+PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group,
+                             const std::vector<const scene::Material*>& materials, bool kinematic) {
   std::vector<BilinearConstants> constants;
   std::vector<double> share;
   for (const scene::Material* material : materials) {
@@ -228,7 +232,8 @@ PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, cons
   std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
   for (std::size_t p = 0; p < group.first_element.size(); ++p)
     for (int slot = 0; slot < group.element_count[p]; ++slot) {
-      const HexahedronCorners x = corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]);
+      const HexahedronCorners x =
+          corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]);
       volume[p * patch_size + slot] = hexahedron_volume(x);
     }
   PlasticArrays plastic{to_device("plastic constants", constants),
@@ -244,7 +249,8 @@ PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group, cons
 
 /// Constants of damped parts, and the drag of their patches' nodes.
 DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
-                             const std::vector<const scene::Part*>& parts, const std::vector<const scene::Material*>& materials) {
+                             const std::vector<const scene::Part*>& parts,
+                             const std::vector<const scene::Material*>& materials) {
   std::vector<DampingConstants> constants;
   for (std::size_t r = 0; r < parts.size(); ++r) {
     const scene::Part& part = *parts[r];
@@ -258,7 +264,8 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
   std::vector<double> mass(static_cast<std::size_t>(group.patches.count) * group.patches.node_stride, 0.0);
   for (int p = 0; p < group.patches.count; ++p) {
     std::unordered_map<int, std::size_t> place;
-    for (std::size_t l = 0; l < nodes[p].size(); ++l) place[nodes[p][l]] = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+    for (std::size_t l = 0; l < nodes[p].size(); ++l)
+      place[nodes[p][l]] = static_cast<std::size_t>(p) * group.patches.node_stride + l;
     for (int e = group.first_element[p]; e < group.first_element[p] + group.element_count[p]; ++e) {
       const auto& corners = model.assembly.elements[e];
       const auto integrals = hexahedron_shape_integrals(corners_of(model.assembly.nodes, corners));
@@ -273,7 +280,8 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
       drag[at] = (parts[row(p)]->mass_damping + (layers.empty() ? 0.0 : layers[nodes[p][l]])) * mass[at];
     }
   return {to_device("damping constants", constants), to_device("drag of patches' nodes", drag),
-          Array<double*>("damping energy", group.patches.count), group.first_partial + group.patches.count * group.patches.node_stride};
+          Array<double*>("damping energy", group.patches.count),
+          group.first_partial + group.patches.count * group.patches.node_stride};
 }
 
 /// Whether elements [first, end) have a node that an absorbing layer damps.
@@ -281,7 +289,9 @@ bool in_absorbing_layer(const Model& model, int first, int end) {
   const auto& rate = model.absorbing.rate;
   if (rate.empty()) return false;
   return std::any_of(model.assembly.elements.begin() + first, model.assembly.elements.begin() + end,
-                     [&](const auto& corners) { return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; }); });
+                     [&](const auto& corners) {
+                       return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; });
+                     });
 }
 
 /// The patches' numbers, level by level, so that groups ascend by it.
@@ -317,7 +327,8 @@ void build_elements(Model& model) {
   std::vector<std::vector<const scene::Part*>> parts;
   std::vector<GroupKind> kinds;
   std::size_t part = 0;
-  std::map<std::array<int, 3>, std::array<int, 2>> rows_of;  // by level, part and damping: group, and row of constants in it
+  std::map<std::array<int, 3>, std::array<int, 2>>
+      rows_of;  // by level, part and damping: group, and row of constants in it
   for (const int p : patches_by_level(model.order)) {
     const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
     part = 0;
@@ -359,13 +370,14 @@ void build_elements(Model& model) {
     if (kinds[g].material != MaterialKind::elastic)
       elements.plastic = plastic_arrays(model, elements, materials[g], kinds[g].material == MaterialKind::kinematic);
     elements.first_partial = rows;
-    if (kinds[g].damped)
-      elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
+    if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
     rows = elements.rows_end();
   }
   model.partial.single_precision = single;
-  if (single) model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);
-  else model.partial.wide = Array<PartialForce<double>*>("partial forces", rows);
+  if (single)
+    model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);
+  else
+    model.partial.wide = Array<PartialForce<double>*>("partial forces", rows);
 }
 
 }  // namespace railwave

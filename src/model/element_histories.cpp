@@ -39,7 +39,7 @@ struct ElementMeanSum {
   static constexpr int values = 13;
   Array<const int*> item;
   Array<const double*> weight;
-  Array<const double* [6]> stress, strain;
+  Array<const double*[6]> stress, strain;
   Array<const double*> plastic_strain;
   int begin;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
@@ -55,8 +55,10 @@ struct ElementMeanSum {
 
 template <class S>
 auto& stress_tiles(const ListedElements& listed) {
-  if constexpr (sizeof(S) == sizeof(double)) return listed.stress_wide;
-  else return listed.stress_narrow;
+  if constexpr (sizeof(S) == sizeof(double))
+    return listed.stress_wide;
+  else
+    return listed.stress_narrow;
 }
 
 template <class S>
@@ -70,15 +72,19 @@ void evaluate(const Model& model, const ElementHistories& histories) {
       with_material(group, [&](const auto& material) {
         using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
         launch_teams(patches, State::scratch_size(group.patches),
-                     State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress_tiles<S>(listed), listed.energy, listed.patches});
+                     State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress_tiles<S>(listed),
+                           listed.energy, listed.patches});
       });
-      Kokkos::parallel_for("take_stress", Range(0, count), TakeStress<S>{listed.places, stress_tiles<S>(listed), histories.stress});
+      Kokkos::parallel_for("take_stress", Range(0, count),
+                           TakeStress<S>{listed.places, stress_tiles<S>(listed), histories.stress});
     }
     if (histories.wants_plastic_strain && group.plastic.active())
-      Kokkos::parallel_for("take_plastic_strain", Range(0, count), TakePlasticStrain<S>{listed.places, group.plastic.history, histories.plastic_strain});
+      Kokkos::parallel_for("take_plastic_strain", Range(0, count),
+                           TakePlasticStrain<S>{listed.places, group.plastic.history, histories.plastic_strain});
   }
   if (histories.wants_strain)
-    Kokkos::parallel_for("listed_strain", Range(0, static_cast<int>(histories.corner.extent(0))), ListedStrain{model.nodes, histories.corner, histories.strain});
+    Kokkos::parallel_for("listed_strain", Range(0, static_cast<int>(histories.corner.extent(0))),
+                         ListedStrain{model.nodes, histories.corner, histories.strain});
 }
 
 /// The listed elements of one group.
@@ -87,10 +93,12 @@ ListedElements list_of(const Model& model, const ElementGroup& group, const std:
   std::vector<std::array<int, 3>> places;
   for (int p = 0; p < group.patches.count; ++p) {
     const int first = group.first_element[p], end = first + group.element_count[p];
-    const auto from = std::lower_bound(elements.begin(), elements.end(), first), to = std::lower_bound(from, elements.end(), end);
+    const auto from = std::lower_bound(elements.begin(), elements.end(), first),
+               to = std::lower_bound(from, elements.end(), end);
     if (from == to) continue;
     for (auto e = from; e != to; ++e)
-      places.push_back({static_cast<int>(e - elements.begin()), static_cast<int>(patches.size()) * patch_size + *e - first, p * patch_size + *e - first});
+      places.push_back({static_cast<int>(e - elements.begin()),
+                        static_cast<int>(patches.size()) * patch_size + *e - first, p * patch_size + *e - first});
     patches.push_back(p);
   }
   ListedElements listed;
@@ -98,8 +106,10 @@ ListedElements list_of(const Model& model, const ElementGroup& group, const std:
   listed.patches = to_device("listed patches", patches);
   listed.places = to_device("places of listed elements", places);
   const std::size_t slots = 6 * patches.size() * patch_size;
-  if (model.scene.solver.elements_in_single()) listed.stress_narrow = unset_array<float*>("listed stress", slots);
-  else listed.stress_wide = unset_array<double*>("listed stress", slots);
+  if (model.scene.solver.elements_in_single())
+    listed.stress_narrow = unset_array<float*>("listed stress", slots);
+  else
+    listed.stress_wide = unset_array<double*>("listed stress", slots);
   listed.energy = unset_array<double* [2]>("energy of listed patches", patches.size());
   return listed;
 }
@@ -123,7 +133,8 @@ void build_element_histories(Model& model) {
   elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
   for (const HistorySet& set : sets) {
     if (!set.inside()) continue;
-    for (int e : set.elements) item.push_back(static_cast<int>(std::lower_bound(elements.begin(), elements.end(), e) - elements.begin()));
+    for (int e : set.elements)
+      item.push_back(static_cast<int>(std::lower_bound(elements.begin(), elements.end(), e) - elements.begin()));
     for (double share : volume_shares(model.assembly, set.elements)) weight.push_back(share);
     first.push_back(static_cast<int>(item.size()));
   }
@@ -148,8 +159,9 @@ void queue_element_means(const Model& model, std::vector<ElementMeans>& means, R
   for (std::size_t s = 0; s < means.size(); ++s) {
     ElementMeans& mean = means[s];
     const int begin = histories.first_of_set[s], end = histories.first_of_set[s + 1];
-    sums.sum(ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain, histories.plastic_strain, begin}, end - begin,
-             [&mean](const double* sum) {
+    sums.sum(ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain,
+                            histories.plastic_strain, begin},
+             end - begin, [&mean](const double* sum) {
                for (int c = 0; c < 6; ++c) {
                  mean.stress[c] = sum[c];
                  mean.strain[c] = sum[6 + c];
@@ -162,9 +174,12 @@ void queue_element_means(const Model& model, std::vector<ElementMeans>& means, R
 std::size_t element_history_bytes(const Model& model) {
   if (!model.element_histories) return 0;
   const ElementHistories& h = *model.element_histories;
-  const auto bytes = [](const auto&... views) { return (std::size_t{0} + ... + (views.span() * sizeof(typename std::decay_t<decltype(views)>::value_type))); };
+  const auto bytes = [](const auto&... views) {
+    return (std::size_t{0} + ... + (views.span() * sizeof(typename std::decay_t<decltype(views)>::value_type)));
+  };
   std::size_t total = bytes(h.item, h.weight, h.corner, h.stress, h.strain, h.plastic_strain);
-  for (const ListedElements& one : h.listed) total += bytes(one.patches, one.places, one.stress_wide, one.stress_narrow, one.energy);
+  for (const ListedElements& one : h.listed)
+    total += bytes(one.patches, one.places, one.stress_wide, one.stress_narrow, one.energy);
   return total;
 }
 

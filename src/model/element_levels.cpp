@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <limits>
+#include <set>
 
 #include "model/absorbing_layer.hpp"
 #include "model/build_steps.hpp"
@@ -11,11 +11,11 @@
 namespace railwave {
 namespace {
 
-/// Margin of the step of a level's elements to their stable one, over time.step_scale. Measured on chains: without it, and
-/// without the buffers, waves of a fine region that a coarse one's impulses meet at every half period grow.
+/// Margin of the step of a level's elements to their stable one, over time.step_scale. Measured on chains: without it,
+/// and without the buffers, waves of a fine region that a coarse one's impulses meet at every half period grow.
 constexpr double margin = 1.1;
-/// Such waves die out in elements that are fit for the coarser level but keep the finer one's pace: by e^-2 or more in each
-/// layer, by e^-4 in elements with so much larger a step than the coarser level's.
+/// Such waves die out in elements that are fit for the coarser level but keep the finer one's pace: by e^-2 or more in
+/// each layer, by e^-4 in elements with so much larger a step than the coarser level's.
 constexpr int buffer = 2;
 constexpr double deadens_at_once = 2.4;
 /// Less is not worth smaller launches.
@@ -29,8 +29,8 @@ std::set<int> pulled_nodes(const std::vector<ConnectorCell>& cells) {
   return nodes;
 }
 
-/// By element, what its own stable step would be. Heights can be beyond what a region one or two elements thick allows, and only
-/// the finest level is asked whether they are.
+/// By element, what its own stable step would be. Heights can be beyond what a region one or two elements thick allows,
+/// and only the finest level is asked whether they are.
 class OwnSteps {
  public:
   explicit OwnSteps(const Model& model) : model_(model), at_node_(model.assembly.nodes.size(), 0) {
@@ -124,7 +124,8 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   std::vector<int> fit(steps.size());
   for (std::size_t e = 0; e < steps.size(); ++e) {
     steps[e] *= scale;
-    fit[e] = std::clamp(static_cast<int>(std::floor(std::log2(steps[e] / (margin * model.step_size)))), 0, most_levels - 1);
+    fit[e] =
+        std::clamp(static_cast<int>(std::floor(std::log2(steps[e] / (margin * model.step_size)))), 0, most_levels - 1);
   }
   level_contacts(model, fit);
 

@@ -9,7 +9,8 @@ namespace {
 double along(const Vec3& axis, const Vec3& x) { return axis[0] * x[0] + axis[1] * x[1] + axis[2] * x[2]; }
 
 /// Shape functions of a triangle at a point; false: it is outside, or the triangle is seen on edge.
-bool inside(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& p, std::array<double, 3>& shape) {
+bool inside(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& p,
+            std::array<double, 3>& shape) {
   const auto twice_area = [](const PlanePoint& u, const PlanePoint& v, const PlanePoint& w) {
     return (v[0] - u[0]) * (w[1] - u[1]) - (v[1] - u[1]) * (w[0] - u[0]);
   };
@@ -22,8 +23,8 @@ bool inside(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const
 
 }  // namespace
 
-ProjectedSurface::ProjectedSurface(const Assembly& assembly, const std::vector<Face>& faces, const std::array<Vec3, 3>& axes,
-                                   const scene::Box* box) {
+ProjectedSurface::ProjectedSurface(const Assembly& assembly, const std::vector<Face>& faces,
+                                   const std::array<Vec3, 3>& axes, const scene::Box* box) {
   for (const Face& face : faces) {
     Projected seen{assembly.face_nodes(face), {}, {1e300, 1e300}, {-1e300, -1e300}};
     Vec3 middle{0, 0, 0};
@@ -50,7 +51,8 @@ ProjectedSurface::ProjectedSurface(const Assembly& assembly, const std::vector<F
   }
 }
 
-bool ProjectedSurface::add_weights(PlanePoint point, double factor, std::vector<std::pair<int, double>>& weights) const {
+bool ProjectedSurface::add_weights(PlanePoint point, double factor,
+                                   std::vector<std::pair<int, double>>& weights) const {
   const double slack = 1e-9 * (high_[0] - low_[0] + high_[1] - low_[1]);
   for (const Projected& face : faces_) {
     if (point[0] < face.low[0] - slack || point[0] > face.high[0] + slack || point[1] < face.low[1] - slack ||
@@ -63,7 +65,8 @@ bool ProjectedSurface::add_weights(PlanePoint point, double factor, std::vector<
     for (int cut = 0; cut < 2; ++cut)
       for (int half = 0; half < 2; ++half) {
         const std::array<int, 3> corner{cut + 2 * half, (cut + 2 * half + 1) % 4, (cut + 2 * half + 2) % 4};
-        if (found <= cut && inside(face.corner[corner[0]], face.corner[corner[1]], face.corner[corner[2]], point, shapes[found]))
+        if (found <= cut &&
+            inside(face.corner[corner[0]], face.corner[corner[1]], face.corner[corner[2]], point, shapes[found]))
           corners[found++] = corner;
       }
     if (found == 0) continue;

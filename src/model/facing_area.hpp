@@ -14,14 +14,15 @@ class ProjectedSurface {
  public:
   /// @param axes rows: the plane's two directions and the direction of view
   /// Only faces whose middles lie in the box count; null: all.
-  ProjectedSurface(const Assembly& assembly, const std::vector<Face>& faces, const std::array<Vec3, 3>& axes, const scene::Box* box);
+  ProjectedSurface(const Assembly& assembly, const std::vector<Face>& faces, const std::array<Vec3, 3>& axes,
+                   const scene::Box* box);
 
   bool empty() const { return faces_.empty(); }
-  PlanePoint low() const { return low_; }    ///< bounds, m
+  PlanePoint low() const { return low_; }  ///< bounds, m
   PlanePoint high() const { return high_; }
 
-  /// Adds to `weights` (by node of the model) shape functions at the point that reproduce linear fields, times `factor`; false:
-  /// no face is there.
+  /// Adds to `weights` (by node of the model) shape functions at the point that reproduce linear fields, times
+  /// `factor`; false: no face is there.
   bool add_weights(PlanePoint point, double factor, std::vector<std::pair<int, double>>& weights) const;
 
  private:

@@ -8,9 +8,9 @@
 #include "kernels/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/element_precision.hpp"
+#include "model/group_material.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
-#include "model/group_material.hpp"
 #include "model/patch_launch.hpp"
 
 namespace railwave {
@@ -28,7 +28,8 @@ struct FetchNodes {
     const int n = wanted(i);
     Vector3 value = row(nodes.position, n);
     if (field == NodeField::displacement) value = value - row(nodes.reference, n);
-    if (field == NodeField::velocity) value = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
+    if (field == NodeField::velocity)
+      value = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
     if (field == NodeField::acceleration) value = acceleration.plain(n);
     for (int k = 0; k < 3; ++k) result(3 * i + k) = value[k];
   }
@@ -41,7 +42,9 @@ void surface_geometry(ContactSide& side) {
   const std::size_t count = side.nodes.size();
   side.area.assign(count, 0);
   side.normal.assign(3 * count, 0);
-  const auto point = [&](int k) { return Vec3{side.position[3 * k], side.position[3 * k + 1], side.position[3 * k + 2]}; };
+  const auto point = [&](int k) {
+    return Vec3{side.position[3 * k], side.position[3 * k + 1], side.position[3 * k + 2]};
+  };
   for (const auto& facet : side.facets) {
     const Vec3 a = point(facet[0]), b = point(facet[1]), c = point(facet[2]), d = point(facet[3]);
     const double area = facet_area(a, b, c, d);
@@ -59,7 +62,8 @@ void surface_geometry(ContactSide& side) {
   }
 }
 
-ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const std::vector<std::array<int, 4>>& facets) {
+ContactSide bare_side(const Model& model, const std::vector<int>& nodes,
+                      const std::vector<std::array<int, 4>>& facets) {
   ContactSide side;
   side.nodes = nodes;
   side.facets = facets;
@@ -71,20 +75,22 @@ ContactSide bare_side(const Model& model, const std::vector<int>& nodes, const s
   return side;
 }
 
-/// Of the wanted elements those that are the group's: their places among the wanted, and their slots in the group's tiles.
+/// Of the wanted elements those that are the group's: their places among the wanted, and their slots in the group's
+/// tiles.
 Array<int* [2]> wanted_slots(const ElementGroup& group, const std::vector<int>& elements) {
   std::vector<std::array<int, 2>> slots;
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const auto after = std::upper_bound(group.first_element.begin(), group.first_element.end(), elements[i]);
     if (after == group.first_element.begin()) continue;
-    const int p = static_cast<int>(after - group.first_element.begin()) - 1, place = elements[i] - group.first_element[p];
+    const int p = static_cast<int>(after - group.first_element.begin()) - 1,
+              place = elements[i] - group.first_element[p];
     if (place < group.element_count[p]) slots.push_back({static_cast<int>(i), p * patch_size + place});
   }
   return to_device("wanted slots", slots);
 }
 
-/// Takes `components` of a group's tiles of `stored` values, from value `first`, to where they are wanted. S: the elements'
-/// precision, by which the tiles are laid out.
+/// Takes `components` of a group's tiles of `stored` values, from value `first`, to where they are wanted. S: the
+/// elements' precision, by which the tiles are laid out.
 template <class S, class Value>
 struct FetchElements {
   Array<int* [2]> slots;
@@ -94,7 +100,8 @@ struct FetchElements {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     for (int c = 0; c < components; ++c)
-      result(static_cast<std::size_t>(components) * slots(i, 0) + c) = tiles(tiled_slot<S>(slots(i, 1), stored, first + c));
+      result(static_cast<std::size_t>(components) * slots(i, 0) + c) =
+          tiles(tiled_slot<S>(slots(i, 1), stored, first + c));
   }
 };
 
@@ -114,7 +121,8 @@ HostField stress_in(const Model& model, const std::vector<int>& elements) {
     const auto unused = unset_array<double* [2]>("patch energy", group.patches.count);
     with_material(group, [&](const auto& material) {
       using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
-      launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress, unused});
+      launch_patches(group.patches,
+                     State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress, unused});
     });
     fetch_elements(FetchElements<S, S>{slots, stress, 6, 0, 6, result});
   }
@@ -127,7 +135,8 @@ HostField plastic_strain_in(const Model& model, const std::vector<int>& elements
   Kokkos::deep_copy(result, 0.0);
   for (const ElementGroup& group : model.elements)
     if (group.plastic.active())
-      fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.plastic.history, Bilinear::history_values, 6, 1, result});
+      fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.plastic.history,
+                                              Bilinear::history_values, 6, 1, result});
   return {1, to_vector(result)};
 }
 
@@ -158,13 +167,16 @@ Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& p
 
 /// What a pair's slaves do now, on the host.
 struct SlavesNow {
-  Array<double* [3]>::HostMirror normal, tangential;
+  Array<double*[3]>::HostMirror normal, tangential;
   Array<double* [2]>::HostMirror place;
   Array<int*>::HostMirror status, segment;
 
   explicit SlavesNow(const ContactArrays& contact)
-      : normal(to_host(contact.normal_force)), tangential(to_host(contact.tangential_force)), place(to_host(contact.place)),
-        status(to_host(contact.status)), segment(to_host(contact.tracked)) {}
+      : normal(to_host(contact.normal_force)),
+        tangential(to_host(contact.tangential_force)),
+        place(to_host(contact.place)),
+        status(to_host(contact.status)),
+        segment(to_host(contact.tracked)) {}
 
   double share(int s, int corner) const { return segment_shape(corner, place(s, 0), place(s, 1)); }
 };
@@ -180,27 +192,34 @@ struct CurvedShares {
     if (contact.status(s) == status_apart) return;
     const int segment = contact.tracked(s);
     const Vector3 f = row(force, s);
-    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f, CurvedReaction({search, sum, place_of_node}, contact.surface(segment), f));
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f,
+                            CurvedReaction({search, sum, place_of_node}, contact.surface(segment), f));
   }
 };
 
 /// Springs on curved segments are felt by nodes around the segment too, see SmoothNormals::reaction.
-bool curved(const ContactPair& pair) { return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs(); }
+bool curved(const ContactPair& pair) {
+  return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs();
+}
 
-void add_curved_forces(const Model& model, const ContactPair& pair, const Array<double* [3]>& force, std::vector<double>& on_master) {
+void add_curved_forces(const Model& model, const ContactPair& pair, const Array<double* [3]>& force,
+                       std::vector<double>& on_master) {
   std::vector<int> place(model.nodes.count, -1);
   for (std::size_t m = 0; m < pair.master_nodes.size(); ++m) place[pair.master_nodes[m]] = static_cast<int>(m);
   ExtraForceSum sum;
   sum.quantum = model.extra.sum.quantum;
   sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
-  Kokkos::parallel_for("curved_shares", Range(0, pair.arrays.slave_count),
-                       CurvedShares{ContactSearch{{pair.arrays, model.nodes.position}}, sum, to_device("place of node", place), force});
+  Kokkos::parallel_for(
+      "curved_shares", Range(0, pair.arrays.slave_count),
+      CurvedShares{ContactSearch{{pair.arrays, model.nodes.position}}, sum, to_device("place of node", place), force});
   const auto quanta = to_host(sum.contact);
   for (std::size_t m = 0; m < pair.master_nodes.size(); ++m)
-    for (int i = 0; i < 3; ++i) on_master[3 * m + i] += sum.quantum * static_cast<double>(static_cast<std::int64_t>(quanta(m, i)));
+    for (int i = 0; i < 3; ++i)
+      on_master[3 * m + i] += sum.quantum * static_cast<double>(static_cast<std::int64_t>(quanta(m, i)));
 }
 
-void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& now, ContactSide& slave, ContactSide& master) {
+void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& now, ContactSide& slave,
+                ContactSide& master) {
   if (curved(pair)) {
     add_curved_forces(model, pair, pair.arrays.normal_force, master.normal_force);
     add_curved_forces(model, pair, pair.arrays.tangential_force, master.tangential_force);
@@ -223,8 +242,9 @@ void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& no
 
 HostField own_node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
   const auto result = unset_array<double*>("node field", 3 * nodes.size());
-  Kokkos::parallel_for("fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-                       FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
+  Kokkos::parallel_for(
+      "fetch_nodes", Range(0, static_cast<int>(nodes.size())),
+      FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
   return {3, to_vector(result)};
 }
 
@@ -233,7 +253,8 @@ void follow_masters(const Model& model, NodeField field, const std::vector<int>&
   std::vector<int> place_of(model.nodes.count, -1), masters;
   for (std::size_t s = 0; s < model.ties.places.size(); ++s) place_of[model.ties.places[s].slave] = static_cast<int>(s);
   for (int n : nodes)
-    if (place_of[n] >= 0) masters.insert(masters.end(), model.ties.places[place_of[n]].face, model.ties.places[place_of[n]].face + 4);
+    if (place_of[n] >= 0)
+      masters.insert(masters.end(), model.ties.places[place_of[n]].face, model.ties.places[place_of[n]].face + 4);
   if (masters.empty()) return;
   const auto of_masters = own_node_field(model, field, masters).values;
   std::size_t next = 0;

@@ -29,30 +29,35 @@ HostField element_stress(const Model& model, const std::vector<int>& elements);
 HostField element_plastic_strain(const Model& model, const std::vector<int>& elements);
 
 /// What one contact pair does at the present instant: one entry for every node of the slave surface and of the master
-/// surface (not only those that touch). Vectors have three components, global axes. Forces of a symmetric contact are those
-/// of both its halves; gap, slip velocity and whether a node slips are those of the slave's nodes against the master's faces.
+/// surface (not only those that touch). Vectors have three components, global axes. Forces of a symmetric contact are
+/// those of both its halves; gap, slip velocity and whether a node slips are those of the slave's nodes against the
+/// master's faces.
 struct ContactSide {
-  std::vector<int> nodes;          ///< model node numbers
-  std::vector<double> area;        ///< m2, a quarter of every facet around the node, present geometry
-  std::vector<double> position;    ///< m
-  std::vector<double> velocity;    ///< m/s
-  std::vector<double> normal;      ///< unit outward normal of the surface at the node
-  std::vector<double> normal_force;      ///< N, on this side, vector
-  std::vector<double> tangential_force;  ///< N, on this side, vector
+  std::vector<int> nodes;                  ///< model node numbers
+  std::vector<double> area;                ///< m2, a quarter of every facet around the node, present geometry
+  std::vector<double> position;            ///< m
+  std::vector<double> velocity;            ///< m/s
+  std::vector<double> normal;              ///< unit outward normal of the surface at the node
+  std::vector<double> normal_force;        ///< N, on this side, vector
+  std::vector<double> tangential_force;    ///< N, on this side, vector
   std::vector<std::array<int, 4>> facets;  ///< positions in `nodes`, turned outwards
 };
 struct ContactState {
   std::string name;
-  double friction = 0;                 ///< coefficient; at rest, where it falls with speed
-  std::vector<double> friction_now;    ///< that which acts at each slave node, `friction` where it does not touch; empty where constant
+  double friction = 0;  ///< coefficient; at rest, where it falls with speed
+  std::vector<double>
+      friction_now;  ///< that which acts at each slave node, `friction` where it does not touch; empty where constant
   ContactSide slave;
   ContactSide master;
-  std::vector<double> gap;             ///< m, of each slave node; negative: penetration; NaN where far from the master
-  std::vector<double> slip_velocity;   ///< m/s, slave relative to master in the tangent plane at the contact point, 3 each
-  std::vector<int> slipping;           ///< of each slave node: 0 no contact, 1 sticks, 2 slips
+  std::vector<double> gap;  ///< m, of each slave node; negative: penetration; NaN where far from the master
+  std::vector<double>
+      slip_velocity;          ///< m/s, slave relative to master in the tangent plane at the contact point, 3 each
+  std::vector<int> slipping;  ///< of each slave node: 0 no contact, 1 sticks, 2 slips
 
   /// The coefficient that bounds a slave node's tangential force.
-  double friction_at(std::size_t slave_node) const { return friction_now.empty() ? friction : friction_now[slave_node]; }
+  double friction_at(std::size_t slave_node) const {
+    return friction_now.empty() ? friction : friction_now[slave_node];
+  }
 };
 ContactState contact_state(const Model& model, int contact);
 

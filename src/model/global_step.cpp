@@ -6,8 +6,8 @@
 
 #include "kernels/reductions.hpp"
 #include "kernels/tie.hpp"
-#include "model/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
+#include "model/hourglass_scale.hpp"
 #include "model/lanczos.hpp"
 #include "model/stable_step.hpp"
 #include "model/tangent_springs.hpp"
@@ -70,9 +70,7 @@ GlobalEstimate::GlobalEstimate(const Model& model) : tangent_(model.assembly) {
   displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
 }
 
-std::size_t GlobalEstimate::bytes() const {
-  return tangent_.bytes() + 4 * now_.span() * sizeof(double);
-}
+std::size_t GlobalEstimate::bytes() const { return tangent_.bytes() + 4 * now_.span() * sizeof(double); }
 
 void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep& result) {
   SpringCollector collector(model);
@@ -96,29 +94,35 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
   Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
   const TieArrays& ties = model.ties.arrays;
   if (ties.active())
-    Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count), TieMotion{ties, model.nodes.position, displacement_});
+    Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count),
+                         TieMotion{ties, model.nodes.position, displacement_});
   const double speed = largest_initial_speed(model.scene);
   std::vector<ElementStiffness> stiffness;
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
     const scene::Part& part = model.scene.parts[p];
     const scene::Material& material = model.scene.materials[model.assembly.parts[p].material];
     const bool viscous = part.hourglass == scene::HourglassType::viscous;
-    const double factor = hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
+    const double factor =
+        hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
     const double mu = material.shear_modulus(), damped = 1 + part.stiffness_damping * inverse_time;
-    const double bulk = (part.linear_bulk_viscosity * material.dilatational_speed() + part.quadratic_bulk_viscosity * speed) *
-                        material.density * inverse_time;
+    const double bulk =
+        (part.linear_bulk_viscosity * material.dilatational_speed() + part.quadratic_bulk_viscosity * speed) *
+        material.density * inverse_time;
     stiffness.push_back({damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk});
   }
   tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
   if (ties.active()) {
-    Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model.nodes.position, image_});
-    Kokkos::parallel_for("tangent_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_nodes, image_});
+    Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count),
+                         TieMotionForce{ties, model.nodes.position, image_});
+    Kokkos::parallel_for("tangent_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
+                         TieGather{ties, ties.master_nodes, image_});
   }
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});
 }
 
-double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough, GlobalStep& result) {
+double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough,
+                                          GlobalStep& result) {
   const int nodes = static_cast<int>(model.assembly.nodes.size());
   Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
@@ -173,14 +177,16 @@ GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_
   bool damped = false;
   double mass_rate = 0;  // counted as if all nodes had the largest
   for (const scene::Part& part : model.scene.parts) {
-    damped = damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
+    damped =
+        damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
     mass_rate = std::fmax(mass_rate, part.mass_damping);
   }
   for (const AbsorbingLayers::Zone& zone : model.absorbing.zones) {
     damped = true;
     mass_rate = std::fmax(mass_rate, zone.rate);
   }
-  for (const scene::Connector& connector : model.scene.connectors) damped = damped || connector.damping != Vec3{0, 0, 0};
+  for (const scene::Connector& connector : model.scene.connectors)
+    damped = damped || connector.damping != Vec3{0, 0, 0};
   for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
   const double enough = at_most_guess ? 4 / (guess * guess) : 0;
   if (!damped) {
@@ -188,14 +194,16 @@ GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_
     if (eigenvalue > enough) result.step = 2 / std::sqrt(eigenvalue);
     return result;
   }
-  // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the answer
-  // and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the short side.
+  // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the
+  // answer and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the
+  // short side.
   constexpr int most_passes = 8;
   double step = guess;
   for (int k = 0; k < most_passes; ++k) {
     const bool first = k == 0;
-    const double eigenvalue = mass_rate * 2 / step + largest_eigenvalue(model, 2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
-                                                                        first ? enough - mass_rate * 2 / step : 0, result);
+    const double eigenvalue =
+        mass_rate * 2 / step + largest_eigenvalue(model, 2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
+                                                  first ? enough - mass_rate * 2 / step : 0, result);
     if (!(eigenvalue > 0) || (first && eigenvalue <= enough)) break;
     result.step = 2 / std::sqrt(eigenvalue);
     if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;

@@ -8,9 +8,12 @@ namespace railwave {
 template <class Work>
 void with_material(const ElementGroup& group, const Work& work) {
   const PlasticArrays& plastic = group.plastic;
-  if (plastic.kinematic()) work(KinematicBilinear{{plastic.constants, plastic.history}, plastic.isotropic_share, plastic.back_stress});
-  else if (plastic.active()) work(Bilinear{plastic.constants, plastic.history});
-  else work(Elastic{group.constants});
+  if (plastic.kinematic())
+    work(KinematicBilinear{{plastic.constants, plastic.history}, plastic.isotropic_share, plastic.back_stress});
+  else if (plastic.active())
+    work(Bilinear{plastic.constants, plastic.history});
+  else
+    work(Elastic{group.constants});
 }
 
 }  // namespace railwave

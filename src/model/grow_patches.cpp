@@ -10,8 +10,9 @@
 namespace railwave {
 namespace {
 
-/// What an element's freedom and distance weigh against a node that it shares with the patch. Of the values tried (freedom
-/// 0 to 0.15, distance 0.05 to 1) these left the fewest patches of the rolling scene, with 50 thousand elements and a million.
+/// What an element's freedom and distance weigh against a node that it shares with the patch. Of the values tried
+/// (freedom 0 to 0.15, distance 0.05 to 1) these left the fewest patches of the rolling scene, with 50 thousand
+/// elements and a million.
 constexpr double freedom_weight = 0.06, distance_weight = 0.2;
 
 constexpr int no_patch = -1, not_asked_for = -2;
@@ -57,8 +58,10 @@ class Grower {
         edge.erase(edge.begin());
         if (patch_[e] != no_patch) continue;
         const int now = freedom(e);
-        if (now == freedom_before) seed = e;
-        else edge.insert({now, e});
+        if (now == freedom_before)
+          seed = e;
+        else
+          edge.insert({now, e});
       }
       if (seed < 0) seed = *(next = std::find_if(next, all.end(), [&](int e) { return patch_[e] == no_patch; }));
       first.push_back(place);
@@ -79,7 +82,8 @@ class Grower {
 
   double size(int e) const {
     const Vec3 &a = assembly_.nodes[assembly_.elements[e][0]], &b = assembly_.nodes[assembly_.elements[e][6]];
-    return std::sqrt(((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) + (b[2] - a[2]) * (b[2] - a[2])) / 3);
+    return std::sqrt(((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1]) + (b[2] - a[2]) * (b[2] - a[2])) /
+                     3);
   }
 
   std::vector<int> grow(int seed, int number) {
@@ -145,7 +149,7 @@ class Grower {
   std::vector<int> patch_;                  ///< of each element
   std::vector<int> shared_;                 ///< nodes of a considered element that are the growing patch's
   std::vector<int> considered_by_, considered_;
-  std::vector<int> staged_by_;              ///< last patch that took a node
+  std::vector<int> staged_by_;  ///< last patch that took a node
   int node_count_ = 0;
 };
 

@@ -8,12 +8,15 @@
 namespace railwave {
 namespace {
 
-/// Splits a part's elements into compact patches by halving: across the direction in which the group counts most elements,
-/// between two layers of elements where that leaves both halves room in their patches.
+/// Splits a part's elements into compact patches by halving: across the direction in which the group counts most
+/// elements, between two layers of elements where that leaves both halves room in their patches.
 class Divider {
  public:
   Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
-      : assembly_(assembly), centre_(assembly.elements.size()), extent_(assembly.elements.size()), seen_(assembly.nodes.size(), -1) {
+      : assembly_(assembly),
+        centre_(assembly.elements.size()),
+        extent_(assembly.elements.size()),
+        seen_(assembly.nodes.size(), -1) {
     for (int k = begin; k < end; ++k) {
       const int e = elements[k];
       Vec3 low = assembly.nodes[assembly.elements[e][0]], high = low;
@@ -110,7 +113,8 @@ class Divider {
 
 }  // namespace
 
-void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                        std::vector<int>& first) {
   if (end > begin) Divider(assembly, elements, begin, end).divide(elements, begin, end, first);
 }
 

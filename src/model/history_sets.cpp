@@ -39,8 +39,9 @@ AskedProbe probe_of(const scene::Scene& scene, const std::string& part, const st
 
 bool yields(const scene::Scene& scene, const Assembly& assembly, const std::vector<int>& elements) {
   return std::any_of(assembly.parts.begin(), assembly.parts.end(), [&](const Assembly::PartRange& part) {
-    return scene.materials[part.material].yield_stress &&
-           std::any_of(elements.begin(), elements.end(), [&](int e) { return e >= part.first_element && e < part.first_element + part.element_count; });
+    return scene.materials[part.material].yield_stress && std::any_of(elements.begin(), elements.end(), [&](int e) {
+             return e >= part.first_element && e < part.first_element + part.element_count;
+           });
   });
 }
 
@@ -68,7 +69,9 @@ HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const st
   if (const auto* hammer = named(scene.hammers, own); hammer && hammer->part == part) set.asked_by = "hammer " + own;
   if (const AskedProbe asked = probe_of(scene, part, own); asked.probe) {
     const auto& wanted = asked.probe->quantities;
-    const auto has = [&](const char* quantity) { return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end(); };
+    const auto has = [&](const char* quantity) {
+      return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
+    };
     set.asked_by = "probe " + asked.probe->name;
     set.asked_position = asked.position;
     set.displacement = has_nodes && has("displacement");

@@ -10,9 +10,9 @@ namespace railwave {
 
 /// Means over a set's elements by undeformed volume.
 struct ElementMeans {
-  std::array<double, 6> stress{};   ///< Pa, Cauchy: xx, yy, zz, xy, yz, zx
-  std::array<double, 6> strain{};   ///< logarithmic strain ln V, likewise (tensor components)
-  double plastic_strain = 0;        ///< equivalent
+  std::array<double, 6> stress{};  ///< Pa, Cauchy: xx, yy, zz, xy, yz, zx
+  std::array<double, 6> strain{};  ///< logarithmic strain ln V, likewise (tensor components)
+  double plastic_strain = 0;       ///< equivalent
 };
 
 /// One of scene.output.history_sets, and what its history holds.
@@ -20,18 +20,19 @@ struct HistorySet {
   std::string name;
   bool displacement = false, velocity = false, acceleration = false;  ///< means by mass of its nodes
   bool stress = false, strain = false, plastic_strain = false;        ///< means by volume of its elements
-  std::string asked_by;         ///< "hammer NAME" or "probe NAME", where one of these made the set
-  std::vector<int> elements;    ///< ascending; empty unless one of stress, strain, plastic_strain
-  Vec3 element_centre{};        ///< m, undeformed, mean of their centres by volume
-  Vec3 asked_position{};        ///< m, of a probe: as the case has it
+  std::string asked_by;       ///< "hammer NAME" or "probe NAME", where one of these made the set
+  std::vector<int> elements;  ///< ascending; empty unless one of stress, strain, plastic_strain
+  Vec3 element_centre{};      ///< m, undeformed, mean of their centres by volume
+  Vec3 asked_position{};      ///< m, of a probe: as the case has it
   bool of_probe() const { return asked_by.compare(0, 6, "probe ") == 0; }
   bool motion() const { return displacement || velocity || acceleration; }
   bool inside() const { return stress || strain || plastic_strain; }
 };
 
-/// What each of scene.output.history_sets means, in their order: a node set or point mass has its motion written, an element set stress
-/// and strain, and plastic strain where a material of its elements yields; a name that is both has all of it; a probe what it asks for.
-/// Throws InputError for a name that is no node or element set, with the nearest that is.
+/// What each of scene.output.history_sets means, in their order: a node set or point mass has its motion written, an
+/// element set stress and strain, and plastic strain where a material of its elements yields; a name that is both has
+/// all of it; a probe what it asks for. Throws InputError for a name that is no node or element set, with the nearest
+/// that is.
 std::vector<HistorySet> resolve_history_sets(const scene::Scene& scene, const Assembly& assembly);
 
 /// Undeformed volume of each of the elements over that of all.

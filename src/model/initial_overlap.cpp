@@ -19,11 +19,14 @@ namespace {
 
 /// Of the size of a face. What is less is rounding, or facets that stand for curves.
 constexpr double noticed = 1e-5;
-/// The same: springs as stiff as the elements under them press with about a hundredth of Young's modulus then, beyond what steel bears.
+/// The same: springs as stiff as the elements under them press with about a hundredth of Young's modulus then, beyond
+/// what steel bears.
 constexpr double deep_share = 0.01;
-/// The same where the scene settles first: statics shares it among the bodies, and Hertz cases of this repository begin with 0.104.
+/// The same where the scene settles first: statics shares it among the bodies, and Hertz cases of this repository begin
+/// with 0.104.
 constexpr double deep_share_settled = 0.25;
-/// Cosine of the angle between the way to a face and its normal: what lies farther beside it is under another surface of the body.
+/// Cosine of the angle between the way to a face and its normal: what lies farther beside it is under another surface
+/// of the body.
 constexpr double beside = 0.7;
 /// Natural coordinates by which rounding may put a node outside both elements on whose common side it lies.
 constexpr double on_a_side = 1e-9;
@@ -56,8 +59,11 @@ class NearestFace {
   Found find(const Vec3& place) const {
     Found best;
     const auto middle = std::lower_bound(order_.begin(), order_.end(), std::pair<double, int>{place[0], 0});
-    for (auto up = middle; up != order_.end() && up->first - place[0] - reach_ < best.distance; ++up) look(place, up->second, best);
-    for (auto down = middle; down != order_.begin() && place[0] - std::prev(down)->first - reach_ < best.distance; --down) look(place, std::prev(down)->second, best);
+    for (auto up = middle; up != order_.end() && up->first - place[0] - reach_ < best.distance; ++up)
+      look(place, up->second, best);
+    for (auto down = middle; down != order_.begin() && place[0] - std::prev(down)->first - reach_ < best.distance;
+         --down)
+      look(place, std::prev(down)->second, best);
     return best;
   }
 
@@ -78,7 +84,8 @@ class NearestFace {
   double reach_ = 0;                           ///< m, half the longest face along x
 };
 
-/// How much of a small ball around a place lies in an element, were its corners square: all inside, half at a face, a quarter at an edge.
+/// How much of a small ball around a place lies in an element, were its corners square: all inside, half at a face, a
+/// quarter at an edge.
 double share_in(const Vec3& natural) {
   double share = 1;
   for (double c : natural) {
@@ -88,8 +95,10 @@ double share_in(const Vec3& natural) {
   return share;
 }
 
-/// Nodes within elements of that part, ascending; not those of which they are corners, nor those on the part's outer faces.
-std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& nodes, const Assembly::PartRange& part) {
+/// Nodes within elements of that part, ascending; not those of which they are corners, nor those on the part's outer
+/// faces.
+std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& nodes,
+                              const Assembly::PartRange& part) {
   Bounds where = no_bounds;
   for (int n : nodes) widen(where, assembly.nodes[n]);
   const NodeGrid grid(assembly, nodes, where);
@@ -103,7 +112,9 @@ std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& 
     if (apart) continue;
     grid.within(bounds, [&](int n) {
       if (std::find(corners.begin(), corners.end(), n) != corners.end()) return;
-      if (const double here = share_in(natural_coordinates(corners_of(assembly.nodes, corners), assembly.nodes[n])); here > 0) share[n] += here;
+      if (const double here = share_in(natural_coordinates(corners_of(assembly.nodes, corners), assembly.nodes[n]));
+          here > 0)
+        share[n] += here;
     });
   }
   std::vector<int> inside;
@@ -135,7 +146,8 @@ double size_of(const Assembly& assembly, const std::array<int, 4>& c) {
 
 bool is_deep(const Model& model, const InitialOverlap& overlap) {
   if (overlap.share > (model.scene.settle.active ? deep_share_settled : deep_share)) return true;
-  return overlap.contact->algorithm == scene::ContactAlgorithm::multiplier && !model.scene.settle.active && overlap.depth > thrown * model.step_size;
+  return overlap.contact->algorithm == scene::ContactAlgorithm::multiplier && !model.scene.settle.active &&
+         overlap.depth > thrown * model.step_size;
 }
 
 /// A pair's slave nodes in its master's bodies.
@@ -186,23 +198,34 @@ std::vector<InitialOverlap> initial_overlaps(const Model& model) {
 std::string mend_of(const InitialOverlap& overlap) {
   const scene::Contact& contact = *overlap.contact;
   const std::string part = part_of_name(contact.slave);
-  const Vec3 shift = {overlap.depth * overlap.outwards[0], overlap.depth * overlap.outwards[1], overlap.depth * overlap.outwards[2]};
-  const double up = 1.0 / std::max({std::fabs(overlap.outwards[0]), std::fabs(overlap.outwards[1]), std::fabs(overlap.outwards[2])});
+  const Vec3 shift = {overlap.depth * overlap.outwards[0], overlap.depth * overlap.outwards[1],
+                      overlap.depth * overlap.outwards[2]};
+  const double up =
+      1.0 / std::max({std::fabs(overlap.outwards[0]), std::fabs(overlap.outwards[1]), std::fabs(overlap.outwards[2])});
   const auto rounded = [&](double component) { return std::round(1e3 * -up * component) / 1e3 + 0.0; };
-  return fmt::format("shift parts.{}.position by [{:.4g}, {:.4g}, {:.4g}] m, or place it farther off and give contacts.{}.close_gap = [{:g}, {:g}, {:g}]; where pressing in is "
-                     "meant, bring it in by a [prescribed_motion] or a load with a curve that rises from 0",
-                     part, shift[0], shift[1], shift[2], contact.name, rounded(overlap.outwards[0]), rounded(overlap.outwards[1]), rounded(overlap.outwards[2]));
+  return fmt::format(
+      "shift parts.{}.position by [{:.4g}, {:.4g}, {:.4g}] m, or place it farther off and give contacts.{}.close_gap = "
+      "[{:g}, {:g}, {:g}]; where pressing in is "
+      "meant, bring it in by a [prescribed_motion] or a load with a curve that rises from 0",
+      part, shift[0], shift[1], shift[2], contact.name, rounded(overlap.outwards[0]), rounded(overlap.outwards[1]),
+      rounded(overlap.outwards[2]));
 }
 
 std::string describe(const Model& model, const InitialOverlap& overlap) {
   const scene::Contact& contact = *overlap.contact;
   const Vec3& x = overlap.place;
-  const std::string what = fmt::format("[contacts.{}] (line {}): {} node{} of '{}' lie{} inside the body of '{}' when the run begins, the deepest {:.4g} m ({:.3g} of the size of a face there) at "
-                                       "({:.6g}, {:.6g}, {:.6g}) m",
-                                       contact.name, contact.line, overlap.nodes, overlap.nodes == 1 ? "" : "s", contact.slave, overlap.nodes == 1 ? "s" : "", contact.master.text(),
-                                       overlap.depth, overlap.share, x[0], x[1], x[2]);
-  if (overlap.deep) return fmt::format("{}: more than a contact can push apart without a blow; {}", what, mend_of(overlap));
-  return fmt::format("{}: {}", what, model.scene.settle.active ? "settling pushes them apart" : "its forces push them apart in the first steps, and both bodies ring a little");
+  const std::string what = fmt::format(
+      "[contacts.{}] (line {}): {} node{} of '{}' lie{} inside the body of '{}' when the run begins, the deepest "
+      "{:.4g} m ({:.3g} of the size of a face there) at "
+      "({:.6g}, {:.6g}, {:.6g}) m",
+      contact.name, contact.line, overlap.nodes, overlap.nodes == 1 ? "" : "s", contact.slave,
+      overlap.nodes == 1 ? "s" : "", contact.master.text(), overlap.depth, overlap.share, x[0], x[1], x[2]);
+  if (overlap.deep)
+    return fmt::format("{}: more than a contact can push apart without a blow; {}", what, mend_of(overlap));
+  return fmt::format("{}: {}", what,
+                     model.scene.settle.active
+                         ? "settling pushes them apart"
+                         : "its forces push them apart in the first steps, and both bodies ring a little");
 }
 
 }  // namespace railwave

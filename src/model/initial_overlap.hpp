@@ -10,12 +10,12 @@ namespace railwave {
 /// A contact whose surfaces cut into each other where the scene is laid out, after close_gap.
 struct InitialOverlap {
   const scene::Contact* contact = nullptr;
-  int nodes = 0;         ///< of the slave inside the master's body
-  double depth = 0;      ///< m, the largest distance of such a node to the master's surface
-  double share = 0;      ///< of the size of the master's face there, the root of its area
-  Vec3 place{0, 0, 0};   ///< m, of the deepest node
+  int nodes = 0;           ///< of the slave inside the master's body
+  double depth = 0;        ///< m, the largest distance of such a node to the master's surface
+  double share = 0;        ///< of the size of the master's face there, the root of its area
+  Vec3 place{0, 0, 0};     ///< m, of the deepest node
   Vec3 outwards{0, 0, 0};  ///< from it to the surface, of length 1: that way by `depth` the slave's part has to go
-  bool deep = false;     ///< more than its springs, or settling, take up without a blow
+  bool deep = false;       ///< more than its springs, or settling, take up without a blow
 };
 
 /// Overlaps beyond rounding (a hundred-thousandth of a face's size), the scene's contacts in order.

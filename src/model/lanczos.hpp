@@ -6,8 +6,8 @@ namespace railwave {
 
 /// The largest eigenvalue of the tridiagonal matrix that Lanczos' recurrence has made of a symmetric operator so far.
 struct RitzValue {
-  double value = 0;      ///< at most the operator's largest eigenvalue
-  double residual = 0;   ///< an eigenvalue of the operator lies within this of `value`
+  double value = 0;     ///< at most the operator's largest eigenvalue
+  double residual = 0;  ///< an eigenvalue of the operator lies within this of `value`
 };
 
 /// @param diagonal alpha_1 ... alpha_m

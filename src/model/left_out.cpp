@@ -19,14 +19,17 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   note(any_plastic && any_elastic, "plasticity of the elastic parts: they have no yield test and no history");
   note(any_plastic && !any_kinematic, "back stress: hardening is isotropic everywhere");
   const scene::Precision precision = scene.solver.precision;
-  note(precision == scene::Precision::mixed, "double precision of the elements: they are computed in single, nodes move in double");
+  note(precision == scene::Precision::mixed,
+       "double precision of the elements: they are computed in single, nodes move in double");
   note(precision == scene::Precision::single_precision,
-       "double precision of elements and nodes: nodes are kept in single as what their part's rigid motion at the start leaves "
+       "double precision of elements and nodes: nodes are kept in single as what their part's rigid motion at the "
+       "start leaves "
        "of their motion; contact, loads, constraints, settling and the account are in double");
   bool any_damped = false, any_undamped = false;
   for (const auto& part : scene.parts) (part.damped() ? any_damped : any_undamped) = true;
   note(!any_damped && scene.absorbing_layers.empty(), "damping of parts");
-  note((any_damped || !scene.absorbing_layers.empty()) && any_undamped, "damping of the other parts: their nodes and elements know nothing of it");
+  note((any_damped || !scene.absorbing_layers.empty()) && any_undamped,
+       "damping of the other parts: their nodes and elements know nothing of it");
   note(scene.contacts.empty(), "contact: the scene has none");
   bool any_frictionless = false;
   for (const auto& contact : scene.contacts) any_frictionless = any_frictionless || contact.friction == 0;

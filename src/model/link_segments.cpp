@@ -16,7 +16,8 @@ namespace {
 constexpr double sharp_fold = 0.5;
 /// Cosine of the angle up to which two lips are of one surface: 30 degrees.
 constexpr double one_surface = 0.866;
-/// Lips may overlap by this share of the widest mouth: the two sides of a closed crack are not quite where they were meshed.
+/// Lips may overlap by this share of the widest mouth: the two sides of a closed crack are not quite where they were
+/// meshed.
 constexpr double overlap = 0.05;
 
 Vec3 unit(const Vec3& v) { return scaled(1 / length(v), v); }
@@ -51,13 +52,13 @@ struct Across {
   double distance = 1e300;  ///< m
   const Rim* rim = nullptr;
   double share = 0;
-  Vec3 normal{};            ///< of the surface at the node
+  Vec3 normal{};  ///< of the surface at the node
 };
 
 /// Links segments over mouths.
 /// @return by node of their rims what is across
-std::map<int, Across> link_mouths(const std::vector<Vec3>& nodes, const std::vector<Facet>& facets, std::vector<Rim>& rims, double widest,
-                                  std::vector<Segment>& segments) {
+std::map<int, Across> link_mouths(const std::vector<Vec3>& nodes, const std::vector<Facet>& facets,
+                                  std::vector<Rim>& rims, double widest, std::vector<Segment>& segments) {
   std::map<int, Across> found;
   if (rims.size() < 2) return found;
   // Those that can be near each other are near along the longest axis.
@@ -72,7 +73,8 @@ std::map<int, Across> link_mouths(const std::vector<Vec3>& nodes, const std::vec
   }
   const Vec3 extent = difference(high, low);
   const auto axis = static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
-  std::stable_sort(rims.begin(), rims.end(), [axis](const Rim& a, const Rim& b) { return a.middle[axis] < b.middle[axis]; });
+  std::stable_sort(rims.begin(), rims.end(),
+                   [axis](const Rim& a, const Rim& b) { return a.middle[axis] < b.middle[axis]; });
   const double limit = widest * (1 + 1e-6), window = limit + longest;
   std::size_t begin = 0;
   for (std::size_t r = 0; r < rims.size(); ++r) {
@@ -90,7 +92,8 @@ std::map<int, Across> link_mouths(const std::vector<Vec3>& nodes, const std::vec
       for (int end : rim.ends) {
         const OnRim there(nodes[end], other);
         Across& across_end = found[end];
-        if (length(there.way) < across_end.distance) across_end = {length(there.way), &other, there.share, facets[rim.segment].normal};
+        if (length(there.way) < across_end.distance)
+          across_end = {length(there.way), &other, there.share, facets[rim.segment].normal};
       }
       if (distance > least || (distance == least && across >= 0 && across < other.segment)) continue;
       least = distance;
@@ -140,7 +143,8 @@ std::uint64_t spread(std::uint64_t bits) {
 
 }  // namespace
 
-LinkedSegments link_segments(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& corners, double widest_mouth) {
+LinkedSegments link_segments(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& corners,
+                             double widest_mouth) {
   std::vector<Segment> segments;
   std::vector<Facet> facets;
   std::map<std::array<int, 2>, std::vector<std::array<int, 2>>> sides;  // of two nodes: segment, its side
@@ -161,7 +165,13 @@ LinkedSegments link_segments(const std::vector<Vec3>& nodes, const std::vector<s
     const Vec3 &a = nodes[corners[s][k]], &b = nodes[corners[s][(k + 1) % 4]];
     const Vec3 way = difference(b, a);
     if (!(length(way) > 0)) return;
-    rims.push_back({s, k, {corners[s][k], corners[s][(k + 1) % 4]}, a, way, sum(a, scaled(0.5, way)), unit(cross(way, facets[s].normal))});
+    rims.push_back({s,
+                    k,
+                    {corners[s][k], corners[s][(k + 1) % 4]},
+                    a,
+                    way,
+                    sum(a, scaled(0.5, way)),
+                    unit(cross(way, facets[s].normal))});
   };
   for (const auto& [ends, pair] : sides) {
     // Where more than two segments meet there is no such thing as the neighbour.
@@ -201,7 +211,8 @@ SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::a
   std::vector<std::uint64_t> code;
   for (const Vec3& c : centres) {
     std::uint64_t bits = 0;
-    for (int i = 0; i < 3; ++i) bits |= spread(static_cast<std::uint64_t>((c[i] - low[i]) / extent * ((1 << 21) - 1))) << i;
+    for (int i = 0; i < 3; ++i)
+      bits |= spread(static_cast<std::uint64_t>((c[i] - low[i]) / extent * ((1 << 21) - 1))) << i;
     code.push_back(bits);
   }
   std::vector<int> order(segments.size());

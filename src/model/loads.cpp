@@ -95,9 +95,10 @@ void build_load(Collector& collector, const scene::Load& load) {
   if (load.type == scene::LoadType::torque && is_one_node(collector, load)) {
     arrays.beam_node = beam_node_of(model, find_node_set(model.scene, model.assembly, load, "target", load.target));
     if (arrays.beam_node < 0)
-      throw InputError(fmt::format("{}:{}: [loads.{}] target: '{}' is one node, which has a rotation only where beams end; add a section "
-                                   "[beams.NAME] from there, or name a set of several nodes",
-                                   model.scene.path, load.line, load.name, load.target));
+      throw InputError(fmt::format(
+          "{}:{}: [loads.{}] target: '{}' is one node, which has a rotation only where beams end; add a section "
+          "[beams.NAME] from there, or name a set of several nodes",
+          model.scene.path, load.line, load.name, load.target));
   } else if (load.type == scene::LoadType::torque) {
     arrays.set = collector.set(load, "target", load.target);
     arrays.torque = static_cast<int>(collector.torque_set.size());
@@ -105,8 +106,8 @@ void build_load(Collector& collector, const scene::Load& load) {
     collector.torque_axis.push_back(scaled(1 / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), a));
     collector.torque_set.push_back(arrays.set);
     if (collector.torque_set.size() > TorqueArrays::most)
-      throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", model.scene.path, load.line,
-                                   load.name, TorqueArrays::most));
+      throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", model.scene.path,
+                                   load.line, load.name, TorqueArrays::most));
     for (int n : collector.sets[arrays.set]) collector.contribution_node.push_back(n);
     arrays.count = static_cast<int>(collector.sets[arrays.set].size());
   } else if (load.type == scene::LoadType::pressure) {
@@ -205,8 +206,8 @@ void build_sets(const Collector& collector, int moving) {
   sets.weight = to_device("weight in set", weight);
   sets.first_chunk = to_device("first chunk of set", first_chunk);
   sets.chunks = to_device("chunks of sets", chunks);
-  sets.partial = Array<double* [NodeSets::values]>("sums of chunks", chunks.size());
-  sets.sums = Array<double* [NodeSets::values]>("sums of sets", moving);
+  sets.partial = Array<double * [NodeSets::values]>("sums of chunks", chunks.size());
+  sets.sums = Array<double * [NodeSets::values]>("sums of sets", moving);
 }
 
 void build_torques(const Collector& collector) {
@@ -237,13 +238,14 @@ std::vector<RowShare> contribution_shares(const Collector& collector) {
   return shares;
 }
 
-/// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa on the
-/// segment, whatever the penalty's scale) is the largest that the sum of contact forces must hold.
+/// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa
+/// on the segment, whatever the penalty's scale) is the largest that the sum of contact forces must hold.
 double contact_quantum(const Model& model) {
   double largest = 1e-30;
   for (const ContactPair& pair : model.contacts)
     for (double stiffness : pair.segment_stiffness)
-      largest = std::max(largest, 0.1 * pair.segment_size * pair.growth * stiffness / std::min(1.0, pair.contact->penalty_scale));
+      largest = std::max(
+          largest, 0.1 * pair.segment_size * pair.growth * stiffness / std::min(1.0, pair.contact->penalty_scale));
   return std::exp2(std::ceil(std::log2(largest / ExtraForceSum::largest)));
 }
 
@@ -259,7 +261,8 @@ void build_extra(const Collector& collector) {
   std::vector<char> added(model.assembly.nodes.size(), 0);
   for (const auto* nodes : {&model.ties.masters, &model.ends.nodes})
     for (int n : *nodes) added[n] = 1;
-  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes}) concerned.insert(concerned.end(), nodes->begin(), nodes->end());
+  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes})
+    concerned.insert(concerned.end(), nodes->begin(), nodes->end());
   std::sort(concerned.begin(), concerned.end());
   concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
   const int rows = static_cast<int>(concerned.size());
@@ -271,14 +274,16 @@ void build_extra(const Collector& collector) {
   for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
   for (ContactPair& pair : model.contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes) pair.loaded = pair.loaded || added[n] != 0 || first[row_of_node[n]] < first[row_of_node[n] + 1];
+      for (int n : *nodes)
+        pair.loaded = pair.loaded || added[n] != 0 || first[row_of_node[n]] < first[row_of_node[n] + 1];
   std::vector<int> filled(first.begin(), first.end() - 1);
   std::vector<RowShare> sorted(collector.contribution_node.size());
   for (const RowShare& share : contribution_shares(collector))
     sorted[filled[row_of_node[collector.contribution_node[share.contribution]]]++] = share;
   std::vector<LoadedRow> loaded;
   for (int r = 0; r < rows; ++r)
-    if (first[r + 1] > first[r] || added[concerned[r]] != 0) loaded.push_back({r, concerned[r], first[r], first[r + 1]});
+    if (first[r + 1] > first[r] || added[concerned[r]] != 0)
+      loaded.push_back({r, concerned[r], first[r], first[r + 1]});
 
   ExtraForces& extra = model.extra;
   extra.row_count = rows;

@@ -23,7 +23,8 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   expect_model_room(model.assembly);
   Activity laying("ordering the elements");
   check_elements(model);
-  model.order = order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
+  model.order =
+      order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   model.absorbing = absorbing_layers(scene, model.assembly);
   build_elements(model);
   build_beams(model);
@@ -119,36 +120,38 @@ std::size_t bytes(const Views&... views) {
 std::size_t device_bytes(const Model& model) {
   const NodeArrays& n = model.nodes;
   const ExtraForces& x = model.extra;
-  std::size_t total = bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
-                            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes, model.subcycling.paces.level,
-                            x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
-                            x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight,
-                            model.sets.first_chunk, model.sets.chunks, model.sets.partial, model.sets.sums) +
-                      beam_bytes(model) + element_history_bytes(model) + model.reduction_space->bytes();
+  std::size_t total =
+      bytes(n.reference, n.position, n.velocity, n.mass, n.first_partial, n.partial_place, n.extra, n.constraint,
+            model.constraints, model.partial.wide, model.partial.narrow, model.listed_nodes,
+            model.subcycling.paces.level, x.sum.load, x.sum.contact, x.loaded, x.shares, x.contribution,
+            x.contribution_node, x.work, model.sets.first, model.sets.nodes, model.sets.weight, model.sets.first_chunk,
+            model.sets.chunks, model.sets.partial, model.sets.sums) +
+      beam_bytes(model) + element_history_bytes(model) + model.reduction_space->bytes();
   for (const ElementGroup& group : model.elements) {
     const PatchArrays& p = group.patches;
-    total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place, p.place,
-                   p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.patch_energy, group.constants,
-                   group.plastic.constants, group.plastic.history, group.plastic.volume, group.plastic.isotropic_share,
-                   group.plastic.back_stress, group.damping.constants, group.damping.node_drag, group.damping.energy,
-                   group.carried.local, group.carried.arm);
+    total += bytes(p.element_count, p.node_count, p.material, p.node, p.frame_node, p.frame, p.corner, p.first_place,
+                   p.place, p.hourglass_scale, p.settling_hourglass, p.hourglass_energy, group.patch_energy,
+                   group.constants, group.plastic.constants, group.plastic.history, group.plastic.volume,
+                   group.plastic.isotropic_share, group.plastic.back_stress, group.damping.constants,
+                   group.damping.node_drag, group.damping.energy, group.carried.local, group.carried.arm);
   }
   const CarriedNodes& carried = model.carried;
   total += bytes(carried.node, carried.listed_arm, carried.motion, carried.steps);
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& c = pair.arrays;
     total += bytes(c.slave_nodes, c.master_nodes, c.segments, c.first_segment, c.segment_of_node, c.segment_stiffness,
-                   c.surface, c.mouth_corners, c.boxes.order, c.boxes.segment,
-                   c.boxes.leaf, c.boxes.branch, c.boxes.normal, c.tracked, c.place, c.gap, c.entry_depth, c.normal_force, c.tangential_force, c.status, c.friction_energy,
-                   pair.multipliers.rows, pair.multipliers.crowd, pair.multipliers.way_since_stuck, pair.multipliers.impact_energy,
-                   pair.law.growth.points, pair.law.friction_now, pair.law.damping_force, pair.law.damping_energy,
-                   pair.window.entries, pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);
+                   c.surface, c.mouth_corners, c.boxes.order, c.boxes.segment, c.boxes.leaf, c.boxes.branch,
+                   c.boxes.normal, c.tracked, c.place, c.gap, c.entry_depth, c.normal_force, c.tangential_force,
+                   c.status, c.friction_energy, pair.multipliers.rows, pair.multipliers.crowd,
+                   pair.multipliers.way_since_stuck, pair.multipliers.impact_energy, pair.law.growth.points,
+                   pair.law.friction_now, pair.law.damping_force, pair.law.damping_energy, pair.window.entries,
+                   pair.window.near, pair.slaves_at_layout, pair.masters_at_layout);
   }
   for (const PrescribedSet& set : model.prescribed) total += bytes(set.nodes, set.work);
   const NonReflectingArrays& e = model.ends.arrays;
   const TieArrays& t = model.ties.arrays;
-  total += bytes(e.nodes, e.dashpot, e.support, e.start, e.force, e.dissipated, t.places, t.master_nodes, t.master_rows, t.first_share,
-                 t.shares, t.passed_on, t.before, model.ties.carrier);
+  total += bytes(e.nodes, e.dashpot, e.support, e.start, e.force, e.dissipated, t.places, t.master_nodes, t.master_rows,
+                 t.first_share, t.shares, t.passed_on, t.before, model.ties.carrier);
   return total;
 }
 

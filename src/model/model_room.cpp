@@ -29,10 +29,13 @@ bool device_gives(double bytes) {
 void expect_model_room(const Assembly& assembly) {
   const double elements = static_cast<double>(assembly.elements.size());
   const double need = bytes_of_model_element * elements;
-  if (on_host) expect_memory(need, fmt::format("the model's {} elements need", elements), mend);
+  if (on_host)
+    expect_memory(need, fmt::format("the model's {} elements need", elements), mend);
   else if (!device_gives(need))
-    throw InputError(fmt::format("the model's {} elements need about {} of the GPU's memory, which it has not left; {}, or see what else runs there", elements,
-                                 bytes_text(need), mend));
+    throw InputError(
+        fmt::format("the model's {} elements need about {} of the GPU's memory, which it has not left; {}, or see what "
+                    "else runs there",
+                    elements, bytes_text(need), mend));
 }
 
 }  // namespace railwave

@@ -39,11 +39,15 @@ void NearestPoint::search(int begin, int end, int axis, const Vec3& place, doubl
   }
   const double offset = place[axis] - points_[point][axis];
   const int next = (axis + 1) % 3;
-  if (offset < 0) search(begin, middle, next, place, least, nearest);
-  else search(middle + 1, end, next, place, least, nearest);
+  if (offset < 0)
+    search(begin, middle, next, place, least, nearest);
+  else
+    search(middle + 1, end, next, place, least, nearest);
   if (offset * offset > least) return;
-  if (offset < 0) search(middle + 1, end, next, place, least, nearest);
-  else search(begin, middle, next, place, least, nearest);
+  if (offset < 0)
+    search(middle + 1, end, next, place, least, nearest);
+  else
+    search(begin, middle, next, place, least, nearest);
 }
 
 }  // namespace railwave

@@ -76,8 +76,9 @@ void build_node_arrays(Model& model) {
   nodes.count = static_cast<int>(assembly.nodes.size());
   for (int n = 0; n < nodes.count; ++n)
     if (!(model.mass[n] > 0))
-      throw InputError(fmt::format("{}: node at ({:.6g}, {:.6g}, {:.6g}) m belongs to no element and has no mass; remove it from the mesh",
-                                   model.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
+      throw InputError(fmt::format(
+          "{}: node at ({:.6g}, {:.6g}, {:.6g}) m belongs to no element and has no mass; remove it from the mesh",
+          model.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
   nodes.reference = to_device("reference", assembly.nodes);
   nodes.position = unset_array<double* [3]>("position", nodes.count);
   nodes.velocity = unset_array<double* [3]>("velocity", nodes.count);

@@ -32,7 +32,8 @@ inline bool holds(const Bounds& bounds, const Vec3& x) {
 class NodeGrid {
  public:
   /// @param bounds that hold all of them
-  NodeGrid(const Assembly& assembly, const std::vector<int>& nodes, const Bounds& bounds) : assembly_(assembly), low_(bounds[0]) {
+  NodeGrid(const Assembly& assembly, const std::vector<int>& nodes, const Bounds& bounds)
+      : assembly_(assembly), low_(bounds[0]) {
     double volume = 1;
     for (int i = 0; i < 3; ++i) volume *= std::max(bounds[1][i] - bounds[0][i], 1e-12);
     cell_ = std::max(std::cbrt(volume / static_cast<double>(nodes.size())), 1e-9);
@@ -54,7 +55,8 @@ class NodeGrid {
  private:
   std::array<long, 3> cell_of(const Vec3& x) const {
     std::array<long, 3> cell{};
-    for (int i = 0; i < 3; ++i) cell[i] = static_cast<long>(std::clamp(std::floor((x[i] - low_[i]) / cell_), -1.0, 1001.0));
+    for (int i = 0; i < 3; ++i)
+      cell[i] = static_cast<long>(std::clamp(std::floor((x[i] - low_[i]) / cell_), -1.0, 1001.0));
     return cell;
   }
   static long key(const std::array<long, 3>& cell) { return ((cell[0] + 1) * 1024 + cell[1] + 1) * 1024 + cell[2] + 1; }

@@ -30,8 +30,9 @@ void add_face(const Model& model, const Face& face, std::map<int, Matrix>& dashp
   Vec3 n{};
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    n[i] = 0.5 / area * ((x[corner[2]][j] - x[corner[0]][j]) * (x[corner[3]][k] - x[corner[1]][k]) -
-                         (x[corner[2]][k] - x[corner[0]][k]) * (x[corner[3]][j] - x[corner[1]][j]));
+    n[i] = 0.5 / area *
+           ((x[corner[2]][j] - x[corner[0]][j]) * (x[corner[3]][k] - x[corner[1]][k]) -
+            (x[corner[2]][k] - x[corner[0]][k]) * (x[corner[3]][j] - x[corner[1]][j]));
   }
   const scene::Material& material = material_under(model, face);
   const double across = material.shear_speed(), more = material.dilatational_speed() - across;
@@ -54,8 +55,8 @@ void take_out(Matrix& c, const std::vector<Vec3>& held) {
 
 [[noreturn]] void refuse(const Model& model, const scene::NonReflecting& end, int node, const std::string& why) {
   const Vec3& x = model.assembly.nodes[node];
-  throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at ({:.6g}, {:.6g}, {:.6g}) m {}", model.scene.path, end.line, end.name,
-                               x[0], x[1], x[2], why));
+  throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at ({:.6g}, {:.6g}, {:.6g}) m {}",
+                               model.scene.path, end.line, end.name, x[0], x[1], x[2], why));
 }
 
 void check_nodes(const Model& model, const scene::NonReflecting& end, const std::vector<Face>& surface) {
@@ -63,14 +64,19 @@ void check_nodes(const Model& model, const scene::NonReflecting& end, const std:
   for (int n : surface_nodes(model.assembly, surface)) own.insert(n);
   for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
     for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
-      if (own.count(n) != 0) refuse(model, end, n, fmt::format("moves as [prescribed_motion.{}] says; leave it out of one of the two", motion.name));
+      if (own.count(n) != 0)
+        refuse(model, end, n,
+               fmt::format("moves as [prescribed_motion.{}] says; leave it out of one of the two", motion.name));
   for (const ContactPair& pair : model.contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes)
         if (!pair.has_springs() && own.count(n) != 0)
-          refuse(model, end, n, fmt::format("belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee dashpots; set algorithm = "
-                                            "\"penalty\", or end that surface before the end",
-                                            pair.contact->name));
+          refuse(
+              model, end, n,
+              fmt::format(
+                  "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee dashpots; set algorithm = "
+                  "\"penalty\", or end that surface before the end",
+                  pair.contact->name));
 }
 
 }  // namespace
@@ -88,7 +94,8 @@ void build_non_reflecting(Model& model) {
       const auto [known, first] = taken.try_emplace({face.element, face.side}, &end);
       if (!first)
         refuse(model, end, model.assembly.face_nodes(face)[0],
-               fmt::format("is of a face that [non_reflecting.{}] has already; name surfaces without common faces", known->second->name));
+               fmt::format("is of a face that [non_reflecting.{}] has already; name surfaces without common faces",
+                           known->second->name));
       add_face(model, face, dashpots);
     }
   }
@@ -112,7 +119,8 @@ void build_non_reflecting(Model& model) {
 
 void hold_ends(Model& model, const Array<double* [3]>& unbalanced) {
   if (model.ends.arrays.count > 0)
-    Kokkos::parallel_for("hold_ends", Range(0, model.ends.arrays.count), HoldEnds{model.ends.arrays, model.nodes.position, unbalanced});
+    Kokkos::parallel_for("hold_ends", Range(0, model.ends.arrays.count),
+                         HoldEnds{model.ends.arrays, model.nodes.position, unbalanced});
 }
 
 }  // namespace railwave

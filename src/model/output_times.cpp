@@ -20,9 +20,9 @@ constexpr double rounding = 1e-9;
 
 /// An interval of which a whole number makes the run.
 struct Division {
-  long count = 1;        ///< of intervals
-  double interval = 0;   ///< s
-  bool as_asked = false; ///< and not shortened
+  long count = 1;         ///< of intervals
+  double interval = 0;    ///< s
+  bool as_asked = false;  ///< and not shortened
 };
 
 Division divide(double end, double interval) {
@@ -55,7 +55,8 @@ long common_multiple(long a, long b, double most) {
 StepPlan lay_steps(double end, double largest, double history, double fields, long round, bool fixed) {
   const double needed = end / largest;
   const long fewest = up_to_multiple(needed, round);
-  const Division samples = history > 0 ? divide(end, history) : Division{}, outputs = fields > 0 ? divide(end, fields) : Division{1, end, true};
+  const Division samples = history > 0 ? divide(end, history) : Division{},
+                 outputs = fields > 0 ? divide(end, fields) : Division{1, end, true};
   StepPlan plan{fewest, end / static_cast<double>(fewest), {history > 0 ? samples.interval : 0, outputs.interval}};
   if (fixed) return plan;
 
@@ -68,7 +69,8 @@ StepPlan lay_steps(double end, double largest, double history, double fields, lo
     plan.count = count;
     // By the interval as it was asked for, so that a later end has the same steps.
     const Division& by = history > 0 && samples.as_asked ? samples : outputs;
-    plan.size = by.as_asked && count % by.count == 0 ? by.interval / static_cast<double>(count / by.count) : end / static_cast<double>(count);
+    plan.size = by.as_asked && count % by.count == 0 ? by.interval / static_cast<double>(count / by.count)
+                                                     : end / static_cast<double>(count);
     return plan;
   }
   if (history > 0) {
@@ -84,7 +86,8 @@ StepPlan lay_steps(double end, double largest, double history, double fields, lo
 
 void plan_steps(Model& model, long round) {
   const scene::Scene& scene = model.scene;
-  const StepPlan plan = lay_steps(scene.time.end, largest_step(model), scene.output.history_interval, scene.output.field_interval, round, scene.time.step > 0);
+  const StepPlan plan = lay_steps(scene.time.end, largest_step(model), scene.output.history_interval,
+                                  scene.output.field_interval, round, scene.time.step > 0);
   model.step_count = plan.count;
   model.step_size = plan.size;
   model.output_times = plan.times;
@@ -96,8 +99,9 @@ std::vector<std::string> describe_output_times(const Model& model) {
     const long every = whole_rounds(interval, model.step_size, round);
     if (ends_only || every >= model.step_count) return fmt::format("{} at the beginning and the end", what);
     const double apart = static_cast<double>(every) * model.step_size;
-    return fmt::format("{} every {:.6g} s ({} step{}){}", what, apart, every, every == 1 ? "" : "s",
-                       asked > 0 && std::fabs(apart - asked) > 1e-6 * asked ? fmt::format(", asked for: {:.6g} s", asked) : "");
+    return fmt::format(
+        "{} every {:.6g} s ({} step{}){}", what, apart, every, every == 1 ? "" : "s",
+        asked > 0 && std::fabs(apart - asked) > 1e-6 * asked ? fmt::format(", asked for: {:.6g} s", asked) : "");
   };
   const scene::Output& output = model.scene.output;
   return {line("samples of histories", model.output_times.history, output.history_interval, false),

@@ -15,19 +15,21 @@ struct OutputTimes {
 
 /// Steps of a run and its outputs.
 struct StepPlan {
-  long count = 0;      ///< from 0 to the end
-  double size = 0;     ///< s
+  long count = 0;   ///< from 0 to the end
+  double size = 0;  ///< s
   OutputTimes times;
 };
 
-/// Lays steps of equal size from 0 to `end`, none longer than `largest`, so that outputs are evenly spaced from the first to the last.
-/// An interval that does not divide `end` is replaced by the next shorter one that does. Steps are then shortened so that whole
-/// rounds of them make the interval (of both outputs if that can be, else of the histories), if that takes less than a tenth more steps.
-/// Where it would take more, which is so of intervals of a few steps only, the interval becomes the nearest whole number of rounds, and
-/// the run a whole number of these. The size depends on `end` only where the interval does.
+/// Lays steps of equal size from 0 to `end`, none longer than `largest`, so that outputs are evenly spaced from the
+/// first to the last. An interval that does not divide `end` is replaced by the next shorter one that does. Steps are
+/// then shortened so that whole rounds of them make the interval (of both outputs if that can be, else of the
+/// histories), if that takes less than a tenth more steps. Where it would take more, which is so of intervals of a few
+/// steps only, the interval becomes the nearest whole number of rounds, and the run a whole number of these. The size
+/// depends on `end` only where the interval does.
 /// @param history, fields s, asked for; 0: every round; only at the beginning and the end
 /// @param round steps between two instants at which all is in phase
-/// @param fixed the step was asked for: no longer made for the sake of outputs than by what the end needs; outputs come at the nearest rounds
+/// @param fixed the step was asked for: no longer made for the sake of outputs than by what the end needs; outputs come
+/// at the nearest rounds
 StepPlan lay_steps(double end, double largest, double history, double fields, long round, bool fixed);
 
 /// The same for a model: sets step_size, step_count and output_times.

@@ -28,7 +28,8 @@ Bounds common(const Bounds& a, const Bounds& b) {
 
 /// Whether the element's own coordinates of a place are well inside it, by Newton's method on the trilinear map.
 bool well_inside(const Assembly& assembly, const std::array<int, 8>& element, const Vec3& x) {
-  constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   Vec3 local{0, 0, 0};
   for (int iteration = 0; iteration < 12; ++iteration) {
     Vec3 off = x, column[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -38,12 +39,14 @@ bool well_inside(const Assembly& assembly, const std::array<int, 8>& element, co
       const Vec3& corner = assembly.nodes[element[c]];
       for (int i = 0; i < 3; ++i) {
         off[i] -= factor[0] * factor[1] * factor[2] * corner[i];
-        for (int k = 0; k < 3; ++k) column[k][i] += 0.5 * sign[c][k] * factor[(k + 1) % 3] * factor[(k + 2) % 3] * corner[i];
+        for (int k = 0; k < 3; ++k)
+          column[k][i] += 0.5 * sign[c][k] * factor[(k + 1) % 3] * factor[(k + 2) % 3] * corner[i];
       }
     }
     const double determinant = dot(column[0], cross(column[1], column[2]));
     if (!(std::fabs(determinant) > 0)) return false;
-    const Vec3 step = {dot(off, cross(column[1], column[2])) / determinant, dot(off, cross(column[2], column[0])) / determinant,
+    const Vec3 step = {dot(off, cross(column[1], column[2])) / determinant,
+                       dot(off, cross(column[2], column[0])) / determinant,
                        dot(off, cross(column[0], column[1])) / determinant};
     double size = 0;
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +59,8 @@ bool well_inside(const Assembly& assembly, const std::array<int, 8>& element, co
   return false;
 }
 
-void count_inside(const Assembly& assembly, const Assembly::PartRange& part, const Assembly::PartRange& around, const Bounds& where, PartOverlap& overlap) {
+void count_inside(const Assembly& assembly, const Assembly::PartRange& part, const Assembly::PartRange& around,
+                  const Bounds& where, PartOverlap& overlap) {
   std::vector<int> nodes;
   for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
     if (holds(where, assembly.nodes[n])) nodes.push_back(n);
@@ -81,7 +85,8 @@ void count_inside(const Assembly& assembly, const Assembly::PartRange& part, con
 bool same_nodes(const Assembly& assembly, const Assembly::PartRange& a, const Assembly::PartRange& b, double size) {
   if (a.node_count != b.node_count) return false;
   for (int k = 0; k < a.node_count; ++k)
-    if (length(difference(assembly.nodes[a.first_node + k], assembly.nodes[b.first_node + k])) > 1e-6 * size) return false;
+    if (length(difference(assembly.nodes[a.first_node + k], assembly.nodes[b.first_node + k])) > 1e-6 * size)
+      return false;
   return true;
 }
 
@@ -99,9 +104,11 @@ std::vector<PartOverlap> part_overlaps(const Assembly& assembly) {
       PartOverlap overlap{i, j};
       overlap.coincident = same_nodes(assembly, first, second, length(difference(bounds[j][1], bounds[j][0])));
       const bool first_is_smaller = first.node_count < second.node_count;
-      if (!overlap.coincident) count_inside(assembly, first_is_smaller ? first : second, first_is_smaller ? second : first, both, overlap);
+      if (!overlap.coincident)
+        count_inside(assembly, first_is_smaller ? first : second, first_is_smaller ? second : first, both, overlap);
       // A coarse part may have no node inside a fine one that sticks in it.
-      if (!overlap.coincident && overlap.inside == 0) count_inside(assembly, first_is_smaller ? second : first, first_is_smaller ? first : second, both, overlap);
+      if (!overlap.coincident && overlap.inside == 0)
+        count_inside(assembly, first_is_smaller ? second : first, first_is_smaller ? first : second, both, overlap);
       if (overlap.coincident || overlap.inside > 0) found.push_back(overlap);
     }
   return found;

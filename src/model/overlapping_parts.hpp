@@ -15,8 +15,9 @@ struct PartOverlap {
   bool coincident = false;            ///< the parts have the same nodes, within a millionth of their size
 };
 
-/// Pairs of parts that overlap, undeformed, after close_gap. A node counts as inside an element only nine tenths of its half edges from its
-/// middle, so that surfaces that touch, or that curved meshes let cut a little into each other, do not count.
+/// Pairs of parts that overlap, undeformed, after close_gap. A node counts as inside an element only nine tenths of its
+/// half edges from its middle, so that surfaces that touch, or that curved meshes let cut a little into each other, do
+/// not count.
 std::vector<PartOverlap> part_overlaps(const Assembly& assembly);
 
 }  // namespace railwave

@@ -8,10 +8,12 @@
 namespace railwave {
 namespace {
 
-/// A few patches less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 % slower.
+/// A few patches less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 %
+/// slower.
 constexpr double worthwhile_share = 0.95;
 
-void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                         std::vector<int>& first) {
   std::vector<int> grown = elements, first_grown = first;
   halve_into_patches(assembly, elements, begin, end, first);
   // Full ones all of them: growing cannot do better, and takes a second for a million elements.
@@ -93,7 +95,8 @@ PatchOrder order_in_patches(Assembly& assembly, const std::vector<int>& levels) 
     for (auto same = begin; same != end;) {
       const int level = level_of(*same);
       const auto next = std::find_if(same, end, [&](int e) { return level_of(e) != level; });
-      divide_into_patches(assembly, elements, static_cast<int>(same - elements.begin()), static_cast<int>(next - elements.begin()), first);
+      divide_into_patches(assembly, elements, static_cast<int>(same - elements.begin()),
+                          static_cast<int>(next - elements.begin()), first);
       order.level.resize(first.size(), level);
       same = next;
     }

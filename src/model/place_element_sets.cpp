@@ -77,17 +77,20 @@ Found find_element(const Assembly& assembly, const std::vector<int>& candidates,
 std::vector<int> candidates_of(const scene::Scene& scene, const Assembly& assembly, const scene::ElementSet& set) {
   if (set.surface.empty()) return assembly.element_sets.at(set.part);
   std::vector<int> elements;
-  for (const Face& face : find_surface(scene, assembly, set, "surface", set.part + "." + set.surface)) elements.push_back(face.element);
+  for (const Face& face : find_surface(scene, assembly, set, "surface", set.part + "." + set.surface))
+    elements.push_back(face.element);
   std::sort(elements.begin(), elements.end());
   elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
   return elements;
 }
 
 bool made_by_probe(const scene::Scene& scene, const scene::ElementSet& set) {
-  return std::any_of(scene.probes.begin(), scene.probes.end(), [&](const scene::Probe& probe) { return probe.part == set.part && probe.line == set.line; });
+  return std::any_of(scene.probes.begin(), scene.probes.end(),
+                     [&](const scene::Probe& probe) { return probe.part == set.part && probe.line == set.line; });
 }
 
-std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candidates, const scene::Box& box, const std::string& where, const std::string& whose) {
+std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candidates, const scene::Box& box,
+                        const std::string& where, const std::string& whose) {
   std::vector<int> elements;
   int nearest = candidates.front();
   const auto away = [&](int e) { return distance(box, element_centre(assembly, e)); };
@@ -96,8 +99,9 @@ std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candid
     if (away(e) < away(nearest)) nearest = e;
   }
   if (elements.empty())
-    throw InputError(fmt::format("{} box: no element of '{}' has its centre in it; the nearest has it at {} m, {:.4g} m away", where, whose,
-                                 text_of(element_centre(assembly, nearest)), away(nearest)));
+    throw InputError(
+        fmt::format("{} box: no element of '{}' has its centre in it; the nearest has it at {} m, {:.4g} m away", where,
+                    whose, text_of(element_centre(assembly, nearest)), away(nearest)));
   return elements;
 }
 
@@ -145,23 +149,28 @@ double largest_natural_coordinate(const std::array<Vec3, 8>& corners, const Vec3
 void add_element_sets(const scene::Scene& scene, Assembly& assembly) {
   for (const scene::ElementSet& set : scene.element_sets) {
     const bool of_probe = made_by_probe(scene, set);
-    const auto where = fmt::format("{}:{}: [{}.{}]", scene.path, set.line, of_probe ? "probes" : "element_sets", set.name);
+    const auto where =
+        fmt::format("{}:{}: [{}.{}]", scene.path, set.line, of_probe ? "probes" : "element_sets", set.name);
     const auto name = set.part + "." + set.name;
     // A probe's nodes and its elements have one name.
-    const bool own_nodes = of_probe && std::any_of(scene.node_sets.begin(), scene.node_sets.end(), [&](const scene::NodeSet& nodes) {
-      return nodes.part == set.part && nodes.name == set.name && nodes.line == set.line;
-    });
+    const bool own_nodes =
+        of_probe && std::any_of(scene.node_sets.begin(), scene.node_sets.end(), [&](const scene::NodeSet& nodes) {
+          return nodes.part == set.part && nodes.name == set.name && nodes.line == set.line;
+        });
     if (assembly.element_sets.count(name) != 0 || (assembly.node_sets.count(name) != 0 && !own_nodes))
-      throw InputError(fmt::format("{}: the part '{}' has a set '{}' already; choose another name", where, set.part, set.name));
+      throw InputError(
+          fmt::format("{}: the part '{}' has a set '{}' already; choose another name", where, set.part, set.name));
     const auto candidates = candidates_of(scene, assembly, set);
     if (set.box) {
-      assembly.element_sets[name] = in_box(assembly, candidates, *set.box, where, set.surface.empty() ? set.part : set.part + "." + set.surface);
+      assembly.element_sets[name] =
+          in_box(assembly, candidates, *set.box, where, set.surface.empty() ? set.part : set.part + "." + set.surface);
       continue;
     }
     std::vector<int> elements{find_element(assembly, candidates, *set.position).element};
     if (set.radius > 0)
       for (int e : candidates)
-        if (distance(element_centre(assembly, e), *set.position) <= set.radius + slack && e != elements.front()) elements.push_back(e);
+        if (distance(element_centre(assembly, e), *set.position) <= set.radius + slack && e != elements.front())
+          elements.push_back(e);
     std::sort(elements.begin(), elements.end());
     assembly.element_sets[name] = std::move(elements);
   }
@@ -173,17 +182,24 @@ std::vector<PlacedElements> placed_element_sets(const scene::Scene& scene, const
     if (!set.position) continue;
     const auto& elements = assembly.element_sets.at(set.part + "." + set.name);
     const Found found = find_element(assembly, elements, *set.position);
-    PlacedElements placed{&set, static_cast<int>(elements.size()), found.element, element_centre(assembly, found.element), 0, {}};
+    PlacedElements placed{
+        &set, static_cast<int>(elements.size()), found.element, element_centre(assembly, found.element), 0, {}};
     placed.distance = distance(placed.centre, *set.position);
     // Sets are made before the part is moved to where it touches, or turned.
-    const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const scene::Contact& contact) {
-      return contact.close_gap && contact.slave.rfind(set.part + ".", 0) == 0;
-    }) || std::any_of(scene.parts.begin(), scene.parts.end(), [&](const scene::Part& part) { return part.name == set.part && part.angle_of_attack != 0; });
+    const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(),
+                                   [&](const scene::Contact& contact) {
+                                     return contact.close_gap && contact.slave.rfind(set.part + ".", 0) == 0;
+                                   }) ||
+                       std::any_of(scene.parts.begin(), scene.parts.end(), [&](const scene::Part& part) {
+                         return part.name == set.part && part.angle_of_attack != 0;
+                       });
     if (found.outside > 1 + beside_a_facet && !moved)
-      placed.warning = fmt::format("{}.{} (line {}) is asked for at {} m, which lies in no element of the {}: stress and strain are those of the element with the nearest "
-                                   "centre, {:.3g} m away at {} m; see whether the position is meant in the scene's axes",
-                                   set.part, set.name, set.line, text_of(*set.position), set.surface.empty() ? "part" : "surface " + set.surface, placed.distance,
-                                   text_of(placed.centre));
+      placed.warning = fmt::format(
+          "{}.{} (line {}) is asked for at {} m, which lies in no element of the {}: stress and strain are those of "
+          "the element with the nearest "
+          "centre, {:.3g} m away at {} m; see whether the position is meant in the scene's axes",
+          set.part, set.name, set.line, text_of(*set.position), set.surface.empty() ? "part" : "surface " + set.surface,
+          placed.distance, text_of(placed.centre));
     result.push_back(placed);
   }
   return result;

@@ -41,9 +41,10 @@ void hold_directions(const scene::PrescribedMotion& motion, double (&held)[3][3]
 /// The set would jump in the first step.
 void refuse_jump(const Model& model, const scene::PrescribedMotion& motion, const scene::Curve* curve) {
   if (curve == nullptr || curve_value(curve, 0) == 0) return;
-  throw InputError(fmt::format("{}:{}: [prescribed_motion.{}] displacement_curve: '{}' is {:g} at t = 0, so that '{}' would jump there; let it "
-                               "begin with 0",
-                               model.scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
+  throw InputError(fmt::format(
+      "{}:{}: [prescribed_motion.{}] displacement_curve: '{}' is {:g} at t = 0, so that '{}' would jump there; let it "
+      "begin with 0",
+      model.scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
 }
 
 }  // namespace
@@ -55,9 +56,10 @@ void build_prescribed_motions(Model& model) {
     const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
     for (int n : nodes) {
       if (taken[n] != 0)
-        throw InputError(fmt::format("{}:{}: [prescribed_motion.{}]: a node of '{}' has a prescribed motion already; name sets "
-                                     "without common nodes",
-                                     model.scene.path, motion.line, motion.name, motion.target));
+        throw InputError(
+            fmt::format("{}:{}: [prescribed_motion.{}]: a node of '{}' has a prescribed motion already; name sets "
+                        "without common nodes",
+                        model.scene.path, motion.line, motion.name, motion.target));
       taken[n] = 1;
     }
     PrescribedSet set;
@@ -89,7 +91,14 @@ RigidPlace place_at(const PrescribedSet& set, double time) {
 
 PrescribedMotion prescribed_motion(const Model& model, const PrescribedSet& set, double step) {
   const NodalAcceleration acceleration = model.acceleration();
-  PrescribedMotion motion{acceleration.force, acceleration.gravity, set.nodes, set.work, place_at(set, model.time + step), model.velocity_lag, step, {}};
+  PrescribedMotion motion{acceleration.force,
+                          acceleration.gravity,
+                          set.nodes,
+                          set.work,
+                          place_at(set, model.time + step),
+                          model.velocity_lag,
+                          step,
+                          {}};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) motion.held[i][j] = set.held[i][j];
   return motion;

@@ -5,8 +5,8 @@
 
 namespace railwave {
 
-/// Where a prescribed motion has its set at a time: moved by the velocity's, turned by the angular velocity's integral over
-/// time, both times its curve; moved by its displacement besides.
+/// Where a prescribed motion has its set at a time: moved by the velocity's, turned by the angular velocity's integral
+/// over time, both times its curve; moved by its displacement besides.
 RigidPlace place_at(const PrescribedSet& set, double time);
 
 /// The kernel that moves a set from the present instant by a step; and, with a step of 0, what its account needs.

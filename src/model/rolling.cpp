@@ -21,18 +21,19 @@ bool moves(const scene::InitialMotion& motion, const std::string& part) {
 }
 
 [[noreturn]] void refuse(const Model& model, const scene::InitialMotion& motion, const std::string& what) {
-  throw InputError(fmt::format("{}:{}: [initial_motion.{}] rolling: {}", model.scene.path, motion.line, motion.name, what));
+  throw InputError(
+      fmt::format("{}:{}: [initial_motion.{}] rolling: {}", model.scene.path, motion.line, motion.name, what));
 }
 
 /// Where the parts lie undeformed.
 Vec3 centre_of(const Model& model, const scene::InitialMotion& motion, const std::string& part) {
   if (motion.centre) return *motion.centre;
   if (const auto axis = carried_axis(model, motion)) return axis->point;
-  const auto& nodes = motion.around.empty() ? model.assembly.node_sets.at(part)
-                                            : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
+  const auto& nodes = motion.around.empty()
+                          ? model.assembly.node_sets.at(part)
+                          : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
   return centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
 }
-
 
 /// The angular velocity about its axis with which one part rolls, and from what it was found.
 struct Rolling {
@@ -47,7 +48,11 @@ Vec3 centre_to_roll_about(const Model& model, const scene::InitialMotion& motion
   const double off = length(cross(difference(centre, round.origin), round.axis));
   constexpr double most = 0.02;
   if (motion.centre && off > most * round.nominal_radius)
-    refuse(model, motion, fmt::format("the centre of the rotation is {:.4g} m off the axis of '{}'; leave centre out, or give angular_velocity", off, round.part->name));
+    refuse(
+        model, motion,
+        fmt::format(
+            "the centre of the rotation is {:.4g} m off the axis of '{}'; leave centre out, or give angular_velocity",
+            off, round.part->name));
   return centre;
 }
 
@@ -57,7 +62,10 @@ Vec3 way_over_ground(const Model& model, const scene::InitialMotion& motion, con
   Vec3 down = length(g) > 0 ? g : Vec3{0, 0, -1};
   const Vec3 along = cross(round.axis, down);
   if (length(along) < 1e-6 * length(down))
-    refuse(model, motion, fmt::format("the axis of '{}' points down and it has no contact, so that there is nothing to roll on; give angular_velocity", round.part->name));
+    refuse(model, motion,
+           fmt::format("the axis of '{}' points down and it has no contact, so that there is nothing to roll on; give "
+                       "angular_velocity",
+                       round.part->name));
   Vec3 unit = along;
   for (double& c : unit) c /= length(along);
   return unit;
@@ -67,7 +75,9 @@ Rolling rolling_of(const Model& model, const scene::InitialMotion& motion, const
   Rolling rolling{round};
   const Vec3 centre = centre_to_roll_about(model, motion, round);
   std::vector<Touch> found = touches(model, round);
-  found.erase(std::remove_if(found.begin(), found.end(), [&](const Touch& touch) { return moves(motion, touch.other); }), found.end());
+  found.erase(
+      std::remove_if(found.begin(), found.end(), [&](const Touch& touch) { return moves(motion, touch.other); }),
+      found.end());
   double least = found.empty() ? 0 : found.front().gap;
   for (const Touch& touch : found) least = std::min(least, touch.gap);
   // A second rail behind a gap, say, is farther away than the one that the wheel stands on.
@@ -78,7 +88,10 @@ Rolling rolling_of(const Model& model, const scene::InitialMotion& motion, const
     if (touch.gap > near) continue;
     for (const scene::InitialMotion& other : model.scene.initial_motions)
       if (other.rolling && moves(other, touch.other))
-        refuse(model, motion, fmt::format("'{}' rolls on '{}', which [initial_motion.{}] lets roll too; give one of them angular_velocity", round.part->name, touch.other, other.name));
+        refuse(model, motion,
+               fmt::format(
+                   "'{}' rolls on '{}', which [initial_motion.{}] lets roll too; give one of them angular_velocity",
+                   round.part->name, touch.other, other.name));
     speed += dot(difference(initial_velocity(model, touch.other, touch.place), motion.velocity), touch.along);
     // About a centre beside the axis the place goes the faster the farther it is from that.
     radius += touch.radius + dot(cross(round.axis, difference(round.origin, centre)), touch.along);
@@ -94,7 +107,8 @@ Rolling rolling_of(const Model& model, const scene::InitialMotion& motion, const
   return rolling;
 }
 
-/// Of parts whose shape is not known: about the horizontal across the velocity, less by the angle between velocity and wheel.
+/// Of parts whose shape is not known: about the horizontal across the velocity, less by the angle between velocity and
+/// wheel.
 void roll_unknown_shape(const Model& model, scene::InitialMotion& motion) {
   std::string part;
   double cosine = 1;
@@ -105,9 +119,13 @@ void roll_unknown_shape(const Model& model, scene::InitialMotion& motion) {
     }
   if (part.empty()) refuse(model, motion, "only parts roll, not points; name a part, or leave rolling out");
   if (!motion.rolling_radius)
-    refuse(model, motion, fmt::format("'{}' is no wheel, wheelset, roller or cylinder, so that no radius is known; if it is round give rolling_radius, else leave rolling out", part));
+    refuse(model, motion,
+           fmt::format("'{}' is no wheel, wheelset, roller or cylinder, so that no radius is known; if it is round "
+                       "give rolling_radius, else leave rolling out",
+                       part));
   const Vec3 across = cross({0, 0, 1}, motion.velocity);
-  if (!(length(across) > 0)) refuse(model, motion, "the velocity has no horizontal part, so that nothing rolls; give one");
+  if (!(length(across) > 0))
+    refuse(model, motion, "the velocity has no horizontal part, so that nothing rolls; give one");
   for (int i = 0; i < 3; ++i) motion.angular_velocity[i] = cosine * across[i] / *motion.rolling_radius;
 }
 
@@ -120,14 +138,19 @@ void resolve(const Model& model, scene::InitialMotion& motion) {
   std::stable_partition(all.begin(), all.end(), [](const Rolling& one) { return one.touches; });
   const Rolling& first = all.front();
   if (first.spin == 0 || !std::isfinite(first.spin))
-    refuse(model, motion, fmt::format("neither its velocity nor an initial motion of what it touches makes '{}' roll; give a velocity across its axle", first.round.part->name));
+    refuse(model, motion,
+           fmt::format("neither its velocity nor an initial motion of what it touches makes '{}' roll; give a velocity "
+                       "across its axle",
+                       first.round.part->name));
   for (const Rolling& other : all) {
     if (other.touches != first.touches) continue;
-    const Vec3 unlike = difference(Vec3{other.spin * other.round.axis[0], other.spin * other.round.axis[1], other.spin * other.round.axis[2]},
-                                   Vec3{first.spin * first.round.axis[0], first.spin * first.round.axis[1], first.spin * first.round.axis[2]});
+    const Vec3 unlike = difference(
+        Vec3{other.spin * other.round.axis[0], other.spin * other.round.axis[1], other.spin * other.round.axis[2]},
+        Vec3{first.spin * first.round.axis[0], first.spin * first.round.axis[1], first.spin * first.round.axis[2]});
     if (length(unlike) > 5e-3 * std::fabs(first.spin))
-      refuse(model, motion, fmt::format("'{}' rolls at {:.6g} rad/s, '{}' at {:.6g} rad/s; give each an initial motion of its own", first.round.part->name, first.spin,
-                                        other.round.part->name, other.spin));
+      refuse(model, motion,
+             fmt::format("'{}' rolls at {:.6g} rad/s, '{}' at {:.6g} rad/s; give each an initial motion of its own",
+                         first.round.part->name, first.spin, other.round.part->name, other.spin));
   }
   for (int i = 0; i < 3; ++i) motion.angular_velocity[i] = first.spin * first.round.own_axis[i];
 }
@@ -140,7 +163,8 @@ std::optional<CarriedAxis> carried_axis(const Model& model, const scene::Initial
     if (const auto round = round_part(model, name)) {
       CarriedAxis axis;
       axis.point = round->origin;
-      axis.nodes = motion.around.empty() ? &model.assembly.node_sets.at(name) : &find_node_set(model.scene, model.assembly, motion, "around", motion.around);
+      axis.nodes = motion.around.empty() ? &model.assembly.node_sets.at(name)
+                                         : &find_node_set(model.scene, model.assembly, motion, "around", motion.around);
       const Vec3 mean = centre_of_mass(model, *axis.nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
       axis.from_mean = difference(axis.point, mean);
       return axis;
@@ -174,20 +198,28 @@ std::vector<std::string> rolling_doubts(const Model& model) {
       Vec3 on_axis = touch.place;  // where the axis is abreast of the contact
       const Vec3 arm = difference(touch.place, round->origin);
       for (int i = 0; i < 3; ++i) on_axis[i] = round->origin[i] + dot(arm, round->axis) * round->axis[i];
-      const Vec3 under = initial_velocity(model, touch.other, touch.place), centre = initial_velocity(model, part.name, on_axis);
+      const Vec3 under = initial_velocity(model, touch.other, touch.place),
+                 centre = initial_velocity(model, part.name, on_axis);
       const double travel = dot(difference(under, centre), touch.along);
       const double slip = -dot(difference(under, initial_velocity(model, part.name, touch.place)), touch.along);
       const double turning = slip + travel, fastest = std::max(std::fabs(travel), std::fabs(turning));
       // A body that falls, say, neither travels nor turns but for rounding.
-      if (!(std::fabs(slip) > most_creepage * fastest) || fastest < 1e-3 * std::max(length(centre), length(under))) continue;
-      const auto own = std::find_if(model.scene.initial_motions.begin(), model.scene.initial_motions.end(), [&](const auto& motion) { return moves(motion, part.name); });
-      const std::string mend = own == model.scene.initial_motions.end()
-                                   ? fmt::format("give '{}' an [initial_motion] with rolling = true", part.name)
-                                   : fmt::format("write rolling = true in place of angular_velocity in [initial_motion.{}] (line {})", own->name, own->line);
-      doubts.push_back(fmt::format("[contacts.{}] (line {}): '{}' travels at {:.4g} m/s over '{}' but turns at {:.4g} rad/s, which is {:.4g} m/s at its radius of {:.5g} m: it begins "
-                                   "by sliding at {:.4g} m/s, a creepage of {:.3g} %; it rolls at {:.6g} rad/s: {}, unless it is meant to slide",
-                                   touch.contact->name, touch.contact->line, part.name, std::fabs(travel), touch.other, std::fabs(turning / touch.radius), std::fabs(turning),
-                                   touch.radius, std::fabs(slip), 100 * std::fabs(slip) / fastest, std::fabs(travel / touch.radius), mend));
+      if (!(std::fabs(slip) > most_creepage * fastest) || fastest < 1e-3 * std::max(length(centre), length(under)))
+        continue;
+      const auto own = std::find_if(model.scene.initial_motions.begin(), model.scene.initial_motions.end(),
+                                    [&](const auto& motion) { return moves(motion, part.name); });
+      const std::string mend =
+          own == model.scene.initial_motions.end()
+              ? fmt::format("give '{}' an [initial_motion] with rolling = true", part.name)
+              : fmt::format("write rolling = true in place of angular_velocity in [initial_motion.{}] (line {})",
+                            own->name, own->line);
+      doubts.push_back(fmt::format(
+          "[contacts.{}] (line {}): '{}' travels at {:.4g} m/s over '{}' but turns at {:.4g} rad/s, which is {:.4g} "
+          "m/s at its radius of {:.5g} m: it begins "
+          "by sliding at {:.4g} m/s, a creepage of {:.3g} %; it rolls at {:.6g} rad/s: {}, unless it is meant to slide",
+          touch.contact->name, touch.contact->line, part.name, std::fabs(travel), touch.other,
+          std::fabs(turning / touch.radius), std::fabs(turning), touch.radius, std::fabs(slip),
+          100 * std::fabs(slip) / fastest, std::fabs(travel / touch.radius), mend));
     }
   }
   return doubts;

@@ -20,8 +20,10 @@ class Profile {
     for (int n : surface_nodes(model.assembly, surface)) all.push_back(seen(model.assembly.nodes[n]));
     std::sort(all.begin(), all.end());
     for (const auto& [along, radius] : all) {
-      if (points_.empty() || along > points_.back()[0] + same) points_.push_back({along, radius});
-      else points_.back()[1] = std::max(points_.back()[1], radius);
+      if (points_.empty() || along > points_.back()[0] + same)
+        points_.push_back({along, radius});
+      else
+        points_.back()[1] = std::max(points_.back()[1], radius);
     }
   }
 
@@ -35,7 +37,8 @@ class Profile {
   /// Radius there; none beside the surface.
   double radius(double along) const {
     if (points_.size() < 2 || along < points_.front()[0] || along > points_.back()[0]) return nowhere;
-    const auto behind = std::max(points_.begin() + 1, std::lower_bound(points_.begin(), points_.end(), std::array<double, 2>{along, 0}));
+    const auto behind = std::max(points_.begin() + 1,
+                                 std::lower_bound(points_.begin(), points_.end(), std::array<double, 2>{along, 0}));
     const auto& [a, b] = std::pair{*(behind - 1), *behind};
     return a[1] + (along - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
   }
@@ -52,7 +55,8 @@ class Profile {
 };
 
 Vec3 place_on(const std::array<Vec3, 4>& corner, double xi, double eta) {
-  const double weight[4] = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+  const double weight[4] = {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta),
+                            0.25 * (1 - xi) * (1 + eta)};
   Vec3 x{0, 0, 0};
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) x[i] += weight[k] * corner[k][i];
@@ -150,8 +154,10 @@ std::optional<RoundPart> round_part(const Model& model, const std::string& name)
 
 namespace {
 
-/// Where the part is nearest to the other surface of a contact, or to one of its masters; none: it is no part of the pair, or far off.
-std::optional<Touch> touch_of(const Model& model, const RoundPart& round, const scene::Contact& contact, const std::string& master_name) {
+/// Where the part is nearest to the other surface of a contact, or to one of its masters; none: it is no part of the
+/// pair, or far off.
+std::optional<Touch> touch_of(const Model& model, const RoundPart& round, const scene::Contact& contact,
+                              const std::string& master_name) {
   const std::string slave = part_of_name(contact.slave), master = part_of_name(master_name);
   const std::string& own = round.part->name;
   if ((slave == own) == (master == own)) return std::nullopt;
@@ -176,7 +182,8 @@ std::vector<Touch> touches(const Model& model, const RoundPart& round) {
     // Of several masters the one that is nearest: the next rail along the track is not what the wheel stands on.
     std::optional<Touch> best;
     for (const std::string& name : contact.master)
-      if (const auto touch = touch_of(model, round, contact, name); touch && (!best || touch->gap < best->gap)) best = touch;
+      if (const auto touch = touch_of(model, round, contact, name); touch && (!best || touch->gap < best->gap))
+        best = touch;
     if (best) found.push_back(*best);
   }
   return found;

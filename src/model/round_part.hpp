@@ -30,8 +30,9 @@ struct Touch {
   double gap = 0;       ///< m
 };
 
-/// The nearest place of each contact of the part, undeformed, after close_gap: between the other surface's faces, as they are curved,
-/// and the profile that the part's own nodes make about its axis. Contacts farther away than the radius are left out.
+/// The nearest place of each contact of the part, undeformed, after close_gap: between the other surface's faces, as
+/// they are curved, and the profile that the part's own nodes make about its axis. Contacts farther away than the
+/// radius are left out.
 std::vector<Touch> touches(const Model& model, const RoundPart& round);
 
 /// `part` of `part.set`.

@@ -26,9 +26,9 @@ double Subcycling::gain() const {
 
 namespace {
 
-/// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of non-reflecting
-/// ends at their nodes'. Rows of partial forces ascend
-/// by level, so a node's first row is of its finest patch.
+/// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of
+/// non-reflecting ends at their nodes'. Rows of partial forces ascend by level, so a node's first row is of its finest
+/// patch.
 std::vector<std::uint8_t> node_levels(const Model& model) {
   const auto first = to_host(model.nodes.first_partial), place = to_host(model.nodes.partial_place);
   const auto extra = to_host(model.nodes.extra);
@@ -62,8 +62,8 @@ void build_subcycling(Model& model) {
                    [&](const ListedNode& a, const ListedNode& b) { return level_of(a) < level_of(b); });
   Kokkos::deep_copy(model.listed_nodes, listed);
   for (int l = 0; l < subcycling.levels; ++l)
-    subcycling.listed_end.push_back(static_cast<int>(
-        std::count_if(listed.data(), listed.data() + listed.extent(0), [&](const ListedNode& n) { return level_of(n) <= l; })));
+    subcycling.listed_end.push_back(static_cast<int>(std::count_if(
+        listed.data(), listed.data() + listed.extent(0), [&](const ListedNode& n) { return level_of(n) <= l; })));
 
   plan_steps(model, subcycling.round());
 }
@@ -77,7 +77,8 @@ std::vector<std::string> describe_subcycling(const Model& model) {
     if (subcycling.elements[l] > 0)
       lines.push_back(l == 0 ? fmt::format("{} elements at every step", subcycling.elements[l])
                              : fmt::format("{} elements every {} steps", subcycling.elements[l], 1L << l));
-  lines.push_back(fmt::format("{:.3g} times fewer element updates; outputs every whole {} steps", subcycling.gain(), subcycling.round()));
+  lines.push_back(fmt::format("{:.3g} times fewer element updates; outputs every whole {} steps", subcycling.gain(),
+                              subcycling.round()));
   return lines;
 }
 

@@ -13,10 +13,10 @@ struct Model;
 
 /// How a model is subcycled; see kernels/paced_nodes.hpp.
 struct Subcycling {
-  int levels = 1;                      ///< 1: every element takes every step
+  int levels = 1;  ///< 1: every element takes every step
   NodePaces paces;
-  std::vector<int> listed_end;         ///< by level: how many of the model's listed nodes are of it or finer
-  std::vector<long> elements;          ///< by level
+  std::vector<int> listed_end;  ///< by level: how many of the model's listed nodes are of it or finer
+  std::vector<long> elements;   ///< by level
 
   /// Steps from one instant at which everything is in phase to the next.
   long round() const { return 1L << (levels - 1); }
@@ -27,8 +27,8 @@ struct Subcycling {
   double gain() const;
 };
 
-/// Level of each element of an assembly, by its own stable step against the one used: 2^level steps leave it a margin, and
-/// regions of different levels have a buffer between them. Empty where subcycling would not pay.
+/// Level of each element of an assembly, by its own stable step against the one used: 2^level steps leave it a margin,
+/// and regions of different levels have a buffer between them. Empty where subcycling would not pay.
 std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assembly);
 
 /// Lines that tell how many elements are of which level, and what that saves; none without subcycling.

@@ -12,10 +12,10 @@ namespace {
 using Corners = std::array<int, 4>;
 using Edge = std::array<int, 2>;
 
-constexpr double sharp = 0.5;         ///< cosine of 60 degrees
-constexpr double reach_of_gap = 10;   ///< in facets' diagonals, that a surface may be broken and yet go on
-constexpr double ahead = 0.5;         ///< cosine of the angle from the outward direction within which it goes on
-constexpr double coarse = 2;          ///< over the zone's element size
+constexpr double sharp = 0.5;        ///< cosine of 60 degrees
+constexpr double reach_of_gap = 10;  ///< in facets' diagonals, that a surface may be broken and yet go on
+constexpr double ahead = 0.5;        ///< cosine of the angle from the outward direction within which it goes on
+constexpr double coarse = 2;         ///< over the zone's element size
 
 Edge edge_of(const Corners& corners, int side) {
   const int a = corners[side], b = corners[(side + 1) % 4];
@@ -35,7 +35,9 @@ Vec3 mean(const std::vector<Vec3>& x, const int* nodes, int count) {
   return sum;
 }
 
-double diagonal(const std::vector<Vec3>& x, const Corners& c) { return std::max(length(difference(x[c[2]], x[c[0]])), length(difference(x[c[3]], x[c[1]]))); }
+double diagonal(const std::vector<Vec3>& x, const Corners& c) {
+  return std::max(length(difference(x[c[2]], x[c[0]])), length(difference(x[c[3]], x[c[1]])));
+}
 
 /// A facet at an end of a surface.
 struct Rim {
@@ -86,11 +88,13 @@ Vec3 outward(const std::vector<Vec3>& place, const std::array<int, 4>& corners, 
 
 double longest_side(const std::vector<Vec3>& place, const std::array<int, 4>& corners) {
   double longest = 0;
-  for (int k = 0; k < 4; ++k) longest = std::max(longest, length(difference(place[corners[(k + 1) % 4]], place[corners[k]])));
+  for (int k = 0; k < 4; ++k)
+    longest = std::max(longest, length(difference(place[corners[(k + 1) % 4]], place[corners[k]])));
   return longest;
 }
 
-SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4>> corners, const std::vector<std::vector<std::array<int, 4>>>& others) {
+SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4>> corners,
+                         const std::vector<std::vector<std::array<int, 4>>>& others) {
   const auto& x = assembly.nodes;
   SurfaceEnds ends;
   ends.corners = std::move(corners);
@@ -101,7 +105,8 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
   std::map<Edge, int> open;
   for (const auto& [edge, around] : sides) {
     if (around.size() == 1) open[edge] = around[0][0];
-    for (std::size_t i = 0; around.size() > 1 && i < around.size(); ++i) ends.beyond[around[i][0]][around[i][1]] = around[i == 0 ? 1 : 0][0];
+    for (std::size_t i = 0; around.size() > 1 && i < around.size(); ++i)
+      ends.beyond[around[i][0]][around[i][1]] = around[i == 0 ? 1 : 0][0];
   }
   if (open.empty()) return ends;
 
@@ -130,7 +135,8 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
     const bool goes_on = std::any_of(rims.begin(), rims.end(), [&](const Rim& other) {
       const Vec3 way = difference(other.middle, middle);
       const double far = reach + 0.5 * other.diagonal, square = dot(way, way);
-      return square < far * far && dot(way, out) > ahead * std::sqrt(square) && dot(normal, other.normal) > sharp && other.corners != own;
+      return square < far * far && dot(way, out) > ahead * std::sqrt(square) && dot(normal, other.normal) > sharp &&
+             other.corners != own;
     });
     Beyond what = goes_on ? Beyond::goes_on : Beyond::body_ends;
     const auto around = skin.find(edge);
@@ -148,7 +154,9 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
 
 std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair) {
   const Assembly& assembly = model.assembly;
-  const auto part = [&](const std::vector<int>& nodes) { return nodes.empty() ? -1 : part_of_node(assembly, nodes.front()); };
+  const auto part = [&](const std::vector<int>& nodes) {
+    return nodes.empty() ? -1 : part_of_node(assembly, nodes.front());
+  };
   const int slave = part(pair.slave_nodes), master = part(pair.master_nodes);
   std::array<std::vector<std::vector<Corners>>, 2> others;
   for (const ContactPair& other : model.contacts) {
@@ -167,18 +175,28 @@ std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair
 }
 
 double finest_wanted(const scene::Scene& scene, const std::string& part) {
-  const auto own = std::find_if(scene.parts.begin(), scene.parts.end(), [&](const scene::Part& one) { return one.name == part; });
+  const auto own =
+      std::find_if(scene.parts.begin(), scene.parts.end(), [&](const scene::Part& one) { return one.name == part; });
   if (own == scene.parts.end()) return 0;
-  const auto mesh = std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const scene::MeshSource& one) { return one.name == own->mesh; });
+  const auto mesh = std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                                 [&](const scene::MeshSource& one) { return one.name == own->mesh; });
   if (mesh == scene.meshes.end()) return 0;
-  const auto with_path = [](double zone, bool path, double path_size) { return coarse * (path ? std::max(zone, path_size) : zone); };
+  const auto with_path = [](double zone, bool path, double path_size) {
+    return coarse * (path ? std::max(zone, path_size) : zone);
+  };
   switch (mesh->type) {
-    case scene::MeshType::wheel: return with_path(mesh->wheel.zone_size, mesh->wheel.path_start.has_value(), mesh->wheel.path_size);
-    case scene::MeshType::wheelset: return with_path(mesh->wheelset.zone_size, mesh->wheelset.path_start.has_value(), mesh->wheelset.path_size);
-    case scene::MeshType::rail: return with_path(mesh->rail.zone_size, mesh->rail.path_start.has_value(), mesh->rail.path_size);
-    case scene::MeshType::crowned_block: return coarse * mesh->crowned_block.zone_size;
-    case scene::MeshType::roller: return coarse * mesh->roller.zone_size;
-    default: return 0;
+    case scene::MeshType::wheel:
+      return with_path(mesh->wheel.zone_size, mesh->wheel.path_start.has_value(), mesh->wheel.path_size);
+    case scene::MeshType::wheelset:
+      return with_path(mesh->wheelset.zone_size, mesh->wheelset.path_start.has_value(), mesh->wheelset.path_size);
+    case scene::MeshType::rail:
+      return with_path(mesh->rail.zone_size, mesh->rail.path_start.has_value(), mesh->rail.path_size);
+    case scene::MeshType::crowned_block:
+      return coarse * mesh->crowned_block.zone_size;
+    case scene::MeshType::roller:
+      return coarse * mesh->roller.zone_size;
+    default:
+      return 0;
   }
 }
 

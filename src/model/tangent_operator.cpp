@@ -21,7 +21,8 @@ TangentOperator::TangentOperator(const Assembly& assembly, int more_rows) {
 }
 
 void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementStiffness>& stiffness,
-                            const Array<const double* [3]>& position, const NodeVector& u, double inverse_time, const NodeVector& f) const {
+                            const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
+                            const NodeVector& f) const {
   for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
     const auto& range = assembly.parts[p];
     Kokkos::parallel_for("element_tangent", Range(0, range.element_count),
@@ -30,12 +31,14 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
   Kokkos::parallel_for("tangent_gather", Range(0, static_cast<int>(first_corner_.extent(0)) - 1),
                        GatherTangent{first_corner_, corner_, corner_force_, f});
   if (springs_.count == 0) return;
-  Kokkos::parallel_for("tangent_springs", SumTeams(springs_.count, threads_of_sum), SpringForce{springs_, u, inverse_time});
+  Kokkos::parallel_for("tangent_springs", SumTeams(springs_.count, threads_of_sum),
+                       SpringForce{springs_, u, inverse_time});
   Kokkos::parallel_for("tangent_add_springs", SpreadRange(0, springs_.node_count), AddSprings{springs_, f});
 }
 
 std::size_t TangentOperator::bytes() const {
-  return (corners_.span() + first_corner_.span() + corner_.span()) * sizeof(int) + corner_force_.span() * sizeof(double);
+  return (corners_.span() + first_corner_.span() + corner_.span()) * sizeof(int) +
+         corner_force_.span() * sizeof(double);
 }
 
 }  // namespace railwave

@@ -5,7 +5,8 @@
 
 namespace railwave {
 
-/// Forces of small motions u about the present places: of elements, by corners that are stored and gathered, and of springs.
+/// Forces of small motions u about the present places: of elements, by corners that are stored and gathered, and of
+/// springs.
 class TangentOperator {
  public:
   /// @param more_rows of the vectors, behind the nodes', for springs alone
@@ -16,11 +17,13 @@ class TangentOperator {
   /// f = K u, replacing what f held.
   /// @param stiffness of each part, in order
   /// @param inverse_time 1/s, what the springs' dashpots count with
-  void apply(const Assembly& assembly, const std::vector<ElementStiffness>& stiffness, const Array<const double* [3]>& position,
-             const NodeVector& u, double inverse_time, const NodeVector& f) const;
+  void apply(const Assembly& assembly, const std::vector<ElementStiffness>& stiffness,
+             const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
+             const NodeVector& f) const;
 
-  const Array<int* [8]>& corners() const { return corners_; }
-  const Array<int*>& first_corner() const { return first_corner_; }
+  const Array<int* [8]>& corners() const { return corners_; } const Array<int*>& first_corner() const {
+    return first_corner_;
+  }
   const Array<int*>& corner() const { return corner_; }
   std::size_t bytes() const;
 

@@ -38,9 +38,10 @@ void SpringCollector::add_connectors() {
 void SpringCollector::add_beams(bool held) {
   if (!model_.beams) return;
   const BeamArrays& beams = model_.beams->arrays;
-  const BeamTangent tangent{beams, model_.nodes.position, held,
-                            unset_array<double* [BeamTangent::springs][BeamTangent::ends][3]>("beam tangent", beams.count),
-                            unset_array<double* [BeamTangent::springs]>("beam tangent stiffness", beams.count)};
+  const BeamTangent tangent{
+      beams, model_.nodes.position, held,
+      unset_array<double * [BeamTangent::springs][BeamTangent::ends][3]>("beam tangent", beams.count),
+      unset_array<double * [BeamTangent::springs]>("beam tangent stiffness", beams.count)};
   Kokkos::parallel_for("beam_tangent", Range(0, beams.count), tangent);
   const auto share = to_host(tangent.share);
   const auto stiffness = to_host(tangent.stiffness);
@@ -85,8 +86,8 @@ void SpringCollector::add_ground(int node, double stiffness, double damping) {
   }
 }
 
-void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction,
-                                 double stiffness) {
+void SpringCollector::add_spring(const std::vector<int>& nodes, const std::vector<double>& weights,
+                                 const Vec3& direction, double stiffness) {
   for (std::size_t k = 0; k < nodes.size(); ++k) add(nodes[k], weights[k], direction);
   close(stiffness, 0);
 }

@@ -12,9 +12,10 @@ class SpringCollector {
 
   /// Springs and dashpots of all connectors.
   void add_connectors();
-  /// A pair's contact springs: along the normal, there with their dashpots, and with friction the stick springs across it. The spring to a place on a
-  /// segment becomes four to its corners by the place's shape functions N: (u - sum N u_k)^2 <= sum N (u - u_k)^2. That is
-  /// never softer, and hardly less stiff between nodes than on one, where the slave may be a moment later.
+  /// A pair's contact springs: along the normal, there with their dashpots, and with friction the stick springs across
+  /// it. The spring to a place on a segment becomes four to its corners by the place's shape functions N: (u - sum N
+  /// u_k)^2 <= sum N (u - u_k)^2. That is never softer, and hardly less stiff between nodes than on one, where the
+  /// slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);
   /// Beams (kernels/beam_tangent.hpp); the rows of their rotations follow the nodes'.
   /// @param held as they settle, when bolts keep their pretension whatever their stretch
@@ -24,7 +25,8 @@ class SpringCollector {
   void add_ground(int node, double stiffness, double damping);
 
   /// One spring between nodes: stretch = sum of weight times displacement along the direction.
-  void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction, double stiffness);
+  void add_spring(const std::vector<int>& nodes, const std::vector<double>& weights, const Vec3& direction,
+                  double stiffness);
 
   /// What has been collected: spring s has the rows first()[s] ... first()[s + 1] - 1 of node() and share().
   std::size_t count() const { return stiffness_.size(); }

@@ -88,21 +88,24 @@ std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m",
 /// What one of a tie's nodes may not be besides.
 class Conflicts {
  public:
-  explicit Conflicts(const Model& model) : model_(model), held_(held_directions(model.scene, model.assembly)), why_(model.mass.size()) {
+  explicit Conflicts(const Model& model)
+      : model_(model), held_(held_directions(model.scene, model.assembly)), why_(model.mass.size()) {
     for (const ContactPair& pair : model.contacts) {
       if (pair.has_springs()) continue;
       for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
         for (int n : *nodes)
-          why_[n] = fmt::format("belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee how a tied node moves; set "
-                                "algorithm = \"penalty\", or end that surface before the tie",
-                                pair.contact->name);
+          why_[n] = fmt::format(
+              "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee how a tied node moves; set "
+              "algorithm = \"penalty\", or end that surface before the tie",
+              pair.contact->name);
     }
     for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
       for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
         why_[n] = fmt::format("moves as [prescribed_motion.{}] says; tie other nodes", motion.name);
     for (const scene::NonReflecting& end : model.scene.non_reflecting)
       for (int n : surface_nodes(model.assembly, find_surface(model.scene, model.assembly, end, "target", end.target)))
-        why_[n] = fmt::format("belongs to [non_reflecting.{}]; make its surface the tie's master, or end it before the tie", end.name);
+        why_[n] = fmt::format(
+            "belongs to [non_reflecting.{}]; make its surface the tie's master, or end it before the tie", end.name);
   }
 
   /// Why a node cannot be a slave; empty: it can.
@@ -113,12 +116,15 @@ class Conflicts {
     // On a plane of symmetry, say, the master's nodes are held as well, and the slave with them.
     for (int k = 0; k < 4; ++k)
       if (std::fabs(tied.weight[k]) > 1e-9 && !all_held(tied.face[k], held->second))
-        return "is held by a constraint that does not hold the face under it; leave it out of the constraint's set, or hold the "
+        return "is held by a constraint that does not hold the face under it; leave it out of the constraint's set, or "
+               "hold the "
                "master's nodes there in the same directions";
     return {};
   }
 
-  void take(int slave, const scene::Tie& tie) { why_[slave] = fmt::format("is tied by [ties.{}] already; name surfaces without common nodes", tie.name); }
+  void take(int slave, const scene::Tie& tie) {
+    why_[slave] = fmt::format("is tied by [ties.{}] already; name surfaces without common nodes", tie.name);
+  }
 
  private:
   bool all_held(int n, const std::vector<Vec3>& directions) const {
@@ -145,16 +151,19 @@ void refuse_far(const Model& model, const scene::Tie& tie, const std::vector<std
   if (far.empty()) return;
   std::string list;
   for (std::size_t k = 0; k < std::min<std::size_t>(far.size(), 3); ++k) list += (k == 0 ? "" : "; ") + far[k];
-  refuse(model, tie, fmt::format("{} of the {} nodes of '{}' have no face of '{}' near enough: {}{}; place the surfaces on each other, "
-                                 "take nodes beside the master out of the slave, or give a larger max_distance",
-                                 far.size(), slaves, tie.slave, tie.master, list, far.size() > 3 ? "; ..." : ""));
+  refuse(model, tie,
+         fmt::format(
+             "{} of the {} nodes of '{}' have no face of '{}' near enough: {}{}; place the surfaces on each other, "
+             "take nodes beside the master out of the slave, or give a larger max_distance",
+             far.size(), slaves, tie.slave, tie.master, list, far.size() > 3 ? "; ..." : ""));
 }
 
 void add_tie(Model& model, const scene::Tie& tie, Conflicts& conflicts) {
   const Assembly& assembly = model.assembly;
   const auto slaves = surface_nodes(assembly, find_surface(model.scene, assembly, tie, "slave", tie.slave));
   std::vector<MasterFace> faces;
-  for (const Face& face : find_surface(model.scene, assembly, tie, "master", tie.master)) faces.emplace_back(assembly, face);
+  for (const Face& face : find_surface(model.scene, assembly, tie, "master", tie.master))
+    faces.emplace_back(assembly, face);
   std::vector<std::string> far;
   for (int n : slaves) {
     const Vector3 x = vector(assembly.nodes[n]);
@@ -162,14 +171,19 @@ void add_tie(Model& model, const scene::Tie& tie, Conflicts& conflicts) {
     const MasterFace& face = faces[nearest.face];
     const double allowed = tie.max_distance.value_or(default_distance * face.diagonal);
     if (nearest.distance > allowed || nearest.place.outside() > most_outside) {
-      far.push_back(fmt::format("{}, {:.3g} m from it (allowed: {:.3g} m)", at(assembly.nodes[n]), nearest.distance, allowed));
+      far.push_back(
+          fmt::format("{}, {:.3g} m from it (allowed: {:.3g} m)", at(assembly.nodes[n]), nearest.distance, allowed));
       continue;
     }
     const TiedPlace tied = tied_place(n, x, face, nearest.place);
     for (int corner : tied.face)
-      if (corner == n) refuse(model, tie, fmt::format("'{}' and '{}' share the node at {}; name surfaces without common nodes", tie.slave, tie.master, at(assembly.nodes[n])));
+      if (corner == n)
+        refuse(model, tie,
+               fmt::format("'{}' and '{}' share the node at {}; name surfaces without common nodes", tie.slave,
+                           tie.master, at(assembly.nodes[n])));
     const std::string conflict = conflicts.of(tied);
-    if (!conflict.empty()) refuse(model, tie, fmt::format("the slave's node at {} {}", at(assembly.nodes[n]), conflict));
+    if (!conflict.empty())
+      refuse(model, tie, fmt::format("the slave's node at {} {}", at(assembly.nodes[n]), conflict));
     conflicts.take(n, tie);
     model.ties.places.push_back(tied);
   }
@@ -183,9 +197,10 @@ void refuse_chains(const Model& model) {
   for (const TiedPlace& tied : model.ties.places)
     for (int n : tied.face)
       if (slave[n] != 0)
-        refuse(model, model.scene.ties.back(), fmt::format("the node at {} is of a slave and of a master; ties cannot follow each other: let "
-                                                           "one surface be the master of both, or end the surfaces before they meet",
-                                                           at(model.assembly.nodes[n])));
+        refuse(model, model.scene.ties.back(),
+               fmt::format("the node at {} is of a slave and of a master; ties cannot follow each other: let "
+                           "one surface be the master of both, or end the surfaces before they meet",
+                           at(model.assembly.nodes[n])));
 }
 
 /// Where the slave is the coarser mesh, nodes of the master between its nodes would hang free.
@@ -196,14 +211,18 @@ void refuse_coarse_slaves(const Model& model) {
     for (int k = 0; k < 4; ++k) weight[tied.face[k]] += std::fabs(tied.weight[k]);
   for (const scene::Tie& tie : model.scene.ties) {
     std::vector<MasterFace> faces;
-    for (const Face& face : find_surface(model.scene, assembly, tie, "slave", tie.slave)) faces.emplace_back(assembly, face);
+    for (const Face& face : find_surface(model.scene, assembly, tie, "slave", tie.slave))
+      faces.emplace_back(assembly, face);
     for (int n : surface_nodes(assembly, find_surface(model.scene, assembly, tie, "master", tie.master))) {
       if (weight[n] > least_weight) continue;
       const Nearest nearest = nearest_face(faces, vector(assembly.nodes[n]));
-      if (nearest.distance > default_distance * faces[nearest.face].diagonal || nearest.place.outside() > -least_weight) continue;
-      refuse(model, tie, fmt::format("the master's node at {} lies on '{}', but no node of that is near it: the slave is the coarser mesh "
-                                     "there, and the surfaces would come apart between its nodes; exchange slave and master",
-                                     at(assembly.nodes[n]), tie.slave));
+      if (nearest.distance > default_distance * faces[nearest.face].diagonal || nearest.place.outside() > -least_weight)
+        continue;
+      refuse(model, tie,
+             fmt::format(
+                 "the master's node at {} lies on '{}', but no node of that is near it: the slave is the coarser mesh "
+                 "there, and the surfaces would come apart between its nodes; exchange slave and master",
+                 at(assembly.nodes[n]), tie.slave));
     }
   }
 }
@@ -219,7 +238,8 @@ void build_tie_arrays(Model& model) {
     for (int k = 0; k < 4; ++k) {
       const TiedPlace& tied = ties.places[s];
       const auto place = std::lower_bound(ties.masters.begin(), ties.masters.end(), tied.face[k]);
-      of_master[place - ties.masters.begin()].push_back({static_cast<int>(s), 0, tied.weight[k], tied.slope_xi[k], tied.slope_eta[k]});
+      of_master[place - ties.masters.begin()].push_back(
+          {static_cast<int>(s), 0, tied.weight[k], tied.slope_xi[k], tied.slope_eta[k]});
     }
   std::vector<int> first{0};
   std::vector<TieShare> shares;

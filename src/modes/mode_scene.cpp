@@ -92,7 +92,9 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   scene::Scene& scene = result.scene;
   const auto owned = [&](const std::string& set) { return selection.owns(set); };
 
-  if (const auto list = names_of(scene.contacts, [&](const auto& c) { return owned(c.slave) || std::any_of(c.master.begin(), c.master.end(), owned); });
+  if (const auto list = names_of(
+          scene.contacts,
+          [&](const auto& c) { return owned(c.slave) || std::any_of(c.master.begin(), c.master.end(), owned); });
       !list.empty())
     result.notes.push_back("contacts are left out: " + list);
   const auto crossing = [&](const auto& entry) { return owned(entry.from) != owned(entry.to); };
@@ -117,8 +119,9 @@ ModeScene mode_scene(const scene::Scene& whole, const std::vector<std::string>& 
   selection.keep(scene.absorbing_layers, [&](const auto& layer) { return owned(layer.target); });
   selection.keep(scene.ties, [&](const auto& tie) { return owned(tie.slave) && owned(tie.master); });
   const bool tied = !scene.ties.empty();
-  selection.keep(scene.contacts,
-                 [&](const auto& c) { return tied && c.close_gap && owned(c.slave) && std::all_of(c.master.begin(), c.master.end(), owned); });
+  selection.keep(scene.contacts, [&](const auto& c) {
+    return tied && c.close_gap && owned(c.slave) && std::all_of(c.master.begin(), c.master.end(), owned);
+  });
   if (scene.parts.empty())
     throw InputError(fmt::format("{}: --part names no part: modes are those of at least one", whole.path));
 

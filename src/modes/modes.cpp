@@ -34,7 +34,9 @@ ModeList modes_below(const Model& model, double up_to) {
   if (model.beams) tighten_beams(model, true);
   const ModeUnknowns unknowns(model);
   if (unknowns.count() == 0)
-    throw InputError("nothing can move: all nodes are held ([constraints], [prescribed_motion] and [non_reflecting] hold); free some, or name other parts by --part");
+    throw InputError(
+        "nothing can move: all nodes are held ([constraints], [prescribed_motion] and [non_reflecting] hold); free "
+        "some, or name other parts by --part");
   const SpringCollector springs = mode_springs(model);
   ShiftedMatrix matrix(stiffness_matrix(model, unknowns, springs), unknowns.mass(), unknowns.places());
   const double limit = std::pow(2 * M_PI * up_to, 2);

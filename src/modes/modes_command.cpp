@@ -7,13 +7,13 @@
 #include <ostream>
 
 #include "case/error.hpp"
-#include "modes/mode_file.hpp"
 #include "model/assemble_notes.hpp"
 #include "model/doubts.hpp"
+#include "modes/mode_file.hpp"
 #include "modes/mode_scene.hpp"
 #include "output/atomic_file.hpp"
-#include "output/run_places.hpp"
 #include "output/results_writer.hpp"
+#include "output/run_places.hpp"
 
 namespace railwave {
 namespace {
@@ -41,8 +41,8 @@ void print(const Model& model, const std::vector<Mode>& modes, bool several, std
   }
 }
 
-/// A line for each part whose hourglass control holds so much of modes' energy that a run's watch would warn of it: their frequencies are those of the
-/// control. The mode with the largest share stands for the others.
+/// A line for each part whose hourglass control holds so much of modes' energy that a run's watch would warn of it:
+/// their frequencies are those of the control. The mode with the largest share stands for the others.
 void warn_of_hourglass(const Model& model, const std::vector<Mode>& modes, std::ostream& out) {
   const double limit = model.scene.watch.hourglass_share;
   for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
@@ -55,9 +55,13 @@ void warn_of_hourglass(const Model& model, const std::vector<Mode>& modes, std::
     }
     if (count == 0) continue;
     const scene::Part& part = model.scene.parts[p];
-    out << fmt::format("warning: [parts.{}] (line {}) is bent over few elements: its hourglass control holds more than {:.3g} (watch.hourglass_share) of the energy of {} of the {} modes, "
-                       "at most {:.3g} of mode {}'s ({:.1f} Hz), whose frequencies depend on hourglass_coefficient; refine it where these modes bend it (docs/hourglass.md)\n",
-                       part.name, part.line, limit, count, modes.size(), modes[worst].hourglass_share, worst + 1, modes[worst].frequency);
+    out << fmt::format(
+        "warning: [parts.{}] (line {}) is bent over few elements: its hourglass control holds more than {:.3g} "
+        "(watch.hourglass_share) of the energy of {} of the {} modes, "
+        "at most {:.3g} of mode {}'s ({:.1f} Hz), whose frequencies depend on hourglass_coefficient; refine it where "
+        "these modes bend it (docs/hourglass.md)\n",
+        part.name, part.line, limit, count, modes.size(), modes[worst].hourglass_share, worst + 1,
+        modes[worst].frequency);
   }
 }
 
@@ -72,7 +76,8 @@ void check_files(const scene::Scene& scene, const ModesRequest& request) {
   name_inputs(scene, places);
   if (request.csv) places.writes(*request.csv, mode_table(), "--csv", "the table");
   if (request.shapes)
-    places.writes_with_companion(*request.shapes, kinds::modes(), kinds::modes_xdmf(), "--out", "the file of the shapes");
+    places.writes_with_companion(*request.shapes, kinds::modes(), kinds::modes_xdmf(), "--out",
+                                 "the file of the shapes");
   places.check();
 }
 

@@ -26,7 +26,8 @@ ElementEnergy element_energy(const ElementStiffness& stiffness, const double (&x
     }
   }
   const double trace = L[0][0] + L[1][1] + L[2][2];
-  return {volume * (stiffness.mu * strain + 0.5 * stiffness.lambda * trace * trace), 0.5 * stiffness.hourglass * std::cbrt(volume) * hourglass};
+  return {volume * (stiffness.mu * strain + 0.5 * stiffness.lambda * trace * trace),
+          0.5 * stiffness.hourglass * std::cbrt(volume) * hourglass};
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ void write_whole_file(const std::string& path, const std::string& text, const Fi
   constexpr int most = 1000;
   std::string beside = first;
   int descriptor = -1;
-  for (int n = 1; n < most && (descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) < 0 && errno == EEXIST; ++n)
+  for (int n = 1; n < most && (descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)) < 0 &&
+                  errno == EEXIST;
+       ++n)
     beside = first + '.' + std::to_string(n);
   const bool made = descriptor >= 0;
   const auto fail = [&](const char* what) {

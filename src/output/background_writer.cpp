@@ -8,8 +8,8 @@
 namespace railwave {
 namespace {
 
-// The queue's room: two outputs of fields and thousands of history samples beside them, which are small and must not wait
-// for fields being written.
+// The queue's room: two outputs of fields and thousands of history samples beside them, which are small and must not
+// wait for fields being written.
 constexpr std::size_t size_of_history = 1, size_of_fields = 4096, room = 3 * size_of_fields - 1;
 
 }  // namespace
@@ -27,7 +27,8 @@ void BackgroundWriter::history(const HistorySample& sample) {
 void BackgroundWriter::fields(const FieldSource& source, double time, long step) {
   if (!selection_) {
     const RunDescription& run = writer_.description();
-    selection_ = std::make_shared<const FieldSelection>(select_fields(run.sets, run.fields, static_cast<int>(run.contacts.size()), source));
+    selection_ = std::make_shared<const FieldSelection>(
+        select_fields(run.sets, run.fields, static_cast<int>(run.contacts.size()), source));
   }
   // The snapshot and what is fetched for it: made only where that leaves HDF5, in its thread, what it looked for.
   if (!leaves_room(2 * selection_->bytes() + memory_margin)) throw NoRoom(2 * selection_->bytes() + memory_margin);

@@ -10,24 +10,27 @@
 
 namespace railwave {
 
-/// A ResultsWriter that works in a thread of its own: what it is given it copies into plain data, and returns before that is
-/// on the disk. The file becomes the same. After the constructor that thread alone touches HDF5, which need not be
-/// built for several; nobody else may while this object lives.
+/// A ResultsWriter that works in a thread of its own: what it is given it copies into plain data, and returns before
+/// that is on the disk. The file becomes the same. After the constructor that thread alone touches HDF5, which need not
+/// be built for several; nobody else may while this object lives.
 ///
-/// Bounded: one output of fields is being written, one waits; the caller waits with the next. What the thread's writer throws is
-/// thrown by the next call of any member. The destructor writes what was given, as far as the disk lets it, and throws nothing.
+/// Bounded: one output of fields is being written, one waits; the caller waits with the next. What the thread's writer
+/// throws is thrown by the next call of any member. The destructor writes what was given, as far as the disk lets it,
+/// and throws nothing.
 class BackgroundWriter {
  public:
   /// Throws at once what the ResultsWriter's constructor throws.
   /// @param on_failure called by the thread as soon as the disk refuses results
-  BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {}, std::function<void()> on_failure = {});
+  BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {},
+                   std::function<void()> on_failure = {});
 
   void history(const HistorySample& sample);
 
   /// Fetches from `source` before it returns.
   void fields(const FieldSource& source, double time, long step);
 
-  /// Writes the state after what was given before. What goes wrong with it stops nothing; it is told at once, and see checkpoint_trouble().
+  /// Writes the state after what was given before. What goes wrong with it stops nothing; it is told at once, and see
+  /// checkpoint_trouble().
   void checkpoint(RunState state, const CheckpointFile& file);
 
   /// Waits for all that was given; what went wrong with checkpoints, empty: nothing.

@@ -23,8 +23,11 @@ RunState read(const std::string& path, const std::string& key, const std::string
   check_seal(path);
   const hdf5::File file = hdf5::File::open(path);
   const hdf5::Group root = file.root();
-  if (!root.has_attribute("format") || root.text_attribute("format") != format_name) throw std::runtime_error("it is no checkpoint of this version of the program");
-  if (root.text_attribute("key") != key) throw std::runtime_error("it is of another case, of this case before it was changed, or of another version of the program");
+  if (!root.has_attribute("format") || root.text_attribute("format") != format_name)
+    throw std::runtime_error("it is no checkpoint of this version of the program");
+  if (root.text_attribute("key") != key)
+    throw std::runtime_error(
+        "it is of another case, of this case before it was changed, or of another version of the program");
   RunState state;
   state.step = static_cast<long>(root.number_attribute("step"));
   state.time = root.number_attribute("time");
@@ -37,7 +40,8 @@ RunState read(const std::string& path, const std::string& key, const std::string
   std::size_t from = 0, name = 0;
   for (const long size : sizes) {
     const std::size_t end = names.find('\n', name);
-    if (end == std::string::npos || size < 0 || static_cast<std::size_t>(size) > bytes.size() - from) throw std::runtime_error("its numbers make no sense");
+    if (end == std::string::npos || size < 0 || static_cast<std::size_t>(size) > bytes.size() - from)
+      throw std::runtime_error("its numbers make no sense");
     const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(from);
     state.values.push_back({names.substr(name, end - name), {first, first + size}});
     from += static_cast<std::size_t>(size);
@@ -51,7 +55,8 @@ RunState read(const std::string& path, const std::string& key, const std::string
 
 }  // namespace
 
-CheckpointFile::CheckpointFile(const std::string& path, std::string key) : path_(target_of(path)), key_(std::move(key)) {}
+CheckpointFile::CheckpointFile(const std::string& path, std::string key)
+    : path_(target_of(path)), key_(std::move(key)) {}
 
 void CheckpointFile::write(const RunState& state, const std::string& run) const {
   hdf5::File file = hdf5::File::create(path_, kinds::checkpoint());
@@ -115,11 +120,14 @@ std::string checkpoint_key(const Model& model, const std::string& program_versio
   hash.add(program_version);
   hash.add(fmt::format("{} elements of a patch", patch_size));
   hash.add(scene.static_text);
-  hash.add(fmt::format("time {:.17g} {:.17g}, settled {}", scene.time.step_scale, scene.time.step, scene.settle.active));
-  hash.add(fmt::format("solver {} {} {} {}", static_cast<int>(scene.solver.precision), static_cast<int>(scene.solver.step_estimate),
-                       scene.solver.subcycling, scene.solver.renew_steps));
+  hash.add(
+      fmt::format("time {:.17g} {:.17g}, settled {}", scene.time.step_scale, scene.time.step, scene.settle.active));
+  hash.add(fmt::format("solver {} {} {} {}", static_cast<int>(scene.solver.precision),
+                       static_cast<int>(scene.solver.step_estimate), scene.solver.subcycling,
+                       scene.solver.renew_steps));
   hash.add(fmt::format("output {:.17g} {:.17g} {} {} {}", scene.output.history_interval, scene.output.field_interval,
-                       fmt::join(scene.output.field_sets, ","), fmt::join(scene.output.fields, ","), fmt::join(scene.output.history_sets, ",")));
+                       fmt::join(scene.output.field_sets, ","), fmt::join(scene.output.fields, ","),
+                       fmt::join(scene.output.history_sets, ",")));
   for (const auto& motion : scene.initial_motions) hash.add(fmt::format("{:.17g}", fmt::join(motion.velocity, ",")));
   for (const auto& motion : scene.prescribed_motions)
     hash.add(fmt::format("{:.17g} {:.17g}", fmt::join(motion.velocity, ","), fmt::join(motion.displacement, ",")));

@@ -9,8 +9,9 @@
 
 namespace railwave {
 
-/// A run's last state in a file, and the one before it: PATH and PATH.previous. A state is written whole as PATH.new, brought to
-/// the disk and then given its name, so that a kill at any moment leaves a good one; each carries a checksum over all it holds.
+/// A run's last state in a file, and the one before it: PATH and PATH.previous. A state is written whole as PATH.new,
+/// brought to the disk and then given its name, so that a kill at any moment leaves a good one; each carries a checksum
+/// over all it holds.
 class CheckpointFile {
  public:
   /// @param path symbolic links are followed
@@ -39,8 +40,8 @@ class CheckpointFile {
   std::string path_, key_;
 };
 
-/// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and what is told on
-/// the way, the mesh in the solver's order, the program's version.
+/// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and
+/// what is told on the way, the mesh in the solver's order, the program's version.
 std::string checkpoint_key(const Model& model, const std::string& program_version);
 
 /// Where a case's checkpoint lies: unless it says so, results.h5 -> results.checkpoint.h5.

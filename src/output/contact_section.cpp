@@ -45,8 +45,13 @@ ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, c
   group.write("coordinates", coordinates, {count, 3});
   area = group.create_growing<double>("area", {count}, each_time);
   pressure = group.create_growing<double>("pressure", {count}, each_time);
-  for (auto [name, dataset] : {std::pair{"displacement", &displacement}, {"position", &position}, {"velocity", &velocity}, {"normal", &normal},
-                               {"normal_force", &normal_force}, {"tangential_force", &tangential_force}, {"shear", &shear}})
+  for (auto [name, dataset] : {std::pair{"displacement", &displacement},
+                               {"position", &position},
+                               {"velocity", &velocity},
+                               {"normal", &normal},
+                               {"normal_force", &normal_force},
+                               {"tangential_force", &tangential_force},
+                               {"shear", &shear}})
     *dataset = group.create_growing<double>(name, {count, 3}, each_time);
 }
 
@@ -64,7 +69,8 @@ void ContactSection::Side::add(const ContactSide& state, const FieldSource& sour
   append(shear, nodal_shear(state), 3 * count);
 }
 
-ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact) : contact_(contact) {
+ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact)
+    : contact_(contact) {
   const ContactState first = source.contact(contact);
   falling_friction_ = !first.friction_now.empty();
   const hdf5::Group group = contacts_group.create_group(first.name);
@@ -84,7 +90,8 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSou
 void ContactSection::add_values(const FieldSource& source, long step) {
   const ContactState state = source.contact(contact_);
   const std::size_t count = slave_.nodes.size();
-  if (state.slipping.size() != count) throw std::logic_error("a contact state has arrays of another length than its nodes");
+  if (state.slipping.size() != count)
+    throw std::logic_error("a contact state has arrays of another length than its nodes");
   slave_.add(state.slave, source);
   master_.add(state.master, source);
   append(gap_, state.gap, count);

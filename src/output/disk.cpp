@@ -62,14 +62,21 @@ std::string reason() { return std::strerror(errno); }
 
 std::string mend() {
   switch (errno) {
-    case ENOSPC: return "free some space there, or name a file on another disk";
-    case EDQUOT: return "your quota there is used up: remove what you no longer need, or name a file on another disk";
-    case EFBIG: return "files there, or of this shell (ulimit -f), may not be so large";
-    case EROFS: return "that disk can only be read: name a file on another one";
+    case ENOSPC:
+      return "free some space there, or name a file on another disk";
+    case EDQUOT:
+      return "your quota there is used up: remove what you no longer need, or name a file on another disk";
+    case EFBIG:
+      return "files there, or of this shell (ulimit -f), may not be so large";
+    case EROFS:
+      return "that disk can only be read: name a file on another one";
     case EACCES:
-    case EPERM: return "you may not write there: ask for the right to, or name another file";
-    case EIO: return "the disk is failing: name a file on another one, and see to it";
-    default: return {};
+    case EPERM:
+      return "you may not write there: ask for the right to, or name another file";
+    case EIO:
+      return "the disk is failing: name a file on another one, and see to it";
+    default:
+      return {};
   }
 }
 

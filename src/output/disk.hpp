@@ -38,7 +38,8 @@ std::string reason();
 /// What to do about what the system just refused, to be said behind reason(); may be empty.
 std::string mend();
 
-/// Has the disk hold what was written of a file, or of a folder's list of names; throws std::runtime_error if it refuses.
+/// Has the disk hold what was written of a file, or of a folder's list of names; throws std::runtime_error if it
+/// refuses.
 void bring_to_disk(const std::string& path);
 
 }  // namespace railwave::disk

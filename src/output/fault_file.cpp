@@ -24,8 +24,8 @@ bool in_box(const Model& model, int element, const Vec3& centre, double half_edg
   return true;
 }
 
-std::string write_part(const Model& model, const Fault& fault, const hdf5::Group& parts, const std::string& file, const std::string& name,
-                       const std::vector<int>& elements) {
+std::string write_part(const Model& model, const Fault& fault, const hdf5::Group& parts, const std::string& file,
+                       const std::string& name, const std::vector<int>& elements) {
   std::vector<int> corners, nodes, culprit;
   for (int e : elements) {
     corners.insert(corners.end(), model.assembly.elements[e].begin(), model.assembly.elements[e].end());
@@ -37,7 +37,9 @@ std::string write_part(const Model& model, const Fault& fault, const hdf5::Group
   const Piece piece(model.assembly.nodes, corners);
   GridWriter grid(parts, "/parts", name, file, 8);
   grid.cells(piece.nodes, piece.connectivity);
-  for (const auto& [field, called] : {std::pair{NodeField::displacement, "displacement"}, {NodeField::velocity, "velocity"}, {NodeField::acceleration, "acceleration"}})
+  for (const auto& [field, called] : {std::pair{NodeField::displacement, "displacement"},
+                                      {NodeField::velocity, "velocity"},
+                                      {NodeField::acceleration, "acceleration"}})
     grid.node_values(called, node_field(model, field, nodes).values, 3);
   grid.cell_values("stress", element_stress(model, elements).values, 6);
   grid.values("plastic_strain", element_plastic_strain(model, elements).values);
@@ -47,7 +49,8 @@ std::string write_part(const Model& model, const Fault& fault, const hdf5::Group
 }
 
 void write_files(const Model& model, const Fault& fault, const std::string& path) {
-  const double half_edge = model.scene.watch.box > 0 ? model.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
+  const double half_edge =
+      model.scene.watch.box > 0 ? model.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
   check_results_place(path);
   hdf5::File file = hdf5::File::create(path, kinds::fault());
   const hdf5::Group root = file.root(), parts = root.create_group("parts");
@@ -59,7 +62,9 @@ void write_files(const Model& model, const Fault& fault, const std::string& path
     std::vector<int> elements;
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
       if (e == fault.element || in_box(model, e, fault.place, half_edge)) elements.push_back(e);
-    if (!elements.empty()) grids += write_part(model, fault, parts, escaped(std::filesystem::path(path).filename().string()), part.name, elements);
+    if (!elements.empty())
+      grids += write_part(model, fault, parts, escaped(std::filesystem::path(path).filename().string()), part.name,
+                          elements);
   }
   file.close();
   write_grids(xdmf_path(path), grids, kinds::fault_xdmf());
@@ -84,7 +89,9 @@ bool write_fault_file(const Model& model, const Fault& fault, const std::string&
     return true;
   } catch (const std::exception& error) {
     remove_fault_file(path);
-    std::fputs(fmt::format("railwave: warning: the surroundings of the fault could not be written: {}\n", error.what()).c_str(), stderr);
+    std::fputs(fmt::format("railwave: warning: the surroundings of the fault could not be written: {}\n", error.what())
+                   .c_str(),
+               stderr);
     return false;
   }
 }

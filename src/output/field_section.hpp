@@ -9,10 +9,12 @@
 
 namespace railwave {
 
-/// Group /fields/NAME or /beams/NAME of a results file: one output set, its mesh once and its fields at each output time.
+/// Group /fields/NAME or /beams/NAME of a results file: one output set, its mesh once and its fields at each output
+/// time.
 class FieldSection {
  public:
-  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. Beams have section forces and moments whatever is asked.
+  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. Beams have section forces and moments
+  /// whatever is asked.
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().

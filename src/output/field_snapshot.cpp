@@ -40,14 +40,16 @@ std::size_t FieldSelection::bytes() const {
   return sizeof(double) * (of_node * nodes.size() + of_element * elements.size());
 }
 
-FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields, int contact_count,
-                             const FieldSource& source) {
+FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
+                             int contact_count, const FieldSource& source) {
   FieldSelection selection;
   selection.contact_count = contact_count;
   bool wants_nodes = false;
   for (const std::string& name : fields) {
-    if (name == "stress") selection.stress = true;
-    else if (name == "plastic_strain") selection.plastic_strain = true;
+    if (name == "stress")
+      selection.stress = true;
+    else if (name == "plastic_strain")
+      selection.plastic_strain = true;
     else {
       selection.node_fields.push_back(node_field_named(name));
       wants_nodes = true;
@@ -55,8 +57,10 @@ FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vect
   }
   for (const OutputSet& set : sets) {
     if (wants_nodes) append(selection.nodes, set.nodes);
-    if (set.is_beam()) selection.beams = true;
-    else if (selection.stress || selection.plastic_strain) append(selection.elements, set.elements);
+    if (set.is_beam())
+      selection.beams = true;
+    else if (selection.stress || selection.plastic_strain)
+      append(selection.elements, set.elements);
   }
   for (int i = 0; i < contact_count; ++i) {
     const ContactState state = source.contact(i);
@@ -72,7 +76,8 @@ FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vect
   return selection;
 }
 
-FieldSnapshot::FieldSnapshot(const FieldSource& source, std::shared_ptr<const FieldSelection> selection) : selection_(std::move(selection)) {
+FieldSnapshot::FieldSnapshot(const FieldSource& source, std::shared_ptr<const FieldSelection> selection)
+    : selection_(std::move(selection)) {
   for (const NodeField field : selection_->node_fields) node_fields_.push_back(source.nodes(field, selection_->nodes));
   if (selection_->stress) stress_ = source.stress(selection_->elements);
   if (selection_->plastic_strain) plastic_strain_ = source.plastic_strain(selection_->elements);

@@ -10,11 +10,11 @@
 
 namespace railwave {
 
-/// Which fields a results file takes from a FieldSource at each output, and of which nodes and elements: those of all output
-/// sets and contact surfaces together, each once, so that every field is fetched once.
+/// Which fields a results file takes from a FieldSource at each output, and of which nodes and elements: those of all
+/// output sets and contact surfaces together, each once, so that every field is fetched once.
 struct FieldSelection {
-  std::vector<int> nodes, elements;                    ///< model numbers, ascending
-  std::vector<int> place_of_node, place_of_element;    ///< by model number up to the largest: position in those, or -1
+  std::vector<int> nodes, elements;                  ///< model numbers, ascending
+  std::vector<int> place_of_node, place_of_element;  ///< by model number up to the largest: position in those, or -1
   std::vector<NodeField> node_fields;
   bool stress = false, plastic_strain = false, beams = false;
   int contact_count = 0;
@@ -23,11 +23,13 @@ struct FieldSelection {
   std::size_t bytes() const;
 };
 
-/// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. The contacts' nodes are taken from `source`.
-FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields, int contact_count,
-                             const FieldSource& source);
+/// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. The contacts' nodes are taken from
+/// `source`.
+FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
+                             int contact_count, const FieldSource& source);
 
-/// The selected fields of one instant, fetched once and kept as plain data: it outlives the instant, and any thread may read it.
+/// The selected fields of one instant, fetched once and kept as plain data: it outlives the instant, and any thread may
+/// read it.
 class FieldSnapshot : public FieldSource {
  public:
   FieldSnapshot(const FieldSource& source, std::shared_ptr<const FieldSelection> selection);
@@ -41,8 +43,8 @@ class FieldSnapshot : public FieldSource {
 
  private:
   std::shared_ptr<const FieldSelection> selection_;
-  std::vector<HostField> node_fields_;  ///< one for each of selection_->node_fields
-  HostField stress_, plastic_strain_, beams_;   ///< without components where not selected
+  std::vector<HostField> node_fields_;         ///< one for each of selection_->node_fields
+  HostField stress_, plastic_strain_, beams_;  ///< without components where not selected
   std::vector<ContactState> contacts_;
 };
 

@@ -14,8 +14,9 @@
 /// throws std::runtime_error saying what was tried and HDF5's own reason.
 namespace railwave::hdf5 {
 
-/// HDF5 would print its error stack to the terminal; the reason travels in the exception instead. HDF5 built for several
-/// threads keeps this for each thread: to be called in each one that uses it. File::create() and File::open() do so.
+/// HDF5 would print its error stack to the terminal; the reason travels in the exception instead. HDF5 built for
+/// several threads keeps this for each thread: to be called in each one that uses it. File::create() and File::open()
+/// do so.
 void be_quiet();
 
 /// An HDF5 identifier together with the function that closes it.
@@ -63,8 +64,8 @@ class Dataset {
   std::string name_;
 };
 
-/// How a growing dataset is stored. Compressed chunks are written once and whole: one that is rewritten in another size moves, and its
-/// old place is lost.
+/// How a growing dataset is stored. Compressed chunks are written once and whole: one that is rewritten in another size
+/// moves, and its old place is lost.
 struct Storage {
   hsize_t rows_in_chunk = 1;
   bool compressed = false;
@@ -77,7 +78,8 @@ enum class Check { by_chunk, by_seal };
 class Group {
  public:
   Group() = default;
-  Group(Handle id, std::string name, bool extends = false) : id_(std::move(id)), name_(std::move(name)), extends_(extends) {}
+  Group(Handle id, std::string name, bool extends = false)
+      : id_(std::move(id)), name_(std::move(name)), extends_(extends) {}
 
   Group create_group(const std::string& name) const;
   Group group(const std::string& name) const;
@@ -85,7 +87,8 @@ class Group {
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;  ///< of everything in this group, by alphabet
 
-  /// Dataset that grows along its first dimension; `row` is the shape of one entry. Its attribute `unit` is that of output_fields.hpp.
+  /// Dataset that grows along its first dimension; `row` is the shape of one entry. Its attribute `unit` is that of
+  /// output_fields.hpp.
   template <class T>
   Dataset create_growing(const std::string& name, const Shape& row, const Storage& storage) const;
 
@@ -93,13 +96,15 @@ class Group {
   /// Dataset of fixed shape, written at once.
   /// @param unit its attribute `unit`; empty: that of output_fields.hpp, none where that does not know it
   template <class T>
-  void write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit = {}, Check check = Check::by_chunk) const;
+  void write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit = {},
+             Check check = Check::by_chunk) const;
 
   /// Entries of the growing dataset with the fewest in this group and those below; none: there is none.
   std::optional<hsize_t> least_entries() const;
   /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer.
   void cut(hsize_t entries) const;
-  /// Reads this group's attributes and the last entry of each growing dataset in it and in those below: throws std::runtime_error where one is damaged.
+  /// Reads this group's attributes and the last entry of each growing dataset in it and in those below: throws
+  /// std::runtime_error where one is damaged.
   void check_last() const;
 
   void set_attribute(const std::string& name, double value) const;
@@ -125,17 +130,18 @@ class File {
  public:
   File() = default;
 
-  /// Makes a new file, called PATH.new until it gets its name: nobody ever sees half of it, and a PATH that is there stays until then.
-  /// Where PATH.new is somebody else's it is PATH.new.1, and so on. Symbolic links of PATH are followed. The file has its mark, the
-  /// attribute `format` of its kind, from the start; it does not take a name that has become somebody else's, see expect_replaceable().
-  /// What has not got its name goes with this object. Every flush() happens or does not, also when the program is killed amid it or the
-  /// disk is full (see hdf5_journal.hpp).
+  /// Makes a new file, called PATH.new until it gets its name: nobody ever sees half of it, and a PATH that is there
+  /// stays until then. Where PATH.new is somebody else's it is PATH.new.1, and so on. Symbolic links of PATH are
+  /// followed. The file has its mark, the attribute `format` of its kind, from the start; it does not take a name that
+  /// has become somebody else's, see expect_replaceable(). What has not got its name goes with this object. Every
+  /// flush() happens or does not, also when the program is killed amid it or the disk is full (see hdf5_journal.hpp).
   static File create(const std::string& path, const FileKind& kind);
 
   /// For reading. A flush that a killed program began is finished first.
   static File open(const std::string& path);
 
-  /// For adding to what is there, as if it had just been made: groups and datasets that exist are taken. Flushes are as after create().
+  /// For adding to what is there, as if it had just been made: groups and datasets that exist are taken. Flushes are as
+  /// after create().
   static File extend(const std::string& path);
 
   File(File&& other) noexcept;
@@ -152,8 +158,8 @@ class File {
   /// @return what was done where somebody has moved or removed the file (see hdf5::keep_name); empty: nothing
   std::string keep_name() const;
 
-  /// Writes everything, closes, and gives a file that has it not its name when all is on the disk; throws if that fails, unlike the
-  /// destructor.
+  /// Writes everything, closes, and gives a file that has it not its name when all is on the disk; throws if that
+  /// fails, unlike the destructor.
   /// @param before_naming is given the name that the file has until then
   void close(const std::function<void(const std::string&)>& before_naming = {});
 

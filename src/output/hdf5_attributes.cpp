@@ -15,7 +15,8 @@ Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) co
   const std::string what = "writing attribute " + name + " of " + name_;
   if (check(H5Aexists(id_.get(), name.c_str()), what) > 0) {
     Handle there(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
-    const Handle its_type(check(H5Aget_type(there.get()), what), H5Tclose), its_space(check(H5Aget_space(there.get()), what), H5Sclose);
+    const Handle its_type(check(H5Aget_type(there.get()), what), H5Tclose),
+        its_space(check(H5Aget_space(there.get()), what), H5Sclose);
     // In its place, so that a kill in the middle of a flush does not find it taken away and not yet put back.
     if (H5Tequal(its_type.get(), type) > 0 && H5Sextent_equal(its_space.get(), space) > 0) return there;
     there.close();

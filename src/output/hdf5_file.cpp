@@ -30,8 +30,8 @@ herr_t keep_first_description(unsigned, const H5E_error2_t* entry, void* text) {
   return 0;
 }
 
-/// At the program's exit HDF5 would try once more to write what a full disk has refused, and crash. It heeds this only before
-/// anything else; all that we open we close.
+/// At the program's exit HDF5 would try once more to write what a full disk has refused, and crash. It heeds this only
+/// before anything else; all that we open we close.
 void stay_out_of_exit() {
   static const herr_t said = H5dont_atexit();
   static_cast<void>(said);
@@ -48,7 +48,8 @@ Handle attributes_in_header(const std::string& what) {
 /// What a file is called behind its name until it is whole.
 constexpr const char* unfinished = ".new";
 
-/// Between two flushes only array data reach the disk; the structure that HDF5 would write to make room would have to be held back.
+/// Between two flushes only array data reach the disk; the structure that HDF5 would write to make room would have to
+/// be held back.
 Handle access_by_journal(const std::string& what) {
   Handle access(check(H5Pcreate(H5P_FILE_ACCESS), what), H5Pclose);
   H5AC_cache_config_t cache;
@@ -59,14 +60,15 @@ Handle access_by_journal(const std::string& what) {
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
   check(H5Pset_mdc_config(access.get(), &cache), what);
-  // The superblock has a checksum from HDF5 1.8 on. That of 1.10 has a mark besides that the file is being written, by which HDF5 would
-  // refuse what a kill leaves.
+  // The superblock has a checksum from HDF5 1.8 on. That of 1.10 has a mark besides that the file is being written, by
+  // which HDF5 would refuse what a kill leaves.
   check(H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_LATEST), what);
   use_journal(access.get());
   return access;
 }
 
-/// Bytes that flushing a file may take: its structure is put together, then gathered into a journal, in order, and with its frame.
+/// Bytes that flushing a file may take: its structure is put together, then gathered into a journal, in order, and with
+/// its frame.
 std::size_t need_of_flush(hid_t file) {
   std::size_t most = 0, least = 0, size = 0;
   int entries = 0;
@@ -75,8 +77,11 @@ std::size_t need_of_flush(hid_t file) {
   return copies * size;
 }
 
-/// With the formats of HDF5 1.10 all structure has checksums: headers, groups, indices of chunks. Only texts have none (global heap).
-void have_checksums(hid_t file, const std::string& what) { check(H5Fset_libver_bounds(file, H5F_LIBVER_V110, H5F_LIBVER_LATEST), what); }
+/// With the formats of HDF5 1.10 all structure has checksums: headers, groups, indices of chunks. Only texts have none
+/// (global heap).
+void have_checksums(hid_t file, const std::string& what) {
+  check(H5Fset_libver_bounds(file, H5F_LIBVER_V110, H5F_LIBVER_LATEST), what);
+}
 
 }  // namespace
 
@@ -134,7 +139,8 @@ std::string name_beside(const std::string& path, const FileKind& kind) {
 /// A pipe would be waited for, perhaps for ever.
 void expect_file(const std::string& path) {
   struct stat facts;
-  if (stat(path.c_str(), &facts) == 0 && !S_ISREG(facts.st_mode)) throw std::runtime_error("opening " + path + ": it is " + seems_to_be(path));
+  if (stat(path.c_str(), &facts) == 0 && !S_ISREG(facts.st_mode))
+    throw std::runtime_error("opening " + path + ": it is " + seems_to_be(path));
 }
 
 void before_a_file() {
@@ -181,7 +187,11 @@ File File::extend(const std::string& path) {
 }
 
 File::File(File&& other) noexcept
-    : id_(std::move(other.id_)), path_(std::move(other.path_)), name_(std::exchange(other.name_, Name::own)), beside_(std::move(other.beside_)), kind_(std::move(other.kind_)),
+    : id_(std::move(other.id_)),
+      path_(std::move(other.path_)),
+      name_(std::exchange(other.name_, Name::own)),
+      beside_(std::move(other.beside_)),
+      kind_(std::move(other.kind_)),
       extends_(other.extends_) {}
 
 File& File::operator=(File&& other) noexcept {
@@ -228,7 +238,8 @@ void File::take_name() {
     throw std::runtime_error(std::string(error.what()) + "; what was written is in " + beside_);
   }
   if (rename(beside_.c_str(), path_.c_str()) != 0)
-    throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " + beside_);
+    throw std::runtime_error("cannot give " + path_ + " its name: " + disk::reason() + "; what was written is in " +
+                             beside_);
 }
 
 std::string File::keep_name() const {

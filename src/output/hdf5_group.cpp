@@ -13,8 +13,8 @@ namespace {
 
 constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
 
-/// Fletcher32 takes a chunk of zeros for sound, which is what a file system leaves of a lost block; a zlib stream, even one that is not
-/// compressed, it cannot be. Without compression all chunks of a dataset have one size.
+/// Fletcher32 takes a chunk of zeros for sound, which is what a file system leaves of a lost block; a zlib stream, even
+/// one that is not compressed, it cannot be. Without compression all chunks of a dataset have one size.
 void add_checks(hid_t properties, bool compressed, const std::string& what) {
   if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     if (compressed) check(H5Pset_shuffle(properties), what);
@@ -35,7 +35,8 @@ Shape chunk_of(Shape shape) {
 void set_unit(hid_t dataset, const std::string& unit, const std::string& what) {
   if (unit.empty()) return;
   const Handle space = space_of({}), type = text_type();
-  const Handle attribute(check(H5Acreate2(dataset, "unit", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose);
+  const Handle attribute(check(H5Acreate2(dataset, "unit", type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), what),
+                         H5Aclose);
   const char* text = unit.c_str();
   check(H5Awrite(attribute.get(), type.get(), &text), what);
 }
@@ -52,13 +53,15 @@ Group Group::create_group(const std::string& name) const {
 Group Group::group(const std::string& name) const {
   expect_room();
   const LimitedCall limited;
-  return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
+  return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose),
+          name_ + name + "/", extends_};
 }
 
 Dataset Group::dataset(const std::string& name) const {
   expect_room();
   const LimitedCall limited;
-  return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose), name_ + name};
+  return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose),
+          name_ + name};
 }
 
 bool Group::has(const std::string& name) const {
@@ -105,7 +108,8 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
     if (row[0] == 0) limit[1] = 1;  // HDF5 wants room for a chunk
   }
   expect_room();
-  const Handle space(check(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), what), H5Sclose);
+  const Handle space(check(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), what),
+                     H5Sclose);
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
   check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
   if constexpr (std::is_same_v<T, double>) {
@@ -114,16 +118,19 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
     check(H5Pset_fill_value(properties.get(), H5T_NATIVE_DOUBLE, &nothing), what);
   }
   add_checks(properties.get(), storage.compressed, what);
-  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
+  const hid_t id =
+      H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   Handle made(check(id, what), H5Dclose);
   set_unit(id, unit_of(name_ + name), what);
   return {std::move(made), name_ + name};
 }
 
 template <class T>
-void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit, Check by) const {
+void Group::write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit,
+                  Check by) const {
   const std::string what = "writing " + name_ + name;
-  if (values.size() != count_of(shape)) throw std::logic_error(what + ": the number of values is not that of the shape");
+  if (values.size() != count_of(shape))
+    throw std::logic_error(what + ": the number of values is not that of the shape");
   if (extends_ && has(name)) {
     if (dataset(name).shape() != shape) throw std::runtime_error(what + ": it is there with another shape");
     return;
@@ -135,7 +142,8 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
     check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
     add_checks(properties.get(), false, what);
   }
-  const hid_t id = H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
+  const hid_t id =
+      H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);
   const Handle dataset(check(id, what), H5Dclose);
   set_unit(id, unit.empty() ? unit_of(name_ + name) : unit, what);
   if (!values.empty()) check(H5Dwrite(id, native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
@@ -150,16 +158,19 @@ void Group::each_growing(const Do& one) const {
     if (type == H5I_GROUP) group(name).each_growing(one);
     if (type != H5I_DATASET) continue;
     const Handle space = file_space(id.get(), name_ + name);
-    Shape extent(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_ + name)), most = extent;
+    Shape extent(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_ + name)),
+        most = extent;
     if (extent.empty()) continue;
-    check(H5Sget_simple_extent_dims(space.get(), extent.data(), most.data()), "asking for the shape of " + name_ + name);
+    check(H5Sget_simple_extent_dims(space.get(), extent.data(), most.data()),
+          "asking for the shape of " + name_ + name);
     if (most[0] == H5S_UNLIMITED) one(id.get(), extent, name_ + name);
   }
 }
 
 std::optional<hsize_t> Group::least_entries() const {
   std::optional<hsize_t> least;
-  each_growing([&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); });
+  each_growing(
+      [&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); });
   return least;
 }
 
@@ -176,14 +187,16 @@ void Group::cut(hsize_t entries) const {
 void Group::check_last() const {
   const LimitedCall limited;
   const H5A_operator2_t visit = [](hid_t, const char*, const H5A_info_t*, void*) -> herr_t { return 0; };
-  check(H5Aiterate2(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, nullptr), "reading the attributes of " + name_);
+  check(H5Aiterate2(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, nullptr),
+        "reading the attributes of " + name_);
   each_growing([&](hid_t id, Shape extent, const std::string& name) {
     if (count_of(extent) == 0) return;
     Shape start(extent.size(), 0);
     start[0] = extent[0] - 1;
     extent[0] = 1;
     const Handle space = file_space(id, name);
-    check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr), "reading " + name);
+    check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
+          "reading " + name);
     const Handle memory = space_of(extent), type(check(H5Dget_type(id), "reading " + name), H5Tclose);
     const double bytes = static_cast<double>(count_of(extent)) * static_cast<double>(H5Tget_size(type.get()));
     expect_memory(bytes, name + ": has rows that need", "see whether the file is whole");
@@ -192,9 +205,10 @@ void Group::check_last() const {
   });
 }
 
-#define RAILWAVE_FOR_TYPE(T)                                                                          \
-  template Dataset Group::create_growing<T>(const std::string&, const Shape&, const Storage&) const;  \
-  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, const std::string&, Check) const;
+#define RAILWAVE_FOR_TYPE(T)                                                                                        \
+  template Dataset Group::create_growing<T>(const std::string&, const Shape&, const Storage&) const;                \
+  template void Group::write<T>(const std::string&, const std::vector<T>&, const Shape&, const std::string&, Check) \
+      const;
 
 RAILWAVE_FOR_TYPE(double)
 RAILWAVE_FOR_TYPE(int)

@@ -62,17 +62,21 @@ bool each_piece(const std::vector<char>& pieces, const Take& take) {
 }
 
 bool lay(int file, const std::vector<char>& pieces) {
-  return each_piece(pieces, [&](const Piece& piece, const char* bytes) { return disk::write_at(file, bytes, piece.size, static_cast<off_t>(piece.place)); });
+  return each_piece(pieces, [&](const Piece& piece, const char* bytes) {
+    return disk::write_at(file, bytes, piece.size, static_cast<off_t>(piece.place));
+  });
 }
 
-/// In which order pieces go to their places, for other programs that read a file as a kill left it amid that: first what tells the file's
-/// length, then the indices of arrays from their roots to their leaves, then the rest, with the arrays' extents. Who sees an extent thus
-/// finds what it counts.
+/// In which order pieces go to their places, for other programs that read a file as a kill left it amid that: first
+/// what tells the file's length, then the indices of arrays from their roots to their leaves, then the rest, with the
+/// arrays' extents. Who sees an extent thus finds what it counts.
 int rank(const Piece& piece, const char* bytes) {
   constexpr int level_of_node = 5;
   if (piece.place == 0) return 0;
-  if (piece.size > level_of_node && std::memcmp(bytes, "TREE", 4) == 0) return 1 + 255 - static_cast<unsigned char>(bytes[level_of_node]);
-  const bool index = piece.size > 4 && (std::memcmp(bytes, "EA", 2) == 0 || std::memcmp(bytes, "FA", 2) == 0);  // extensible and fixed arrays
+  if (piece.size > level_of_node && std::memcmp(bytes, "TREE", 4) == 0)
+    return 1 + 255 - static_cast<unsigned char>(bytes[level_of_node]);
+  const bool index = piece.size > 4 && (std::memcmp(bytes, "EA", 2) == 0 ||
+                                        std::memcmp(bytes, "FA", 2) == 0);  // extensible and fixed arrays
   return index ? 257 : 258;
 }
 
@@ -83,7 +87,9 @@ std::vector<char> in_order(const std::vector<char>& pieces) {
     const char* bytes;
   };
   std::vector<Ranked> list;
-  each_piece(pieces, [&](const Piece& piece, const char* bytes) { return list.push_back({rank(piece, bytes), piece, bytes}), true; });
+  each_piece(pieces, [&](const Piece& piece, const char* bytes) {
+    return list.push_back({rank(piece, bytes), piece, bytes}), true;
+  });
   std::stable_sort(list.begin(), list.end(), [](const Ranked& a, const Ranked& b) { return a.rank < b.rank; });
   std::vector<char> ordered;
   ordered.reserve(pieces.size());
@@ -96,10 +102,10 @@ struct JournalledFile {
   int descriptor;
   std::string path;
   bool writes;
-  int failed;                  ///< errno of the first call that the system refused; 0: none
-  haddr_t end;                 ///< of what HDF5 has given out
-  haddr_t flushed_end;         ///< that of the last flush: nothing that lies beyond is pointed to
-  std::vector<char> waiting;   ///< pieces of structure
+  int failed;                 ///< errno of the first call that the system refused; 0: none
+  haddr_t end;                ///< of what HDF5 has given out
+  haddr_t flushed_end;        ///< that of the last flush: nothing that lies beyond is pointed to
+  std::vector<char> waiting;  ///< pieces of structure
 };
 
 JournalledFile& own(H5FD_t* file) { return *reinterpret_cast<JournalledFile*>(file); }
@@ -108,15 +114,16 @@ const JournalledFile& own(const H5FD_t* file) { return *reinterpret_cast<const J
 herr_t complain(const JournalledFile& file, const char* doing) {
   try {
     const std::string reason = disk::reason(), mend = disk::mend();
-    H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_WRITEERROR, "%s %s: %s%s%s", doing, file.path.c_str(), reason.c_str(),
-             mend.empty() ? "" : "; ", mend.c_str());
+    H5Epush2(H5E_DEFAULT, __FILE__, __func__, __LINE__, H5E_ERR_CLS, H5E_IO, H5E_WRITEERROR, "%s %s: %s%s%s", doing,
+             file.path.c_str(), reason.c_str(), mend.empty() ? "" : "; ", mend.c_str());
   } catch (const std::exception&) {  // not even memory for the words
   }
   return -1;
 }
 
-/// Once the system has refused something the file is left as it was flushed last. HDF5, which knows no way back, is told that all goes
-/// well when it writes more and when it closes, so that it closes in peace; every later flush fails as the first did.
+/// Once the system has refused something the file is left as it was flushed last. HDF5, which knows no way back, is
+/// told that all goes well when it writes more and when it closes, so that it closes in peace; every later flush fails
+/// as the first did.
 herr_t give_up(JournalledFile& file, const char* doing) {
   file.failed = errno;
   const herr_t result = complain(file, doing);
@@ -129,7 +136,8 @@ herr_t flush(JournalledFile& file) {
   if (file.waiting.empty()) return 0;  // also where HDF5 has not yet found out where a file ends that it opens
   std::vector<char> in_place;
   const bool beyond = each_piece(file.waiting, [&](const Piece& piece, const char* bytes) {
-    if (piece.place >= file.flushed_end) return disk::write_at(file.descriptor, bytes, piece.size, static_cast<off_t>(piece.place));
+    if (piece.place >= file.flushed_end)
+      return disk::write_at(file.descriptor, bytes, piece.size, static_cast<off_t>(piece.place));
     add_piece(in_place, piece, bytes);
     return true;
   });
@@ -216,8 +224,10 @@ herr_t close_file(H5FD_t* base) {
   if (file->failed) {
     Footer footer{};
     const off_t length = disk::length_of(file->descriptor);
-    const bool journal = length >= static_cast<off_t>(sizeof footer) && disk::read_at(file->descriptor, &footer, sizeof footer, length - static_cast<off_t>(sizeof footer)) &&
-                         std::memcmp(footer.mark, mark, sizeof mark) == 0;
+    const bool journal =
+        length >= static_cast<off_t>(sizeof footer) &&
+        disk::read_at(file->descriptor, &footer, sizeof footer, length - static_cast<off_t>(sizeof footer)) &&
+        std::memcmp(footer.mark, mark, sizeof mark) == 0;
     if (!journal) static_cast<void>(!ftruncate(file->descriptor, static_cast<off_t>(file->flushed_end)));
   }
   const bool closed = close(file->descriptor) == 0;
@@ -225,7 +235,9 @@ herr_t close_file(H5FD_t* base) {
 }
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
-  if (flags) *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  if (flags)
+    *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA |
+             H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   return 0;
 }
 
@@ -239,7 +251,9 @@ herr_t set_end(H5FD_t* file, H5FD_mem_t, haddr_t end) {
 haddr_t get_length(const H5FD_t* base, H5FD_mem_t) {
   const JournalledFile& file = own(base);
   auto length = static_cast<haddr_t>(std::max<off_t>(disk::length_of(file.descriptor), 0));
-  each_piece(file.waiting, [&](const Piece& piece, const char*) { return length = std::max<haddr_t>(length, piece.place + piece.size), true; });
+  each_piece(file.waiting, [&](const Piece& piece, const char*) {
+    return length = std::max<haddr_t>(length, piece.place + piece.size), true;
+  });
   return length;
 }
 
@@ -252,7 +266,8 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t place, size_t size, void* b
   JournalledFile& file = own(base);
   if (!disk::read_at(file.descriptor, buffer, size, static_cast<off_t>(place))) return complain(file, "reading");
   each_piece(file.waiting, [&](const Piece& piece, const char* bytes) {
-    const std::uint64_t from = std::max<std::uint64_t>(place, piece.place), to = std::min<std::uint64_t>(place + size, piece.place + piece.size);
+    const std::uint64_t from = std::max<std::uint64_t>(place, piece.place),
+                        to = std::min<std::uint64_t>(place + size, piece.place + piece.size);
     if (from < to) std::memcpy(static_cast<char*>(buffer) + (from - place), bytes + (from - piece.place), to - from);
     return true;
   });
@@ -262,8 +277,10 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t place, size_t size, void* b
 herr_t write(H5FD_t* base, H5FD_mem_t type, hid_t, haddr_t place, size_t size, const void* buffer) {
   JournalledFile& file = own(base);
   if (file.failed) return 0;
-  // A chunk that was flushed and gets more rows is written again in its place, with another checksum: it waits like structure.
-  if (type == H5FD_MEM_DRAW && place >= file.flushed_end) return disk::write_at(file.descriptor, buffer, size, static_cast<off_t>(place)) ? 0 : give_up(file, "writing");
+  // A chunk that was flushed and gets more rows is written again in its place, with another checksum: it waits like
+  // structure.
+  if (type == H5FD_MEM_DRAW && place >= file.flushed_end)
+    return disk::write_at(file.descriptor, buffer, size, static_cast<off_t>(place)) ? 0 : give_up(file, "writing");
   return without_exceptions(file, [&] { return add_piece(file.waiting, {place, size}, buffer), 0; });
 }
 
@@ -304,7 +321,8 @@ hid_t driver() {
 }  // namespace
 
 void use_journal(hid_t access) {
-  if (driver() < 0 || H5Pset_driver(access, driver(), nullptr) < 0) throw std::runtime_error("HDF5 refuses the driver for results files");
+  if (driver() < 0 || H5Pset_driver(access, driver(), nullptr) < 0)
+    throw std::runtime_error("HDF5 refuses the driver for results files");
 }
 
 void finish_journal(const std::string& path) {
@@ -312,24 +330,28 @@ void finish_journal(const std::string& path) {
   disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   Footer footer{};
   const off_t length = file.get() < 0 ? -1 : disk::length_of(file.get());
-  if (length < static_cast<off_t>(sizeof footer) || !disk::read_at(file.get(), &footer, sizeof footer, length - static_cast<off_t>(sizeof footer)) ||
+  if (length < static_cast<off_t>(sizeof footer) ||
+      !disk::read_at(file.get(), &footer, sizeof footer, length - static_cast<off_t>(sizeof footer)) ||
       std::memcmp(footer.mark, mark, sizeof mark) != 0)
     return;
   if (flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return;
   const off_t before = static_cast<off_t>(sizeof footer);
   if (footer.size > static_cast<std::uint64_t>(length - before)) return;
   std::vector<char> pieces(footer.size);
-  if (!disk::read_at(file.get(), pieces.data(), pieces.size(), length - before - static_cast<off_t>(footer.size))) fail("cannot be read");
+  if (!disk::read_at(file.get(), pieces.data(), pieces.size(), length - before - static_cast<off_t>(footer.size)))
+    fail("cannot be read");
   if (checksum_of(pieces, footer.length) != footer.checksum) return;
   disk::Descriptor written(open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (written.get() < 0) fail("is as a killed run left it, and to finish it it must be writable");
-  if (!lay(written.get(), pieces) || ftruncate(written.get(), static_cast<off_t>(footer.length)) != 0 || fsync(written.get()) != 0)
+  if (!lay(written.get(), pieces) || ftruncate(written.get(), static_cast<off_t>(footer.length)) != 0 ||
+      fsync(written.get()) != 0)
     fail("is as a killed run left it, and cannot be finished");
 }
 
 int& descriptor_of(hid_t file) {
   void* handle = nullptr;
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 || !handle) throw std::runtime_error("HDF5 does not tell a file's descriptor");
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0 || !handle)
+    throw std::runtime_error("HDF5 does not tell a file's descriptor");
   return *static_cast<int*>(handle);
 }
 

@@ -41,8 +41,11 @@ bool write_anew(int descriptor, const std::string& path) {
 [[noreturn]] void leave_to_another(int descriptor, const std::string& path, nlink_t links) {
   const std::string beside = path + ".rescued";
   const bool rescued = links == 0 && write_anew(descriptor, beside);
-  throw std::runtime_error("another file has taken the name " + path + " while this run wrote it; what the run has written so far is " +
-                           (rescued ? "in " + beside : links > 0 ? std::string("where it was moved to") : "lost: " + disk::reason()));
+  throw std::runtime_error("another file has taken the name " + path +
+                           " while this run wrote it; what the run has written so far is " +
+                           (rescued     ? "in " + beside
+                            : links > 0 ? std::string("where it was moved to")
+                                        : "lost: " + disk::reason()));
 }
 
 }  // namespace
@@ -54,14 +57,16 @@ std::string keep_name(hid_t file, const std::string& path) {
   const bool taken = stat(path.c_str(), &there) == 0;
   if (taken && there.st_ino == ours.st_ino && there.st_dev == ours.st_dev) return {};
   if (taken) leave_to_another(descriptor, path, ours.st_nlink);
-  if (ours.st_nlink > 0 && linkat(AT_FDCWD, ("/proc/self/fd/" + std::to_string(descriptor)).c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0)
+  if (ours.st_nlink > 0 && linkat(AT_FDCWD, ("/proc/self/fd/" + std::to_string(descriptor)).c_str(), AT_FDCWD,
+                                  path.c_str(), AT_SYMLINK_FOLLOW) == 0)
     return path + " was moved while the run wrote it; the file now has both names";
   if (!write_anew(descriptor, path)) {
     if (errno == EEXIST) leave_to_another(descriptor, path, ours.st_nlink);  // since we looked
     const std::string reason = disk::reason();
     throw std::runtime_error(path + " was removed while the run wrote it, and cannot be written anew: " + reason);
   }
-  return path + " was removed while the run wrote it; it was written anew from what the system still held, nothing is missing";
+  return path +
+         " was removed while the run wrote it; it was written anew from what the system still held, nothing is missing";
 }
 
 }  // namespace railwave::hdf5

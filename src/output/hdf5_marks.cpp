@@ -76,7 +76,8 @@ class RootReader {
     const int size_of_size = 1 << (flags & 3);
     const Layout layout{1, 3, static_cast<std::uint64_t>(flags & 4 ? 6 : 4)};
     const std::uint64_t first = number_at(prefix, at, size_of_size);
-    if (first <= longest_header) read_messages(bytes(place + at + static_cast<std::uint64_t>(size_of_size), first), layout);
+    if (first <= longest_header)
+      read_messages(bytes(place + at + static_cast<std::uint64_t>(size_of_size), first), layout);
     for (int count = 0; !blocks_.empty() && count < most_blocks; ++count) {
       const auto [where, size] = blocks_.front();
       blocks_.pop_front();
@@ -87,7 +88,8 @@ class RootReader {
     }
   }
 
-  /// Of a message's head: bytes of its type, which come first and are followed by two of its size; where its flags stand; where it ends.
+  /// Of a message's head: bytes of its type, which come first and are followed by two of its size; where its flags
+  /// stand; where it ends.
   struct Layout {
     int type_size;
     std::uint64_t flags, end;

@@ -16,9 +16,10 @@ struct RootAttributes {
 };
 
 /// Reads them from the bytes of the file, without the HDF5 library: a damaged file or one of another program may crash
-/// that. Knows the layouts that this program writes and wrote (superblocks 0 to 3, object headers 1 and 2, attributes in the
-/// header); of any other file it finds no attributes. Every address and length is checked. The file is not changed, also where a killed run left a journal in
-/// it. Layout: HDF5 File Format Specification 3.0, sections II.A, III.E, IV.A.1, IV.A.2.m.
+/// that. Knows the layouts that this program writes and wrote (superblocks 0 to 3, object headers 1 and 2, attributes
+/// in the header); of any other file it finds no attributes. Every address and length is checked. The file is not
+/// changed, also where a killed run left a journal in it. Layout: HDF5 File Format Specification 3.0, sections II.A,
+/// III.E, IV.A.1, IV.A.2.m.
 /// @return nothing: it is no HDF5 file, or may not be read. The path must be that of a regular file.
 std::optional<RootAttributes> read_root_attributes(const std::string& path);
 

@@ -20,10 +20,14 @@ Result check(Result result, const std::string& what) {
 
 template <class T>
 hid_t native_type() {
-  if constexpr (std::is_same_v<T, double>) return H5T_NATIVE_DOUBLE;
-  else if constexpr (std::is_same_v<T, int>) return H5T_NATIVE_INT;
-  else if constexpr (std::is_same_v<T, long>) return H5T_NATIVE_LONG;
-  else return H5T_NATIVE_SCHAR;
+  if constexpr (std::is_same_v<T, double>)
+    return H5T_NATIVE_DOUBLE;
+  else if constexpr (std::is_same_v<T, int>)
+    return H5T_NATIVE_INT;
+  else if constexpr (std::is_same_v<T, long>)
+    return H5T_NATIVE_LONG;
+  else
+    return H5T_NATIVE_SCHAR;
 }
 
 inline Handle text_type() {
@@ -38,7 +42,8 @@ inline Handle file_space(hid_t dataset, const std::string& name) {
 }
 
 inline Handle space_of(const Shape& shape) {
-  const hid_t id = shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
+  const hid_t id =
+      shape.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr);
   return {check(id, "describing a shape"), H5Sclose};
 }
 

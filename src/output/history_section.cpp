@@ -12,10 +12,14 @@ constexpr hdf5::Storage blocks{1024, false};
 
 constexpr const char* motion_names[] = {"displacement", "velocity", "acceleration"};
 
-void write_place(const hdf5::Group& group, const char* name, const Vec3& place) { group.write<double>(name, {place.begin(), place.end()}, {3}); }
+void write_place(const hdf5::Group& group, const char* name, const Vec3& place) {
+  group.write<double>(name, {place.begin(), place.end()}, {3});
+}
 
 template <class Numbers>
-void push(std::vector<double>& values, const Numbers& vector) { values.insert(values.end(), vector.begin(), vector.end()); }
+void push(std::vector<double>& values, const Numbers& vector) {
+  values.insert(values.end(), vector.begin(), vector.end());
+}
 
 }  // namespace
 
@@ -26,7 +30,8 @@ void HistorySection::Column<T>::write(hsize_t rows) {
 }
 
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
-                               const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams,
+                               const std::vector<std::string>& sets,
+                               const std::vector<std::pair<std::string, int>>& beams,
                                const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
                                const std::vector<std::string>& askers, const std::vector<std::array<bool, 3>>& motions,
                                const std::vector<HistorySet>& elements) {
@@ -35,10 +40,15 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   steps_.dataset = history.create_growing<long>("step", {}, blocks);
 
   const hdf5::Group energy = history.create_group("energy");
-  for (const EnergyTerm& term : energy_terms) energies_.push_back({energy.create_growing<double>(term.name, {}, blocks), {}});
+  for (const EnergyTerm& term : energy_terms)
+    energies_.push_back({energy.create_growing<double>(term.name, {}, blocks), {}});
 
-  const auto vector_in = [](const hdf5::Group& group, const char* name) { return group.create_growing<double>(name, {3}, blocks); };
-  const auto count_in = [](const hdf5::Group& group, const char* name) { return group.create_growing<long>(name, {}, blocks); };
+  const auto vector_in = [](const hdf5::Group& group, const char* name) {
+    return group.create_growing<double>(name, {3}, blocks);
+  };
+  const auto count_in = [](const hdf5::Group& group, const char* name) {
+    return group.create_growing<long>(name, {}, blocks);
+  };
   const hdf5::Group contact_groups = history.create_group("contact");
   for (const std::string& name : contacts) {
     const hdf5::Group group = contact_groups.create_group(name);
@@ -51,12 +61,13 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   const hdf5::Group set_groups = history.create_group("set");
   for (const std::string& name : sets) {
     const hdf5::Group group = set_groups.create_group(name);
-    if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty()) group.set_attribute("asked_by", askers[set]);
-    if (const std::size_t set = sets_.size(); set < positions.size())
-      write_place(group, "position", positions[set]);
+    if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty())
+      group.set_attribute("asked_by", askers[set]);
+    if (const std::size_t set = sets_.size(); set < positions.size()) write_place(group, "position", positions[set]);
     MotionColumns& columns = sets_.emplace_back();
     for (int k = 0; k < 3; ++k)
-      if (motions.empty() || motions[sets_.size() - 1][k]) columns.quantity[k] = Column<double>{vector_in(group, motion_names[k]), {}};
+      if (motions.empty() || motions[sets_.size() - 1][k])
+        columns.quantity[k] = Column<double>{vector_in(group, motion_names[k]), {}};
   }
   for (const HistorySet& set : elements) {
     const hdf5::Group group = set_groups.has(set.name) ? set_groups.group(set.name) : set_groups.create_group(set.name);
@@ -68,7 +79,8 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
     ElementColumns& columns = elements_.emplace_back();
     if (set.stress) columns.stress = Column<double>{group.create_growing<double>("stress", {6}, blocks), {}};
     if (set.strain) columns.strain = Column<double>{group.create_growing<double>("strain", {6}, blocks), {}};
-    if (set.plastic_strain) columns.plastic_strain = Column<double>{group.create_growing<double>("plastic_strain", {}, blocks), {}};
+    if (set.plastic_strain)
+      columns.plastic_strain = Column<double>{group.create_growing<double>("plastic_strain", {}, blocks), {}};
   }
   if (!loads.empty()) {
     const hdf5::Group load_groups = history.create_group("load");
@@ -76,9 +88,12 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
       const hdf5::Group group = load_groups.create_group(load.name);
       group.set_attribute("target", load.target);
       group.set_attribute("hammer", load.hammer ? 1L : 0L);
-      if (load.direction != Vec3{}) group.write("direction", std::vector<double>(load.direction.begin(), load.direction.end()), {3});
-      if (load.torque) loads_.push_back({true, {group.create_growing<double>("moment", {}, blocks), {}}});
-      else loads_.push_back({false, {vector_in(group, "force"), {}}});
+      if (load.direction != Vec3{})
+        group.write("direction", std::vector<double>(load.direction.begin(), load.direction.end()), {3});
+      if (load.torque)
+        loads_.push_back({true, {group.create_growing<double>("moment", {}, blocks), {}}});
+      else
+        loads_.push_back({false, {vector_in(group, "force"), {}}});
     }
   }
   if (beams.empty()) return;
@@ -86,17 +101,21 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   for (const auto& [name, elements] : beams) {
     const hdf5::Group group = beam_groups.create_group(name);
     const hdf5::Shape row{static_cast<hsize_t>(elements), 3};
-    beams_.push_back({{group.create_growing<double>("force", row, blocks), {}}, {group.create_growing<double>("moment", row, blocks), {}}});
+    beams_.push_back({{group.create_growing<double>("force", row, blocks), {}},
+                      {group.create_growing<double>("moment", row, blocks), {}}});
   }
 }
 
 void HistorySection::add(const HistorySample& sample) {
-  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() || sample.beams.size() != beams_.size() || sample.elements.size() != elements_.size() ||
+  if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() ||
+      sample.beams.size() != beams_.size() || sample.elements.size() != elements_.size() ||
       (!loads_.empty() && sample.loads.size() != loads_.size()))
-    throw std::logic_error("a history sample has other contacts, sets or beams, or loads, than the results file was made for");
+    throw std::logic_error(
+        "a history sample has other contacts, sets or beams, or loads, than the results file was made for");
   times_.values.push_back(sample.time);
   steps_.values.push_back(sample.step);
-  for (std::size_t i = 0; i < std::size(energy_terms); ++i) energies_[i].values.push_back(sample.energy.*energy_terms[i].value);
+  for (std::size_t i = 0; i < std::size(energy_terms); ++i)
+    energies_[i].values.push_back(sample.energy.*energy_terms[i].value);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     push(contacts_[i].normal_force.values, sample.contacts[i].normal_force);
     push(contacts_[i].tangential_force.values, sample.contacts[i].tangential_force);
@@ -119,8 +138,10 @@ void HistorySection::add(const HistorySample& sample) {
     push(beams_[i].moment.values, sample.beams[i].moment);
   }
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    if (loads_[i].torque) loads_[i].value.values.push_back(sample.loads[i].moment);
-    else push(loads_[i].value.values, sample.loads[i].force);
+    if (loads_[i].torque)
+      loads_[i].value.values.push_back(sample.loads[i].moment);
+    else
+      push(loads_[i].value.values, sample.loads[i].force);
   }
 }
 

@@ -15,21 +15,23 @@ namespace railwave {
 struct LoadNames {
   std::string name, target;
   bool torque = false;
-  bool hammer = false;       ///< made of one of [hammers.NAME]
-  Vec3 direction{};          ///< of the force, where it doesn't turn; of a torque's axis
+  bool hammer = false;  ///< made of one of [hammers.NAME]
+  Vec3 direction{};     ///< of the force, where it doesn't turn; of a torque's axis
 };
 
-/// Group /history of a results file: energies, contact forces, mean motions, loads and section forces of beams against time. Samples are kept in memory
-/// until they are written.
+/// Group /history of a results file: energies, contact forces, mean motions, loads and section forces of beams against
+/// time. Samples are kept in memory until they are written.
 class HistorySection {
  public:
-  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m, undeformed), if
-  /// that is known; loads; what in the case asked for each set, if known; which of displacement, velocity and acceleration is written of each set,
-  /// all unless told; sets whose stress, strain or plastic strain is written, which may have the names of others.
-  HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts, const std::vector<std::string>& sets,
-                 const std::vector<std::pair<std::string, int>>& beams = {}, const std::vector<Vec3>& positions = {},
-                 const std::vector<LoadNames>& loads = {}, const std::vector<std::string>& askers = {},
-                 const std::vector<std::array<bool, 3>>& motions = {}, const std::vector<HistorySet>& elements = {});
+  /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m,
+  /// undeformed), if that is known; loads; what in the case asked for each set, if known; which of displacement,
+  /// velocity and acceleration is written of each set, all unless told; sets whose stress, strain or plastic strain is
+  /// written, which may have the names of others.
+  HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
+                 const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams = {},
+                 const std::vector<Vec3>& positions = {}, const std::vector<LoadNames>& loads = {},
+                 const std::vector<std::string>& askers = {}, const std::vector<std::array<bool, 3>>& motions = {},
+                 const std::vector<HistorySet>& elements = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }

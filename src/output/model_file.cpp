@@ -17,7 +17,9 @@ namespace {
 class ModelFileWriter {
  public:
   ModelFileWriter(const Model& model, const std::string& path)
-      : model_(model), file_(hdf5::File::create(path, kinds::model())), name_(escaped(std::filesystem::path(path).filename().string())) {
+      : model_(model),
+        file_(hdf5::File::create(path, kinds::model())),
+        name_(escaped(std::filesystem::path(path).filename().string())) {
     write_parts();
     write_sets();
     write_connectors();
@@ -63,7 +65,8 @@ class ModelFileWriter {
     }
     for (const auto& [name, nodes] : model_.assembly.node_sets) {
       const bool whole = name.find('.') == std::string::npos;
-      if (!whole && !nodes.empty() && model_.assembly.surfaces.count(name) == 0) write_piece(sets, "/node_sets", name, nodes, 1);
+      if (!whole && !nodes.empty() && model_.assembly.surfaces.count(name) == 0)
+        write_piece(sets, "/node_sets", name, nodes, 1);
     }
     write_element_sets();
   }
@@ -75,12 +78,14 @@ class ModelFileWriter {
     for (const scene::ElementSet& set : model_.scene.element_sets) {
       const std::string name = set.part + "." + set.name;
       std::vector<int> corners;
-      for (int e : model_.assembly.element_sets.at(name)) corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
+      for (int e : model_.assembly.element_sets.at(name))
+        corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
       write_piece(sets, "/element_sets", name, corners, 8);
     }
   }
 
-  void write_piece(const hdf5::Group& group, const std::string& path, const std::string& name, const std::vector<int>& corners, int count) {
+  void write_piece(const hdf5::Group& group, const std::string& path, const std::string& name,
+                   const std::vector<int>& corners, int count) {
     const Piece piece(model_.assembly.nodes, corners);
     GridWriter grid(group, path, name, name_, count);
     grid.cells(piece.nodes, piece.connectivity);
@@ -96,7 +101,8 @@ class ModelFileWriter {
     for (const ConnectorCell& cell : cells) {
       const scene::Connector& connector = model_.scene.connectors[cell.connector];
       Vec3 from = mean_place(cell.from, model_.assembly.nodes), to = mean_place(cell.to, model_.assembly.nodes);
-      const auto stiffest = std::max_element(connector.stiffness.begin(), connector.stiffness.end()) - connector.stiffness.begin();
+      const auto stiffest =
+          std::max_element(connector.stiffness.begin(), connector.stiffness.end()) - connector.stiffness.begin();
       constexpr double length = 0.1;
       for (int i = 0; i < 3; ++i) {
         if (cell.from.ground()) from[i] = to[i] - length * connector.axes[stiffest][i];

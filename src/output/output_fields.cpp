@@ -87,7 +87,8 @@ bool fits(const char* place, const std::string& path) {
   const char* star = std::strchr(place, '*');
   if (star == nullptr) return path == place;
   const std::size_t before = static_cast<std::size_t>(star - place), after = std::strlen(star + 1);
-  return path.size() > before + after && path.compare(0, before, place, before) == 0 && path.compare(path.size() - after, after, star + 1) == 0;
+  return path.size() > before + after && path.compare(0, before, place, before) == 0 &&
+         path.compare(path.size() - after, after, star + 1) == 0;
 }
 
 }  // namespace

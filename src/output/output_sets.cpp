@@ -67,15 +67,17 @@ std::vector<int> elements_of(const Assembly::PartRange& part) {
 
 std::string complaint(const scene::Scene& scene, const std::string& name, const Assembly& assembly) {
   if (assembly.node_sets.count(name))
-    return fmt::format("{}: output.field_sets: '{}' is a set of nodes; fields are written for a part, an element set or a surface",
-                       scene.path, name);
+    return fmt::format(
+        "{}: output.field_sets: '{}' is a set of nodes; fields are written for a part, an element set or a surface",
+        scene.path, name);
   std::vector<std::string> known;
   for (const auto& part : assembly.parts) known.push_back(part.name);
   for (const auto& entry : assembly.element_sets) known.push_back(entry.first);
   for (const auto& entry : assembly.surfaces) known.push_back(entry.first);
   std::sort(known.begin(), known.end());
   known.erase(std::unique(known.begin(), known.end()), known.end());
-  return fmt::format("{}: output.field_sets: there is no part, element set or surface '{}'; {}", scene.path, name, suggestion(name, known));
+  return fmt::format("{}: output.field_sets: there is no part, element set or surface '{}'; {}", scene.path, name,
+                     suggestion(name, known));
 }
 
 }  // namespace
@@ -85,7 +87,8 @@ std::vector<OutputSet> resolve_output_sets(const scene::Scene& scene, const Asse
   std::vector<std::string> complaints;
   for (const std::string& name : scene.output.field_sets) {
     if (std::any_of(sets.begin(), sets.end(), [&](const OutputSet& set) { return set.name == name; })) continue;
-    const auto part = std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const auto& p) { return p.name == name; });
+    const auto part =
+        std::find_if(assembly.parts.begin(), assembly.parts.end(), [&](const auto& p) { return p.name == name; });
     if (part != assembly.parts.end()) {
       sets.push_back(volume(name, elements_of(*part), assembly));
     } else if (const auto elements = assembly.element_sets.find(name); elements != assembly.element_sets.end()) {

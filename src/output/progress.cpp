@@ -12,7 +12,9 @@
 namespace railwave {
 namespace {
 
-double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 }  // namespace
 
@@ -35,7 +37,8 @@ void Progress::settling(const Model& model, const SettleReport& so_far) {
   const double now = wall_seconds();
   if (now - last_settling_line_ < model.scene.output.progress_interval) return;
   last_settling_line_ = now;
-  out_ << fmt::format("settling: {} evaluations of the forces, unbalanced force {:.2e} of all forces\n", so_far.steps, so_far.unbalance)
+  out_ << fmt::format("settling: {} evaluations of the forces, unbalanced force {:.2e} of all forces\n", so_far.steps,
+                      so_far.unbalance)
        << std::flush;
 }
 
@@ -44,14 +47,18 @@ void Progress::settled(const Model& model, const SettleReport& report) {
   for (const std::string& remark : report.remarks) out_ << remark << '\n';
   if (!report.begun_from.empty()) out_ << fmt::format("settling went on from the state of {}\n", report.begun_from);
   if (!report.taken_from.empty()) {
-    out_ << fmt::format("settled state of {} taken: unbalanced force {:.2e} of all forces (settle.tolerance {:.2e})\n", report.taken_from,
-                        report.unbalance, tolerance)
+    out_ << fmt::format("settled state of {} taken: unbalanced force {:.2e} of all forces (settle.tolerance {:.2e})\n",
+                        report.taken_from, report.unbalance, tolerance)
          << std::flush;
     return;
   }
-  const std::string in_steps = report.iterations > 0 ? fmt::format(" in {} steps of Newton's method", report.iterations) : "";
-  out_ << fmt::format("{} after {} evaluations of the forces{}, {:.1f} s: unbalanced force {:.2e} of all forces (settle.tolerance {:.2e})\n",
-                      report.settled ? "settled" : "NOT settled", report.steps, in_steps, report.wall_seconds, report.unbalance, tolerance);
+  const std::string in_steps =
+      report.iterations > 0 ? fmt::format(" in {} steps of Newton's method", report.iterations) : "";
+  out_ << fmt::format(
+      "{} after {} evaluations of the forces{}, {:.1f} s: unbalanced force {:.2e} of all forces (settle.tolerance "
+      "{:.2e})\n",
+      report.settled ? "settled" : "NOT settled", report.steps, in_steps, report.wall_seconds, report.unbalance,
+      tolerance);
   if (!report.adrift.empty()) out_ << "  " << report.adrift << '\n';
   if (!report.settled)
     out_ << "  the run starts from there and will ring; raise settle.max_steps, or hold what can drift away\n";

@@ -14,9 +14,9 @@ namespace railwave {
 /// What the progress table must know of a run before it begins.
 struct ProgressPlan {
   long element_count = 0;
-  double updates_saved = 1;      ///< so many times fewer element updates than elements times steps
-  double end_time = 0;           ///< s
-  double interval = 5;           ///< wall seconds between lines; 0: a line for every history sample
+  double updates_saved = 1;  ///< so many times fewer element updates than elements times steps
+  double end_time = 0;       ///< s
+  double interval = 5;       ///< wall seconds between lines; 0: a line for every history sample
   std::vector<std::string> contacts;
 };
 
@@ -45,8 +45,8 @@ class ProgressTable {
   Clock clock_;
   double start_ = 0, last_line_ = 0, first_time_ = 0;
   long first_step_ = -1, last_line_step_ = 0, samples_ = 0, lines_ = 0;
-  long keep_every_ = 1;                            ///< of the samples; grows so that memory does not
-  std::vector<std::vector<ForceSample>> forces_;   ///< by contact
+  long keep_every_ = 1;                           ///< of the samples; grows so that memory does not
+  std::vector<std::vector<ForceSample>> forces_;  ///< by contact
   HistorySample last_;
   double largest_energy_ = 0, largest_elastic_energy_ = 0, largest_balance_error_ = 0;
 };

@@ -28,7 +28,10 @@ ResultsThere look_into(const std::string& path, bool last_too = false) {
     const bool completed = root.has_attribute("completed") && root.number_attribute("completed") != 0;
     return {root.text_attribute("run"), root.text_attribute("key"), completed ? root.number_attribute("end_time") : -1};
   } catch (const std::runtime_error& error) {
-    throw InputError(fmt::format("--restart: the results {} cannot be added to: {}; run the case with --overwrite instead of --restart, which replaces them", path, error.what()));
+    throw InputError(
+        fmt::format("--restart: the results {} cannot be added to: {}; run the case with --overwrite instead of "
+                    "--restart, which replaces them",
+                    path, error.what()));
   }
 }
 
@@ -45,9 +48,11 @@ Restart find_restart(const std::string& results_path, const CheckpointFile& chec
   Restart restart;
   const ResultsThere there = look_into(results_path);
   if (there.key != checkpoint.key())
-    throw InputError(fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another version of the "
-                                 "program; run the case with --overwrite instead of --restart, which replaces them, or as it was",
-                                 results_path));
+    throw InputError(
+        fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another "
+                    "version of the "
+                    "program; run the case with --overwrite instead of --restart, which replaces them, or as it was",
+                    results_path));
   if (there.completed_until >= end) {
     restart.complete = true;
     restart.remarks.push_back(fmt::format("nothing to do: {} holds the whole run", results_path));
@@ -59,14 +64,18 @@ Restart find_restart(const std::string& results_path, const CheckpointFile& chec
     std::string why = fmt::format("--restart: there is no checkpoint {} of this run", checkpoint.path());
     for (const std::string& trouble : found.troubles) why += "; " + trouble;
     if (there.completed_until > 0)
-      throw InputError(fmt::format("{}; the results hold all of it to t = {:.6g} s, and it can go on to {:.6g} s only if it was run with --keep-state", why,
-                                   there.completed_until, end));
+      throw InputError(
+          fmt::format("{}; the results hold all of it to t = {:.6g} s, and it can go on to {:.6g} s only if it was run "
+                      "with --keep-state",
+                      why, there.completed_until, end));
     throw InputError(why + "; run the case without --restart");
   }
-  restart.remarks.push_back(fmt::format("goes on from {}: step {}, t = {:.6g} s", found.file, found.state->step, found.state->time));
+  restart.remarks.push_back(
+      fmt::format("goes on from {}: step {}, t = {:.6g} s", found.file, found.state->step, found.state->time));
   if (found.state->back_end != back_end_name())
-    restart.remarks.push_back(fmt::format("that was computed on {}, this is {}: the results will not be the unbroken run's bit for bit",
-                                          found.state->back_end, back_end_name()));
+    restart.remarks.push_back(
+        fmt::format("that was computed on {}, this is {}: the results will not be the unbroken run's bit for bit",
+                    found.state->back_end, back_end_name()));
   restart.state = std::move(found.state);
   return restart;
 }

@@ -24,8 +24,12 @@ namespace {
 class ModelFields : public FieldSource {
  public:
   explicit ModelFields(const Model& model) : model_(model) {}
-  HostField nodes(NodeField field, const std::vector<int>& numbers) const override { return node_field(model_, field, numbers); }
-  HostField plastic_strain(const std::vector<int>& numbers) const override { return element_plastic_strain(model_, numbers); }
+  HostField nodes(NodeField field, const std::vector<int>& numbers) const override {
+    return node_field(model_, field, numbers);
+  }
+  HostField plastic_strain(const std::vector<int>& numbers) const override {
+    return element_plastic_strain(model_, numbers);
+  }
   HostField stress(const std::vector<int>& numbers) const override { return element_stress(model_, numbers); }
   ContactState contact(int number) const override { return contact_state(model_, number); }
   HostField beams() const override {
@@ -51,8 +55,12 @@ const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
 
 LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
   const bool torque = load.type == scene::LoadType::torque;
-  Vec3 direction = torque ? load.axis : load.type == scene::LoadType::nodal_force ? load.force : load.type == scene::LoadType::traction ? load.traction : Vec3{};
-  const double length = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
+  Vec3 direction = torque                                      ? load.axis
+                   : load.type == scene::LoadType::nodal_force ? load.force
+                   : load.type == scene::LoadType::traction    ? load.traction
+                                                               : Vec3{};
+  const double length =
+      std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
   if (length > 0)
     for (double& one : direction) one /= length;
   return {load.name, load.target, torque, named(scene.hammers, load.name) != nullptr, direction};
@@ -64,10 +72,12 @@ Vec3 undeformed_position(const Model& model, int set) {
   const auto all = to_host(model.sets.nodes);
   const auto weight = to_host(model.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
-  const auto position = node_field(model, NodeField::position, nodes).values, displacement = node_field(model, NodeField::displacement, nodes).values;
+  const auto position = node_field(model, NodeField::position, nodes).values,
+             displacement = node_field(model, NodeField::displacement, nodes).values;
   Vec3 mean{};
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < 3; ++i) mean[i] += weight(begin + static_cast<int>(k)) * (position[3 * k + i] - displacement[3 * k + i]);
+    for (int i = 0; i < 3; ++i)
+      mean[i] += weight(begin + static_cast<int>(k)) * (position[3 * k + i] - displacement[3 * k + i]);
   return mean;
 }
 
@@ -92,7 +102,8 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   for (const auto& contact : scene.contacts) {
     description_.contacts.push_back({contact.name, contact.slave, contact.master, {}});
     for (const std::string& master : contact.master)
-      description_.contacts.back().master_facets.push_back(static_cast<int>(find_surface(scene, assembly, contact, "master", master).size()));
+      description_.contacts.back().master_facets.push_back(
+          static_cast<int>(find_surface(scene, assembly, contact, "master", master).size()));
   }
   for (const HistorySet& set : resolve_history_sets(scene, assembly)) {
     if (set.motion()) {
@@ -103,7 +114,8 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
     if (set.inside()) description_.element_histories.push_back(set);
   }
   for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
-  for (const auto& chain : assembly.beam_chains) description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
+  for (const auto& chain : assembly.beam_chains)
+    description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
   description_.sets = resolve_output_sets(scene, assembly);
@@ -130,8 +142,9 @@ void ResultsFile::writing(const Do& one) {
   } catch (const std::exception& error) {
     std::error_code ignored;
     const bool can_go_on = checkpoint_ && std::filesystem::exists(checkpoint_->path(), ignored);
-    const std::string what_is_left = std::filesystem::exists(path_, ignored) ? fmt::format("the results {} hold what was written before", path_)
-                                                                             : "no results were written";
+    const std::string what_is_left = std::filesystem::exists(path_, ignored)
+                                         ? fmt::format("the results {} hold what was written before", path_)
+                                         : "no results were written";
     throw std::runtime_error(fmt::format("{}; {}{}", error.what(), what_is_left,
                                          can_go_on ? ", and --restart goes on from the last checkpoint" : ""));
   }
@@ -151,8 +164,10 @@ void ResultsFile::end(const Model& model, const RunSummary& summary) {
   if (checkpoint_ && summary.completed && !keeps_end_) checkpoint_->remove();
   // Only now does nobody else touch HDF5.
   const std::string beside = fault_path(path_);
-  if (summary.fault) write_fault_file(model, *summary.fault, beside);
-  else remove_fault_file(beside);
+  if (summary.fault)
+    write_fault_file(model, *summary.fault, beside);
+  else
+    remove_fault_file(beside);
 }
 
 void ResultsFile::keep_checkpoints(CheckpointFile file, bool also_at_end) {

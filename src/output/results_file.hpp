@@ -8,19 +8,20 @@
 
 namespace railwave {
 
-/// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop waits
-/// for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call throws it.
+/// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop
+/// waits for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call
+/// throws it.
 class ResultsFile : public RunObserver, public Checkpoints {
  public:
-  /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the run's long
-  /// preparations. Whether files can be made is HeldPlaces' matter.
+  /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the
+  /// run's long preparations. Whether files can be made is HeldPlaces' matter.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
   /// Throws InputError when what the run will write can't fit onto the disk.
   void check_room(const Model& model) const;
 
-  /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at its end is to
-  /// stay.
+  /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at
+  /// its end is to stay.
   void keep_checkpoints(CheckpointFile file, bool also_at_end = false);
 
   /// Before the run begins: it goes on from a state that find_restart() found, and so does the file.

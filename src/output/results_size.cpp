@@ -41,15 +41,19 @@ double values_of_output(const RunDescription& description, const Assembly& assem
 }
 
 double values_of_sample(const RunDescription& description) {
-  double values = 2 + static_cast<double>(std::size(energy_terms)) + 11.0 * static_cast<double>(description.contacts.size()) +
-                  9.0 * static_cast<double>(description.history_sets.size()) + 3.0 * static_cast<double>(description.loads.size());
+  double values =
+      2 + static_cast<double>(std::size(energy_terms)) + 11.0 * static_cast<double>(description.contacts.size()) +
+      9.0 * static_cast<double>(description.history_sets.size()) + 3.0 * static_cast<double>(description.loads.size());
   for (const auto& beam : description.beams) values += 6.0 * beam.second;
-  for (const HistorySet& set : description.element_histories) values += 6.0 * set.stress + 6.0 * set.strain + 1.0 * set.plastic_strain;
+  for (const HistorySet& set : description.element_histories)
+    values += 6.0 * set.stress + 6.0 * set.strain + 1.0 * set.plastic_strain;
   return values;
 }
 
 /// Outputs of a run: never more than its steps.
-double times_of(double interval, double end, double steps) { return 2 + (interval > 0 ? std::min(end / interval, steps) : steps); }
+double times_of(double interval, double end, double steps) {
+  return 2 + (interval > 0 ? std::min(end / interval, steps) : steps);
+}
 
 }  // namespace
 
@@ -71,12 +75,15 @@ void check_results_room(const ResultsSize& size, const scene::Scene& scene, doub
   if (size.history_bytes + least_share * size.field_bytes <= available) return;
   const bool fields = least_share * size.field_bytes > size.history_bytes;
   throw InputError(fmt::format(
-      "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, end the run (time.end = {:.4g} s) earlier, "
-      "see whether the step is as long as it should be, or name a file on a larger disk", scene.path,
-      fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples, fields ? "outputs of fields" : "samples of histories",
+      "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, "
+      "end the run (time.end = {:.4g} s) earlier, "
+      "see whether the step is as long as it should be, or name a file on a larger disk",
+      scene.path, fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples,
+      fields ? "outputs of fields" : "samples of histories",
       fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples),
       bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available),
-      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets", scene.time.end));
+      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets",
+      scene.time.end));
 }
 
 double free_bytes_at(const std::string& path) {

@@ -8,10 +8,11 @@ namespace railwave {
 
 struct Model;
 
-/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories aren't.
+/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
+/// aren't.
 struct ResultsSize {
-  double field_outputs = 0, samples = 0;         ///< how many of each
-  double field_bytes = 0, history_bytes = 0;     ///< of all of them, uncompressed
+  double field_outputs = 0, samples = 0;      ///< how many of each
+  double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed
 };
 
 ResultsSize results_size(const RunDescription& description, const Model& model);

@@ -60,14 +60,18 @@ void check_results_place(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
-    throw InputError(fmt::format("output.file: results go to {}, but there is no folder {}; make it, or name another file", path, folder.string()));
+    throw InputError(
+        fmt::format("output.file: results go to {}, but there is no folder {}; make it, or name another file", path,
+                    folder.string()));
   if (std::filesystem::is_directory(path, ignored))
     throw InputError(fmt::format("output.file: {} is a folder; name a file, such as results.h5", path));
   if (access(folder.c_str(), W_OK) != 0)
-    throw InputError(fmt::format("output.file: results go to {}, but the folder {} may not be written: {}", path, folder.string(), std::strerror(errno)));
+    throw InputError(fmt::format("output.file: results go to {}, but the folder {} may not be written: {}", path,
+                                 folder.string(), std::strerror(errno)));
   for (const std::string& name : {path, path + ".new"})
     if (another_run_writes(name))
-      throw InputError(fmt::format("output.file: another run is writing {} now; wait for its end, or name another file", name));
+      throw InputError(
+          fmt::format("output.file: another run is writing {} now; wait for its end, or name another file", name));
 }
 
 std::string xdmf_path(const std::string& results_path) {
@@ -80,16 +84,18 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
       xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields),
       last_flush_(std::chrono::steady_clock::now()) {
   check_results_place(path_);
-  if (so_far) extend_file(*so_far);
-  else create_file();
+  if (so_far)
+    extend_file(*so_far);
+  else
+    create_file();
   const hdf5::Group root = file_.root();
   root.set_attribute("completed", 0L);
   root.set_attribute("reason", "the run has not ended, or was killed");
   std::vector<std::string> contact_names;
   for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
-  history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets, description_.beams,
-                                               description_.history_positions, description_.loads, description_.history_askers,
-                                               description_.history_motions, description_.element_histories);
+  history_ = std::make_unique<HistorySection>(
+      root, contact_names, description_.history_sets, description_.beams, description_.history_positions,
+      description_.loads, description_.history_askers, description_.history_motions, description_.element_histories);
   root.create_group("fields");
   if (any_beam(description_.sets)) root.create_group("beams");
   root.create_group("contact");
@@ -122,7 +128,8 @@ void ResultsWriter::extend_file(const ResultsSoFar& so_far) {
     const hdf5::Group group = root.group(name);
     const auto there = group.least_entries();
     if (there && *there < static_cast<hsize_t>(entries))
-      throw std::runtime_error(fmt::format("{} has {} entries in /{}, the checkpoint counts {}: it is not whole", path_, *there, name, entries));
+      throw std::runtime_error(fmt::format("{} has {} entries in /{}, the checkpoint counts {}: it is not whole", path_,
+                                           *there, name, entries));
     group.cut(static_cast<hsize_t>(entries));
   };
   leave("history", so_far.history_rows);
@@ -130,19 +137,23 @@ void ResultsWriter::extend_file(const ResultsSoFar& so_far) {
   outputs_ = static_cast<std::size_t>(so_far.field_outputs);
   in_place_ = true;
   root.set_attribute("end_time", description_.end_time);
-  root.set_attribute("restarts", root.has_attribute("restarts") ? static_cast<long>(root.number_attribute("restarts")) + 1 : 1L);
+  root.set_attribute("restarts",
+                     root.has_attribute("restarts") ? static_cast<long>(root.number_attribute("restarts")) + 1 : 1L);
 }
 
 void ResultsWriter::history(const HistorySample& sample) {
   history_->add(sample);
-  if (history_->waiting() >= largest_history_block || std::chrono::steady_clock::now() - last_flush_ > flush_interval) flush();
+  if (history_->waiting() >= largest_history_block || std::chrono::steady_clock::now() - last_flush_ > flush_interval)
+    flush();
 }
 
 void ResultsWriter::create_sections(const FieldSource& source) {
   const hdf5::Group fields_group = file_.root().group("fields"), contacts_group = file_.root().group("contact");
   for (const OutputSet& set : description_.sets) {
-    if (set.is_beam()) field_sections_.emplace_back(file_.root().group("beams"), set, description_.fields);
-    else field_sections_.emplace_back(fields_group, set, description_.fields);
+    if (set.is_beam())
+      field_sections_.emplace_back(file_.root().group("beams"), set, description_.fields);
+    else
+      field_sections_.emplace_back(fields_group, set, description_.fields);
   }
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
     const ContactSection& section = contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i));
@@ -154,7 +165,8 @@ void ResultsWriter::create_sections(const FieldSource& source) {
     if (names.master.size() > 1) {
       master.set_attribute("surfaces", names.master.list());
       std::vector<int> surface_of_facet;
-      for (std::size_t k = 0; k < names.master_facets.size(); ++k) surface_of_facet.insert(surface_of_facet.end(), names.master_facets[k], static_cast<int>(k));
+      for (std::size_t k = 0; k < names.master_facets.size(); ++k)
+        surface_of_facet.insert(surface_of_facet.end(), names.master_facets[k], static_cast<int>(k));
       master.write("surface_of_facet", surface_of_facet, {surface_of_facet.size()});
     }
     for (const bool slave : {true, false})
@@ -166,7 +178,8 @@ void ResultsWriter::create_sections(const FieldSource& source) {
 
 void ResultsWriter::tell_earlier_times() {
   if (description_.sets.empty() && contact_sides_.empty()) return;
-  const std::string group = description_.sets.empty() ? "/contact/" + contact_sides_.front().contact : description_.sets.front().group();
+  const std::string group =
+      description_.sets.empty() ? "/contact/" + contact_sides_.front().contact : description_.sets.front().group();
   const auto times = file_.root().dataset(group + "/time").read<double>();
   for (std::size_t k = 0; k < outputs_; ++k) xdmf_.add(times.at(k), k, description_.sets, contact_sides_);
 }
@@ -180,7 +193,8 @@ void ResultsWriter::fields(const FieldSource& source, double time, long step) {
     xdmf_.begin_anew();
     tell_earlier_times();
   }
-  if (!description_.sets.empty() || !contact_sides_.empty()) xdmf_.add(time, outputs_, description_.sets, contact_sides_);
+  if (!description_.sets.empty() || !contact_sides_.empty())
+    xdmf_.add(time, outputs_, description_.sets, contact_sides_);
   ++outputs_;
 }
 
@@ -194,7 +208,8 @@ void ResultsWriter::flush(std::optional<double> time) {
   file_.flush();
   if (!in_place_) {
     file_.take_name();
-    remove_own(xdmf_path(path_), kinds::results_xdmf());  // an older run's, which would name arrays that are no longer there
+    remove_own(xdmf_path(path_),
+               kinds::results_xdmf());  // an older run's, which would name arrays that are no longer there
     in_place_ = true;
   }
   last_flush_ = std::chrono::steady_clock::now();

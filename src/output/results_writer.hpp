@@ -28,22 +28,24 @@ struct RunDescription {
   std::string program_version;
   std::string title;
   std::string case_path;
-  std::string case_text;                   ///< the case file as it was read
-  double step_size = 0;                    ///< s
-  double end_time = 0;                     ///< s, asked for
+  std::string case_text;  ///< the case file as it was read
+  double step_size = 0;   ///< s
+  double end_time = 0;    ///< s, asked for
   long node_count = 0;
   long element_count = 0;
   std::vector<ContactNames> contacts;
-  std::vector<std::string> history_sets;   ///< those whose motion is written
-  std::vector<std::array<bool, 3>> history_motions;  ///< of each of these: displacement, velocity, acceleration; or none: all three
-  std::vector<Vec3> history_positions;     ///< m, undeformed, of each of these; or none
-  std::vector<std::string> history_askers; ///< "hammer NAME" or "probe NAME" of each of these, or empty; or none at all
-  std::vector<HistorySet> element_histories;  ///< those whose stress, strain or plastic strain is written
+  std::vector<std::string> history_sets;  ///< those whose motion is written
+  std::vector<std::array<bool, 3>>
+      history_motions;                  ///< of each of these: displacement, velocity, acceleration; or none: all three
+  std::vector<Vec3> history_positions;  ///< m, undeformed, of each of these; or none
+  std::vector<std::string>
+      history_askers;  ///< "hammer NAME" or "probe NAME" of each of these, or empty; or none at all
+  std::vector<HistorySet> element_histories;       ///< those whose stress, strain or plastic strain is written
   std::vector<std::pair<std::string, int>> beams;  ///< names, numbers of elements
   std::vector<LoadNames> loads;
-  std::vector<std::string> fields;         ///< displacement, velocity, acceleration, stress, plastic_strain
+  std::vector<std::string> fields;  ///< displacement, velocity, acceleration, stress, plastic_strain
   std::vector<OutputSet> sets;
-  std::string key;                         ///< checkpoint_key(); empty: not known
+  std::string key;  ///< checkpoint_key(); empty: not known
 };
 
 /// How much of a results file is there already where a run goes on.
@@ -55,14 +57,14 @@ struct ResultsSoFar {
 /// no model.
 ///
 /// Nothing computed gets lost: the file is made as PATH.new and takes the place of an older PATH only when the run has
-/// brought its first data; it is flushed after each output of fields and every few seconds, each time wholly or not at all, so a
-/// killed run leaves a readable file. Where somebody removes or moves it meanwhile it gets its name again. Throws
-/// std::runtime_error when the disk refuses; what was flushed before is there then.
+/// brought its first data; it is flushed after each output of fields and every few seconds, each time wholly or not at
+/// all, so a killed run leaves a readable file. Where somebody removes or moves it meanwhile it gets its name again.
+/// Throws std::runtime_error when the disk refuses; what was flushed before is there then.
 class ResultsWriter {
  public:
   /// Throws InputError where check_results_place() does.
-  /// @param so_far the file is there and is added to, after all that lies beyond has been cut off; throws std::runtime_error
-  /// where it holds less or has other sections
+  /// @param so_far the file is there and is added to, after all that lies beyond has been cut off; throws
+  /// std::runtime_error where it holds less or has other sections
   ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {});
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
@@ -103,7 +105,8 @@ class ResultsWriter {
   std::chrono::steady_clock::time_point last_flush_;
 };
 
-/// Throws InputError unless a results file can be made there: no such folder, not writable, or another run writes it now.
+/// Throws InputError unless a results file can be made there: no such folder, not writable, or another run writes it
+/// now.
 void check_results_place(const std::string& path);
 
 /// Path of the XDMF companion: results.h5 -> results.xdmf.

@@ -26,7 +26,8 @@ std::uint64_t checksum_of(int file, off_t length, const std::string& path) {
   Hash hash;
   for (off_t at = 0; at < length;) {
     const auto size = static_cast<std::size_t>(std::min<off_t>(length - at, static_cast<off_t>(bytes.size())));
-    if (!disk::read_at(file, bytes.data(), size, at)) throw std::runtime_error("reading " + path + ": " + disk::reason());
+    if (!disk::read_at(file, bytes.data(), size, at))
+      throw std::runtime_error("reading " + path + ": " + disk::reason());
     hash.add_words(bytes.data(), size);
     at += static_cast<off_t>(size);
   }
@@ -51,8 +52,10 @@ void check_seal(const std::string& path) {
   disk::Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   Seal all{};
   const off_t length = (file.get() < 0 ? -1 : disk::length_of(file.get())) - static_cast<off_t>(sizeof all);
-  if (file.get() < 0 || (length >= 0 && !disk::read_at(file.get(), &all, sizeof all, length))) throw std::runtime_error("reading it: " + disk::reason());
-  if (length < 0 || std::memcmp(all.mark, mark, sizeof mark) != 0) throw std::runtime_error("it is not whole, or no file of this version of the program");
+  if (file.get() < 0 || (length >= 0 && !disk::read_at(file.get(), &all, sizeof all, length)))
+    throw std::runtime_error("reading it: " + disk::reason());
+  if (length < 0 || std::memcmp(all.mark, mark, sizeof mark) != 0)
+    throw std::runtime_error("it is not whole, or no file of this version of the program");
   if (all.length != static_cast<std::uint64_t>(length) || all.checksum != checksum_of(file.get(), length, path))
     throw std::runtime_error("its checksum is not that of what it holds; the file has been damaged");
 }

@@ -51,17 +51,20 @@ StaticState read_state(const std::string& path, const std::string& key) {
   state.steps = static_cast<int>(root.number_attribute("steps"));
   state.iterations = static_cast<int>(root.number_attribute("iterations"));
   const double contacts = root.number_attribute("contacts"), groups = root.number_attribute("element_groups");
-  if (!(contacts >= 0 && contacts < 1e6 && groups >= 0 && groups < 1e6)) throw std::runtime_error("its numbers make no sense");
+  if (!(contacts >= 0 && contacts < 1e6 && groups >= 0 && groups < 1e6))
+    throw std::runtime_error("its numbers make no sense");
   state.contacts.resize(static_cast<std::size_t>(contacts));
   state.plastic.resize(static_cast<std::size_t>(groups));
   state.back_stress.resize(state.plastic.size());
   each_array(state, [&](const std::string& name, auto& values) {
-    if (root.has(name)) values = root.dataset(name).template read<typename std::decay_t<decltype(values)>::value_type>();
+    if (root.has(name))
+      values = root.dataset(name).template read<typename std::decay_t<decltype(values)>::value_type>();
   });
   return state;
 }
 
-void write_state(const std::string& path, const std::string& key, const std::string& version, const StaticState& state) {
+void write_state(const std::string& path, const std::string& key, const std::string& version,
+                 const StaticState& state) {
   hdf5::File file = hdf5::File::create(path, kinds::settled_state());
   const hdf5::Group root = file.root();
   root.set_attribute("format", format_name);
@@ -94,7 +97,8 @@ std::string SettledFiles::key(const Model& model) const {
 
 std::string SettledFiles::path(const Model& model) const {
   const std::string& named = model.scene.settle.cache_folder;
-  const std::filesystem::path folder = named.empty() ? std::filesystem::path(model.scene.output.file).parent_path() : std::filesystem::path(named);
+  const std::filesystem::path folder =
+      named.empty() ? std::filesystem::path(model.scene.output.file).parent_path() : std::filesystem::path(named);
   return (folder / ("settled-" + key(model) + ".h5")).string();
 }
 

@@ -6,10 +6,10 @@
 
 namespace railwave {
 
-/// Settled states as HDF5 files beside the results, or in the folder that settle.cache_folder names. The name has a hash of
-/// everything that the static state can depend on: the case but for times, outputs and initial velocities, the mesh in the
-/// solver's order, precision, program version. A file is written whole under another name first; it says how its state was
-/// found and carries a checksum. Scenes that come from no case file keep nothing.
+/// Settled states as HDF5 files beside the results, or in the folder that settle.cache_folder names. The name has a
+/// hash of everything that the static state can depend on: the case but for times, outputs and initial velocities, the
+/// mesh in the solver's order, precision, program version. A file is written whole under another name first; it says
+/// how its state was found and carries a checksum. Scenes that come from no case file keep nothing.
 class SettledFiles : public SettledStates {
  public:
   explicit SettledFiles(std::string program_version) : version_(std::move(program_version)) {}

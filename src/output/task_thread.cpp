@@ -4,7 +4,8 @@
 
 namespace railwave {
 
-TaskThread::TaskThread(std::size_t room, std::function<void()> on_failure) : room_(room), on_failure_(std::move(on_failure)), thread_([this] { work(); }) {}
+TaskThread::TaskThread(std::size_t room, std::function<void()> on_failure)
+    : room_(room), on_failure_(std::move(on_failure)), thread_([this] { work(); }) {}
 
 TaskThread::~TaskThread() {
   {

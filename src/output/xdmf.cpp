@@ -26,11 +26,16 @@ const std::string footer = "  </Grid>\n </Domain>\n</Xdmf>\n";
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
+    if (c == '&')
+      result += "&amp;";
+    else if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '"')
+      result += "&quot;";
+    else
+      result += c;
   }
   return result;
 }
@@ -38,9 +43,12 @@ std::string escaped(const std::string& text) {
 /// Writes the grids of one output time.
 class TimeText {
  public:
-  TimeText(const std::string& results_file_name, double time, std::size_t index) : file_(escaped(results_file_name)), index_(index) {
-    text_ = fmt::format("   <Grid Name=\"time {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n    <Time Value=\"{:.17g}\" />\n",
-                        index, time);
+  TimeText(const std::string& results_file_name, double time, std::size_t index)
+      : file_(escaped(results_file_name)), index_(index) {
+    text_ = fmt::format(
+        "   <Grid Name=\"time {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n    <Time Value=\"{:.17g}\" "
+        "/>\n",
+        index, time);
   }
 
   void open_grid(const std::string& name, int corner_count, std::size_t cells, const std::string& cells_path) {
@@ -49,7 +57,10 @@ class TimeText {
         "     <Topology TopologyType=\"{}\"{} NumberOfElements=\"{}\">\n"
         "      <DataItem Format=\"HDF\" NumberType=\"Int\" Precision=\"4\" Dimensions=\"{} {}\">{}:{}</DataItem>\n"
         "     </Topology>\n",
-        escaped(name), corner_count == 2 ? "Polyline" : corner_count == 4 ? "Quadrilateral" : "Hexahedron",
+        escaped(name),
+        corner_count == 2   ? "Polyline"
+        : corner_count == 4 ? "Quadrilateral"
+                            : "Hexahedron",
         corner_count == 2 ? " NodesPerElement=\"2\"" : "", cells, cells, corner_count, file_, escaped(cells_path));
   }
   void geometry(std::size_t nodes, const std::string& path) {
@@ -59,11 +70,12 @@ class TimeText {
         "     </Geometry>\n",
         nodes, file_, escaped(path));
   }
-  void attribute(const std::string& name, const char* centre, std::size_t entries, int components, const std::string& path,
-                 const char* number = "Float", int bytes = 8) {
+  void attribute(const std::string& name, const char* centre, std::size_t entries, int components,
+                 const std::string& path, const char* number = "Float", int bytes = 8) {
     const char* type = components == 1 ? "Scalar" : components == 3 ? "Vector" : "Matrix";
-    text_ += fmt::format("     <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n", escaped(name), type, centre) +
-             slab(entries, components, path, number, bytes) + "     </Attribute>\n";
+    text_ +=
+        fmt::format("     <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n", escaped(name), type, centre) +
+        slab(entries, components, path, number, bytes) + "     </Attribute>\n";
   }
   void close_grid() { text_ += "    </Grid>\n"; }
   std::string finished() const { return text_ + "   </Grid>\n"; }
@@ -79,8 +91,9 @@ class TimeText {
         "       <DataItem Format=\"HDF\" NumberType=\"{}\" Precision=\"{}\" Dimensions=\"{} {}\">{}:{}</DataItem>\n"
         "      </DataItem>\n",
         shape, number, bytes, scalar ? 2 : 3,
-        scalar ? fmt::format("{} 0 1 1 1 {}", index_, entries) : fmt::format("{} 0 0 1 1 1 1 {} {}", index_, entries, components), number,
-        bytes, index_ + 1, shape, file_, escaped(path));
+        scalar ? fmt::format("{} 0 1 1 1 {}", index_, entries)
+               : fmt::format("{} 0 0 1 1 1 1 {} {}", index_, entries, components),
+        number, bytes, index_ + 1, shape, file_, escaped(path));
   }
 
   std::string file_;
@@ -90,15 +103,19 @@ class TimeText {
 
 void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string>& fields) {
   const std::string group = set.group() + "/";
-  text.open_grid((set.is_beam() ? "beam " : "") + set.name, set.corner_count, set.elements.size(), group + "connectivity");
+  text.open_grid((set.is_beam() ? "beam " : "") + set.name, set.corner_count, set.elements.size(),
+                 group + "connectivity");
   text.geometry(set.nodes.size(), group + "coordinates");
   if (set.is_beam())
     for (const char* field : {"force", "moment"}) text.attribute(field, "Cell", set.elements.size(), 3, group + field);
   for (const std::string& field : fields) {
     if (set.is_beam() && (field == "stress" || field == "plastic_strain")) continue;
-    if (field == "stress") text.attribute(field, "Cell", set.elements.size(), 6, group + field);
-    else if (field == "plastic_strain") text.attribute(field, "Cell", set.elements.size(), 1, group + field);
-    else text.attribute(field, "Node", set.nodes.size(), 3, group + field);
+    if (field == "stress")
+      text.attribute(field, "Cell", set.elements.size(), 6, group + field);
+    else if (field == "plastic_strain")
+      text.attribute(field, "Cell", set.elements.size(), 1, group + field);
+    else
+      text.attribute(field, "Node", set.nodes.size(), 3, group + field);
   }
   text.close_grid();
 }
@@ -122,11 +139,15 @@ void add_side(TimeText& text, const XdmfContactSide& side) {
 }  // namespace
 
 XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind)
-    : path_(std::move(path)), results_file_name_(std::move(results_file_name)), fields_(std::move(fields)), kind_(std::move(kind)) {}
+    : path_(std::move(path)),
+      results_file_name_(std::move(results_file_name)),
+      fields_(std::move(fields)),
+      kind_(std::move(kind)) {}
 
 bool XdmfFile::is_there() const { return end_of_times_ == 0 || access(path_.c_str(), F_OK) == 0; }
 
-void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides) {
+void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>& sets,
+                   const std::vector<XdmfContactSide>& sides) {
   TimeText text(results_file_name_, time, index);
   for (const OutputSet& set : sets)
     if (!set.elements.empty()) add_set(text, set, fields_);

@@ -16,18 +16,21 @@ struct XdmfContactSide {
   std::size_t facet_count = 0;
 };
 
-/// Companion of a results file, for ParaView: an XML text that names, for every output time, the arrays in the HDF5 file.
-/// One temporal collection; each time is a spatial collection of one grid for every output set, beams as lines, and one for each
-/// side of every contact, all undeformed, with the displacement as an attribute. The arrays that grow with time are named as
-/// XDMF's HyperSlab, which vtkXdmfReader (ParaView's "XDMF Reader") knows and vtkXdmf3Reader does not.
+/// Companion of a results file, for ParaView: an XML text that names, for every output time, the arrays in the HDF5
+/// file. One temporal collection; each time is a spatial collection of one grid for every output set, beams as lines,
+/// and one for each side of every contact, all undeformed, with the displacement as an attribute. The arrays that grow
+/// with time are named as XDMF's HyperSlab, which vtkXdmfReader (ParaView's "XDMF Reader") knows and vtkXdmf3Reader
+/// does not.
 class XdmfFile {
  public:
   /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress, plastic_strain.
-  XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind = kinds::results_xdmf());
+  XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields,
+           FileKind kind = kinds::results_xdmf());
 
-  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place, and throw if
-  /// another file has taken its name meanwhile.
-  void add(double time, std::size_t index, const std::vector<OutputSet>& sets, const std::vector<XdmfContactSide>& sides);
+  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place,
+  /// and throw if another file has taken its name meanwhile.
+  void add(double time, std::size_t index, const std::vector<OutputSet>& sets,
+           const std::vector<XdmfContactSide>& sides);
 
   /// Whether nobody has removed it.
   bool is_there() const;
@@ -41,7 +44,7 @@ class XdmfFile {
   std::vector<std::string> fields_;
   FileKind kind_;
   unsigned long device_ = 0, inode_ = 0;  ///< of the file that was made
-  long end_of_times_ = 0;  ///< where the next time goes; the closing tags stand there now
+  long end_of_times_ = 0;                 ///< where the next time goes; the closing tags stand there now
 };
 
 }  // namespace railwave

@@ -18,7 +18,8 @@ struct FlatFacet {
   Vector low, high;  ///< the box around them
 
   bool may_hold(const Vector& point) const {
-    return (point.head<2>().array() >= low.head<2>().array()).all() && (point.head<2>().array() <= high.head<2>().array()).all();
+    return (point.head<2>().array() >= low.head<2>().array()).all() &&
+           (point.head<2>().array() <= high.head<2>().array()).all();
   }
 };
 
@@ -68,7 +69,8 @@ CutPoint point_on(const ContactState& state, const ContactPatch& patch, const Fa
 
 }  // namespace
 
-std::vector<CutPoint> centre_cut(const ContactState& state, const ContactPatch& patch, CutDirection direction, int points) {
+std::vector<CutPoint> centre_cut(const ContactState& state, const ContactPatch& patch, CutDirection direction,
+                                 int points) {
   const int axis = direction == CutDirection::along ? 0 : 1;
   const std::vector<FlatFacet> facets = flattened(state.slave, patch);
   double first = HUGE_VAL, last = -HUGE_VAL;

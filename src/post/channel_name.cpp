@@ -22,7 +22,10 @@ struct Quantity {
 
 constexpr Quantity of_sets[] = {{"displacement", true}, {"velocity", true}, {"acceleration", true}};
 constexpr Quantity of_element_sets[] = {{"stress", false}, {"strain", false}, {"plastic_strain", false}};
-constexpr Quantity of_contacts[] = {{"normal_force", true}, {"tangential_force", true}, {"master_force", true}, {"nodes_in_contact", false},
+constexpr Quantity of_contacts[] = {{"normal_force", true},
+                                    {"tangential_force", true},
+                                    {"master_force", true},
+                                    {"nodes_in_contact", false},
                                     {"nodes_slipping", false}};
 constexpr Quantity of_beams[] = {{"force", true}, {"moment", true}};
 constexpr Quantity of_loads[] = {{"force", true}};
@@ -33,14 +36,18 @@ constexpr const char* directions = "x, y, z, size (the vector's length) or a vec
 struct Asked {
   const std::string& text;
   const std::string& file;
-  [[noreturn]] void refuse(const std::string& why) const { throw InputError(fmt::format("channel '{}' of {}: {}", text, file, why)); }
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError(fmt::format("channel '{}' of {}: {}", text, file, why));
+  }
 };
 
 std::vector<std::string> split(const std::string& text, char between) {
   std::vector<std::string> parts{""};
   for (const char c : text) {
-    if (c == between) parts.emplace_back();
-    else parts.back() += c;
+    if (c == between)
+      parts.emplace_back();
+    else
+      parts.back() += c;
   }
   return parts;
 }
@@ -62,7 +69,8 @@ void set_direction(ChannelPlace& place, const std::string& text, const Asked& as
     direction[static_cast<int>(i)] = read.value_or(0);
   }
   if (!good || !std::isfinite(direction.norm()) || !(direction.norm() > 0))
-    asked.refuse(text.empty() ? fmt::format("it needs a direction at its end: {}", directions) : fmt::format("'{}' is no direction; it may be {}", text, directions));
+    asked.refuse(text.empty() ? fmt::format("it needs a direction at its end: {}", directions)
+                              : fmt::format("'{}' is no direction; it may be {}", text, directions));
   place.direction = direction.normalized();
 }
 
@@ -72,7 +80,8 @@ void set_component(ChannelPlace& place, const std::string& text, const Asked& as
   const auto found = std::find(components, components + count, text);
   if (found == components + count) {
     const std::string allowed = joined(std::vector<std::string>(components, components + count));
-    asked.refuse(text.empty() ? fmt::format("it needs a component at its end: {}", allowed) : fmt::format("'{}' is no component; it may be {}", text, allowed));
+    asked.refuse(text.empty() ? fmt::format("it needs a component at its end: {}", allowed)
+                              : fmt::format("'{}' is no component; it may be {}", text, allowed));
   }
   place.component = static_cast<int>(found - components);
   place.direction_text = text;
@@ -92,7 +101,8 @@ std::vector<std::string> names_of(const Quantity (&quantities)[n]) {
 
 /// OWNER.QUANTITY[.REST], OWNER one of `owners`, which may hold dots: the longest that fits.
 template <std::size_t n>
-ChannelPlace owned(const char* group, const std::string& text, const std::vector<std::string>& owners, const Quantity (&quantities)[n], const Asked& asked) {
+ChannelPlace owned(const char* group, const std::string& text, const std::vector<std::string>& owners,
+                   const Quantity (&quantities)[n], const Asked& asked) {
   ChannelPlace place;
   place.group = group;
   for (const std::string& owner : owners)
@@ -104,22 +114,29 @@ ChannelPlace owned(const char* group, const std::string& text, const std::vector
   auto words = split(text.substr(place.owner.size() + 1), '.');
   place.quantity = words[0];
   const Quantity* quantity = find(std::begin(quantities), std::end(quantities), place.quantity);
-  if (!quantity) asked.refuse(fmt::format("a {} has no '{}'; {}", group, place.quantity, suggestion(place.quantity, names_of(quantities))));
+  if (!quantity)
+    asked.refuse(
+        fmt::format("a {} has no '{}'; {}", group, place.quantity, suggestion(place.quantity, names_of(quantities))));
   place.vector = quantity->vector;
   std::string rest = text.substr(std::min(text.size(), place.owner.size() + 1 + place.quantity.size() + 1));
   if (place.group == "beam") {
     const std::string number = rest.substr(0, rest.find('.'));
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), place.element);
     if (number.empty() || error != std::errc() || end != number.data() + number.size() || place.element < 0)
-      asked.refuse("the number of an element of the beam is wanted after the quantity, counted from 0, e.g. beam.sleeper.moment.3.y");
+      asked.refuse(
+          "the number of an element of the beam is wanted after the quantity, counted from 0, e.g. "
+          "beam.sleeper.moment.3.y");
     rest = rest.find('.') == std::string::npos ? "" : rest.substr(number.size() + 1);
   }
-  if (place.vector) set_direction(place, rest, asked);
-  else if (!rest.empty()) asked.refuse(fmt::format("{} is a number, which has no direction '{}'", place.quantity, rest));
+  if (place.vector)
+    set_direction(place, rest, asked);
+  else if (!rest.empty())
+    asked.refuse(fmt::format("{} is a number, which has no direction '{}'", place.quantity, rest));
   return place;
 }
 
-std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, const ChannelNames& names, const Asked& asked) {
+std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, const ChannelNames& names,
+                                                       const Asked& asked) {
   // A set's name may hold dots and the direction too: the quantity between them is what is known.
   std::size_t at = std::string::npos, after = 0;
   ChannelPlace place;
@@ -129,7 +146,9 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
   for (const std::string& quantity : quantities) {
     const std::string word = '.' + quantity;
     const std::size_t found = text.rfind(word);
-    if (found == std::string::npos || found == 0 || (found + word.size() < text.size() && text[found + word.size()] != '.')) continue;
+    if (found == std::string::npos || found == 0 ||
+        (found + word.size() < text.size() && text[found + word.size()] != '.'))
+      continue;
     if (at != std::string::npos && found < at) continue;
     at = found;
     after = std::min(text.size(), found + word.size() + 1);
@@ -141,14 +160,18 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
     // The names are without direction, which what is asked for may have.
     const std::string stem = text.find('.') == std::string::npos ? text : text.substr(0, text.rfind('.'));
     for (const std::string& word : {text, stem})
-      if (const std::string near = nearest_name(word, all); !near.empty()) asked.refuse(fmt::format("there is none of that name; did you mean '{}'?", near));
+      if (const std::string near = nearest_name(word, all); !near.empty())
+        asked.refuse(fmt::format("there is none of that name; did you mean '{}'?", near));
     asked.refuse("there is none of that name; there are " + names.summary());
   }
   place.vector = find(std::begin(of_sets), std::end(of_sets), place.quantity) != nullptr;
   place.tensor = !place.vector && place.quantity != "plastic_strain";
-  if (place.vector) set_direction(place, text.substr(after), asked);
-  else if (place.tensor) set_component(place, text.substr(after), asked);
-  else if (after < text.size()) asked.refuse(fmt::format("{} is a number, which has no direction '{}'", place.quantity, text.substr(after)));
+  if (place.vector)
+    set_direction(place, text.substr(after), asked);
+  else if (place.tensor)
+    set_component(place, text.substr(after), asked);
+  else if (after < text.size())
+    asked.refuse(fmt::format("{} is a number, which has no direction '{}'", place.quantity, text.substr(after)));
 
   const auto entries = split(text.substr(0, at), '+');
   std::vector<std::vector<ChannelPlace>> channels;
@@ -163,9 +186,12 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
         ++count;
       }
     if (count == 0)
-      asked.refuse(!sets.empty()    ? fmt::format("there is no history of a set '{}'{}; {}", entry, place.vector ? "" : " with its " + place.quantity, suggestion(entry, sets))
+      asked.refuse(!sets.empty()
+                       ? fmt::format("there is no history of a set '{}'{}; {}", entry,
+                                     place.vector ? "" : " with its " + place.quantity, suggestion(entry, sets))
                    : place.vector ? "the run wrote the history of no set; the case names them in output.history_sets"
-                                  : "the run wrote the stress or strain of no set; the case asks for it by [probes] with quantities, or by element sets in "
+                                  : "the run wrote the stress or strain of no set; the case asks for it by [probes] "
+                                    "with quantities, or by element sets in "
                                     "output.history_sets");
   }
   if (entries.size() == 1) return channels;
@@ -184,12 +210,14 @@ std::string ChannelPlace::name() const {
 }
 
 std::string ChannelPlace::unit() const {
-  return unit_of(owner.empty() ? "/history/" + group + '/' + quantity : "/history/" + group + '/' + owner + '/' + quantity);
+  return unit_of(owner.empty() ? "/history/" + group + '/' + quantity
+                               : "/history/" + group + '/' + owner + '/' + quantity);
 }
 
 std::vector<std::string> ChannelNames::all() const {
   std::vector<std::string> result;
-  const auto add = [&](const std::vector<std::string>& owners, const std::string& prefix, const std::vector<std::string>& quantities, const char* suffix) {
+  const auto add = [&](const std::vector<std::string>& owners, const std::string& prefix,
+                       const std::vector<std::string>& quantities, const char* suffix) {
     for (const std::string& owner : owners)
       for (const std::string& quantity : quantities) result.push_back(prefix + owner + '.' + quantity + suffix);
   };
@@ -210,8 +238,11 @@ std::string ChannelNames::summary() const {
     std::sort(owners.begin(), owners.end(), in_number_order);
     const std::size_t more = owners.size() > most ? owners.size() - most : 0;
     owners.resize(owners.size() - more);
-    const std::string form = what + (quantities.size() == 1 ? quantities[0] : quantities.empty() ? "NAME" : '(' + joined(quantities, "|") + ')');
-    text += fmt::format("{}{} of {}{}", text.empty() ? "" : "; ", form, joined(owners), more > 0 ? fmt::format(" and {} more", more) : "");
+    const std::string form = what + (quantities.size() == 1 ? quantities[0]
+                                     : quantities.empty()   ? "NAME"
+                                                            : '(' + joined(quantities, "|") + ')');
+    text += fmt::format("{}{} of {}{}", text.empty() ? "" : "; ", form, joined(owners),
+                        more > 0 ? fmt::format(" and {} more", more) : "");
   };
   add(sets, "SET.", names_of(of_sets));
   add(element_sets, "SET.", names_of(of_element_sets));
@@ -222,11 +253,14 @@ std::string ChannelNames::summary() const {
   return text.empty() ? "none at all" : text;
 }
 
-std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, const ChannelNames& names, const std::string& file) {
+std::vector<std::vector<ChannelPlace>> find_channels(const std::string& text, const ChannelNames& names,
+                                                     const std::string& file) {
   const Asked asked{text, file};
   const auto begins = [&](const std::string& word) { return text.compare(0, word.size(), word) == 0; };
   // A part may be called "contact": its sets come first.
-  const auto any = [&](const std::vector<std::string>& sets) { return std::any_of(sets.begin(), sets.end(), [&](const std::string& name) { return begins(name + '.'); }); };
+  const auto any = [&](const std::vector<std::string>& sets) {
+    return std::any_of(sets.begin(), sets.end(), [&](const std::string& name) { return begins(name + '.'); });
+  };
   const bool set = any(names.sets) || any(names.element_sets);
   if (!set && begins("contact.")) return {{owned("contact", text.substr(8), names.contacts, of_contacts, asked)}};
   if (!set && begins("beam.")) return {{owned("beam", text.substr(5), names.beams, of_beams, asked)}};

@@ -18,14 +18,18 @@ namespace {
 void check(const ContactRequest& request) {
   const auto [inner, outer] = request.ring;
   if (!(inner >= 0 && outer > inner && std::isfinite(outer)))
-    throw InputError(fmt::format("--ring {},{}: two numbers are wanted, 0 or more, the second the larger one, e.g. --ring 1.5,3", inner, outer));
+    throw InputError(fmt::format(
+        "--ring {},{}: two numbers are wanted, 0 or more, the second the larger one, e.g. --ring 1.5,3", inner, outer));
   const auto& d = request.rolling_direction;
   if (!(std::isfinite(d[0] + d[1] + d[2]) && Vector(d.data()).norm() > 0))
     throw InputError(fmt::format("--rolling-direction {},{},{}: a direction is wanted, e.g. -1,0,0", d[0], d[1], d[2]));
-  if (request.axle && request.rolling_velocity) throw InputError("--axle and --rolling-velocity exclude each other: name one of them");
+  if (request.axle && request.rolling_velocity)
+    throw InputError("--axle and --rolling-velocity exclude each other: name one of them");
   if (request.rolling_velocity && !(*request.rolling_velocity > 0 && std::isfinite(*request.rolling_velocity)))
-    throw InputError(fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
-  if (!(request.from <= request.to)) throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
+    throw InputError(
+        fmt::format("--rolling-velocity {}: a speed above 0 is wanted, in m/s", *request.rolling_velocity));
+  if (!(request.from <= request.to))
+    throw InputError(fmt::format("--from {} is after --to {}", request.from, request.to));
   check_wanted_files({request.results},
                      {{"--csv", request.csv, patch_table_kind()},
                       {"--nodes", request.nodes, node_table_kind()},
@@ -35,30 +39,39 @@ void check(const ContactRequest& request) {
 }
 
 void print_heading(std::ostream& out) {
-  out << fmt::format("{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>17} {:>6} {:>9} {:>9} {:>9}\n",
-                     "time", "patch", "nodes", "area", "peak p", "peak p", "peak q", "normal", "creep", "lateral", "T/N", "centre x",
-                     "centre y", "a", "b", "slipping nodes", "agree", "creepage", "creepage", "spin");
-  out << fmt::format("{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>5} {:>5} {:>5} {:>6} {:>9} {:>9} {:>9}\n",
-                     "ms", "", "", "zero mm2", "node MPa", "facet MPa", "node MPa", "kN", "kN", "kN", "", "mm", "mm", "mm", "mm", "force", "vel.",
-                     "run", "%", "long. %", "lat. %", "1/m");
+  out << fmt::format(
+      "{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>17} {:>6} {:>9} "
+      "{:>9} {:>9}\n",
+      "time", "patch", "nodes", "area", "peak p", "peak p", "peak q", "normal", "creep", "lateral", "T/N", "centre x",
+      "centre y", "a", "b", "slipping nodes", "agree", "creepage", "creepage", "spin");
+  out << fmt::format(
+      "{:>10} {:>5} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>7} {:>7} {:>5} {:>5} {:>5} "
+      "{:>6} {:>9} {:>9} {:>9}\n",
+      "ms", "", "", "zero mm2", "node MPa", "facet MPa", "node MPa", "kN", "kN", "kN", "", "mm", "mm", "mm", "mm",
+      "force", "vel.", "run", "%", "long. %", "lat. %", "1/m");
 }
 
-std::string number_or_dash(double value, int decimals) { return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals); }
+std::string number_or_dash(double value, int decimals) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
+}
 
 /// A row of the patches' table; several patches together are summed up in their own row 0 of it.
 void print_row(std::ostream& out, const Table& t, std::size_t row) {
   const auto value = [&](const char* column, double unit = 1) { return unit * t.at(row, column); };
   const bool all = value("patch") == 0;
   out << fmt::format(
-      "{:>10.5f} {:>5} {:>6} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f} {:>9} {:>9} {:>7.3f} {:>7.3f} {:>5} {:>5} {:>5} "
+      "{:>10.5f} {:>5} {:>6} {:>9.2f} {:>9.1f} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>9.3f} {:>8.4f} {:>9} {:>9} "
+      "{:>7.3f} {:>7.3f} {:>5} {:>5} {:>5} "
       "{:>6} {:>9} {:>9} {:>9}\n",
-      value("time", 1e3), all ? "all" : fmt::format("{}{}", value("patch"), value("small") > 0 ? "*" : ""), value("nodes_in_contact"), value("area", 1e6),
-      value("peak_nodal_pressure", 1e-6), value("peak_facet_pressure", 1e-6), value("peak_shear", 1e-6), value("normal_force", 1e-3),
-      value("creep_force", 1e-3), value("lateral_force", 1e-3), value("traction_coefficient"), number_or_dash(value("centre_x", 1e3), 3),
-      number_or_dash(value("centre_y", 1e3), 3), value("semi_axis_along", 1e3), value("semi_axis_across", 1e3), value("slipping_by_force"),
-      value("slipping_by_velocity"), value("slipping_by_solver"), number_or_dash(value("agreement_force_velocity", 100), 1),
-      number_or_dash(value("longitudinal_creepage", 100), 4), number_or_dash(value("lateral_creepage", 100), 4),
-      number_or_dash(value("spin_creepage"), 3));
+      value("time", 1e3), all ? "all" : fmt::format("{}{}", value("patch"), value("small") > 0 ? "*" : ""),
+      value("nodes_in_contact"), value("area", 1e6), value("peak_nodal_pressure", 1e-6),
+      value("peak_facet_pressure", 1e-6), value("peak_shear", 1e-6), value("normal_force", 1e-3),
+      value("creep_force", 1e-3), value("lateral_force", 1e-3), value("traction_coefficient"),
+      number_or_dash(value("centre_x", 1e3), 3), number_or_dash(value("centre_y", 1e3), 3),
+      value("semi_axis_along", 1e3), value("semi_axis_across", 1e3), value("slipping_by_force"),
+      value("slipping_by_velocity"), value("slipping_by_solver"),
+      number_or_dash(value("agreement_force_velocity", 100), 1), number_or_dash(value("longitudinal_creepage", 100), 4),
+      number_or_dash(value("lateral_creepage", 100), 4), number_or_dash(value("spin_creepage"), 3));
 }
 
 /// Row 0, of all patches together, says nothing new where there is one.
@@ -68,11 +81,14 @@ void print(std::ostream& out, const Table& patches) {
   for (std::size_t row = 0; row < patches.row_count(); ++row) {
     const bool all = patches.at(row, "patch") == 0;
     const bool last_of_instant = row + 1 == patches.row_count() || patches.at(row + 1, "patch") == 0;
-    const bool followed_by_one = !last_of_instant && (row + 2 == patches.row_count() || patches.at(row + 2, "patch") == 0);
+    const bool followed_by_one =
+        !last_of_instant && (row + 2 == patches.row_count() || patches.at(row + 2, "patch") == 0);
     if (!all || !(followed_by_one && patches.at(row, "stray_nodes") == 0)) print_row(out, patches, row);
     any_small = any_small || patches.at(row, "small") > 0;
   }
-  if (any_small) out << fmt::format("* fewer than {} nodes: too few for the mesh to show its shape, stress and slip\n", smallest_patch);
+  if (any_small)
+    out << fmt::format("* fewer than {} nodes: too few for the mesh to show its shape, stress and slip\n",
+                       smallest_patch);
 }
 
 ContactTables solve(const ResultsReader& results, const std::string& contact, const ContactRequest& request) {
@@ -95,7 +111,8 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
     chosen.push_back(times[i]);
   }
   if (chosen.empty() && !times.empty())
-    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact, request.from, request.to, times.front(), times.back()));
+    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact,
+                                 request.from, request.to, times.front(), times.back()));
   if (request.rolling_velocity) {
     tables.set_rolling_velocity(*request.rolling_velocity);
   } else if (request.axle) {
@@ -113,8 +130,10 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
   const ResultsReader results(request.results);
   const std::vector<std::string> contacts = results.contacts();
   if (contacts.empty()) {
-    throw InputError(fmt::format(
-        "results file {} holds no contact: the case has no [contacts.NAME], or the run ended before its first output of fields", request.results));
+    throw InputError(
+        fmt::format("results file {} holds no contact: the case has no [contacts.NAME], or the run ended before its "
+                    "first output of fields",
+                    request.results));
   }
   if (!results.completed()) out << "note: this run did not complete: " << results.reason() << '\n';
   std::vector<std::pair<std::string, ContactTables>> solved;

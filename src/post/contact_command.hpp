@@ -12,19 +12,19 @@ namespace railwave {
 
 /// What `railwave contact` is asked for.
 struct ContactRequest {
-  std::string results;                        ///< results file of a run
-  std::optional<std::string> csv, nodes, cuts, hdf5;  ///< files to write
-  bool overwrite = false;  ///< files of others too
+  std::string results;                                     ///< results file of a run
+  std::optional<std::string> csv, nodes, cuts, hdf5;       ///< files to write
+  bool overwrite = false;                                  ///< files of others too
   double from = -std::numeric_limits<double>::infinity();  ///< s: output times before are left out
   double to = std::numeric_limits<double>::infinity();
   std::array<double, 3> rolling_direction{1, 0, 0};
   std::array<double, 2> ring{CreepageRing{}.inner, CreepageRing{}.outer};  ///< see CreepageRing
-  std::optional<std::string> axle;            ///< history set that moves as the patches do over ground
-  std::optional<double> rolling_velocity;     ///< m/s
+  std::optional<std::string> axle;         ///< history set that moves as the patches do over ground
+  std::optional<double> rolling_velocity;  ///< m/s
 };
 
-/// Prints a table of the contact solution at every output time of every contact in a results file, and writes tables in SI
-/// units where names for them are given: all that docs/results-file.md says of `railwave contact`. The results file
+/// Prints a table of the contact solution at every output time of every contact in a results file, and writes tables in
+/// SI units where names for them are given: all that docs/results-file.md says of `railwave contact`. The results file
 /// itself is only read. Returns the exit code 0; throws InputError for a file or request that cannot be used.
 int contact_command(const ContactRequest& request, std::ostream& out);
 

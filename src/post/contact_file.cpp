@@ -7,7 +7,8 @@ namespace {
 
 constexpr OwnFormat format{"Railwave contact solution", 1, "railwave contact --hdf5"};
 
-void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, ContactTables>>& contacts, const std::vector<std::string>& surfaces) {
+void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, ContactTables>>& contacts,
+          const std::vector<std::string>& surfaces) {
   const hdf5::Group group = root.create_group("contact");
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto& [name, tables] = contacts[i];
@@ -24,7 +25,8 @@ void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, Cont
 
 FileKind contact_file_kind() { return format.kind(); }
 
-void write_contact_file(const std::string& path, const ResultsReader& results, const std::vector<std::pair<std::string, ContactTables>>& contacts) {
+void write_contact_file(const std::string& path, const ResultsReader& results,
+                        const std::vector<std::pair<std::string, ContactTables>>& contacts) {
   std::vector<std::string> surfaces;  // read before anything is made: a damaged file may end this process
   for (const auto& [name, tables] : contacts) surfaces.push_back(results.slave_surface(name));
   write_own_file(path, format, results, [&](const hdf5::Group& root) { fill(root, contacts, surfaces); });

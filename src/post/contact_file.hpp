@@ -12,8 +12,9 @@ namespace railwave {
 /// What `railwave contact --hdf5` writes.
 FileKind contact_file_kind();
 
-/// Writes the tables of every contact into an HDF5 file of their own (docs/results-file.md), whole or not at all. An older
-/// file of this kind is replaced. Throws InputError if there is another file of that name, or if it cannot be written.
+/// Writes the tables of every contact into an HDF5 file of their own (docs/results-file.md), whole or not at all. An
+/// older file of this kind is replaced. Throws InputError if there is another file of that name, or if it cannot be
+/// written.
 void write_contact_file(const std::string& path, const ResultsReader& results,
                         const std::vector<std::pair<std::string, ContactTables>>& contacts);
 

@@ -17,7 +17,8 @@ std::vector<double> own_pressure(const TouchingNodes& touching, const std::vecto
   return pressure;
 }
 
-void find_forces(const ContactSide& slave, const std::vector<double>& pressure, const Vector& rolling, ContactPatch& patch) {
+void find_forces(const ContactSide& slave, const std::vector<double>& pressure, const Vector& rolling,
+                 ContactPatch& patch) {
   Vector normal_sum = Vector::Zero(), tangential_sum = Vector::Zero(), moment = Vector::Zero();
   std::vector<double> forces;
   double sum = 0;
@@ -54,7 +55,8 @@ void find_slip(const ContactSurfaces& surfaces, ContactPatch& patch) {
   patch.motion = relative_motion(state.slave, patch.surroundings, state.master, surfaces.master);
   std::vector<double> micro_slip;
   for (const int node : patch.touching) {
-    const auto place = std::lower_bound(patch.surroundings.begin(), patch.surroundings.end(), node) - patch.surroundings.begin();
+    const auto place =
+        std::lower_bound(patch.surroundings.begin(), patch.surroundings.end(), node) - patch.surroundings.begin();
     const RelativeMotion& motion = patch.motion[place];
     micro_slip.push_back(motion.known ? motion.slip.norm() : std::numeric_limits<double>::quiet_NaN());
     if (!motion.known) continue;
@@ -68,7 +70,9 @@ void find_slip(const ContactSurfaces& surfaces, ContactPatch& patch) {
 
 double ContactPatch::size() const { return std::max(length(), ellipse.semi_axis_across); }
 
-double ContactPatch::length() const { return small() ? std::max(ellipse.semi_axis_along, std::sqrt(area_by_count / M_PI)) : ellipse.semi_axis_along; }
+double ContactPatch::length() const {
+  return small() ? std::max(ellipse.semi_axis_along, std::sqrt(area_by_count / M_PI)) : ellipse.semi_axis_along;
+}
 
 ContactSurfaces::ContactSurfaces(const ContactState& contact_state)
     : state(contact_state),
@@ -77,7 +81,8 @@ ContactSurfaces::ContactSurfaces(const ContactState& contact_state)
       master(state.master, around_master),
       touching(touching_nodes(state.slave)) {}
 
-ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<int>& nodes, const PatchOptions& options) {
+ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<int>& nodes,
+                           const PatchOptions& options) {
   const ContactSide& slave = surfaces.state.slave;
   ContactPatch patch;
   patch.touching = nodes;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "post/centre_cut.hpp"
 #include "output/file_kind.hpp"
+#include "post/centre_cut.hpp"
 #include "post/contact_solution.hpp"
 #include "post/table.hpp"
 

@@ -160,7 +160,9 @@ void fill(const hdf5::Group& root, const Measured& measured, const std::string& 
 int decay_command(const DecayRequest& request, std::ostream& out) {
   if (!(request.from > 0 && request.from < request.to))
     throw InputError(fmt::format("--from {} --to {}: must be above 0 and ascend", request.from, request.to));
-  check_wanted_files(request.results, {{"--csv", request.csv, rate_table()}, {"--hdf5", request.hdf5, file_format.kind()}}, request.overwrite);
+  check_wanted_files(request.results,
+                     {{"--csv", request.csv, rate_table()}, {"--hdf5", request.hdf5, file_format.kind()}},
+                     request.overwrite);
   const HammerTest test(request.results, request.input);
   SignalNotes notes;
   const Measured measured = measure(test, request, notes);

@@ -5,8 +5,8 @@
 
 namespace railwave {
 
-EquivalentEllipse equivalent_ellipse(const ContactSide& side, const std::vector<int>& nodes, const std::vector<double>& forces,
-                                     const LocalFrame& frame) {
+EquivalentEllipse equivalent_ellipse(const ContactSide& side, const std::vector<int>& nodes,
+                                     const std::vector<double>& forces, const LocalFrame& frame) {
   double sum = 0;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
@@ -20,7 +20,8 @@ EquivalentEllipse equivalent_ellipse(const ContactSide& side, const std::vector<
   if (!(sum > 0)) return ellipse;
   mean /= sum;
   moments = moments / sum - mean * mean.transpose();
-  // Half the angle at which the mixed moment vanishes, taken such that the first axis is the one nearer to longitudinal.
+  // Half the angle at which the mixed moment vanishes, taken such that the first axis is the one nearer to
+  // longitudinal.
   const double difference = moments(0, 0) - moments(1, 1), mixed = 2 * moments(0, 1);
   const double size = std::hypot(difference, mixed);
   const bool first_is_larger = difference >= 0;

@@ -9,7 +9,8 @@ namespace {
 constexpr double rounding = 1e-9;
 
 std::array<double, 4> shape_functions(double xi, double eta) {
-  return {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta), 0.25 * (1 - xi) * (1 + eta)};
+  return {0.25 * (1 - xi) * (1 - eta), 0.25 * (1 + xi) * (1 - eta), 0.25 * (1 + xi) * (1 + eta),
+          0.25 * (1 - xi) * (1 + eta)};
 }
 
 /// r(xi, eta) = middle + xi across + eta along + xi eta twist (eq. 2.24).

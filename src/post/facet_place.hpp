@@ -10,10 +10,10 @@ namespace railwave {
 /// A place on a bilinear facet.
 struct FacetPlace {
   int facet = -1;
-  double xi = 0, eta = 0;                  ///< -1 to 1 between the facet's sides
-  std::array<double, 4> shares{};          ///< of the four corners: the bilinear shape functions there
-  double distance = 0;                     ///< m, from the point that was to be placed
-  bool inside = false;                     ///< its foot is on the facet, not beyond a side
+  double xi = 0, eta = 0;          ///< -1 to 1 between the facet's sides
+  std::array<double, 4> shares{};  ///< of the four corners: the bilinear shape functions there
+  double distance = 0;             ///< m, from the point that was to be placed
+  bool inside = false;             ///< its foot is on the facet, not beyond a side
 
   /// The vectors at the corners brought to the place.
   Vector interpolate(const ContactSide& side, const std::vector<double>& vectors) const;
@@ -21,9 +21,9 @@ struct FacetPlace {
 
 using FacetCorners = std::array<Vector, 4>;
 
-/// The place on a facet nearest to a point: the foot of its perpendicular, found by inverting the bilinear map, or where
-/// that is beyond the facet's sides the nearest place on them. On a rectangle the shares are the products of distances to the
-/// sides of thesis eq. 3.4.
+/// The place on a facet nearest to a point: the foot of its perpendicular, found by inverting the bilinear map, or
+/// where that is beyond the facet's sides the nearest place on them. On a rectangle the shares are the products of
+/// distances to the sides of thesis eq. 3.4.
 FacetPlace nearest_on_facet(const FacetCorners& corners, const Vector& point);
 
 /// Unit normal of the facet at a place, to the side from which its corners turn anticlockwise.

@@ -79,9 +79,10 @@ HammerTest::HammerTest(const std::vector<std::string>& files, const std::string&
   });
   std::sort(sets_.begin(), sets_.end(), in_number_order);
   if (sets_.empty())
-    throw InputError(fmt::format(
-        "{} has the displacement, velocity and acceleration of no set; add a section [probes.NAME] to the case, or name sets of nodes in output.history_sets",
-        files.front()));
+    throw InputError(
+        fmt::format("{} has the displacement, velocity and acceleration of no set; add a section [probes.NAME] to the "
+                    "case, or name sets of nodes in output.history_sets",
+                    files.front()));
   results_.front().damage_told([&] { choose_input(load), check_texts(); });
   for (const ResultsReader& results : results_) {
     const HistorySeries series =
@@ -127,16 +128,19 @@ void HammerTest::choose_input(const std::string& load) {
   input_.direction = read_vector(group, "direction");
 }
 
-/// Texts have no checksums in the file: a hammer is to hit a set that was made for one, and whatever made a set gave it its name.
+/// Texts have no checksums in the file: a hammer is to hit a set that was made for one, and whatever made a set gave it
+/// its name.
 void HammerTest::check_texts() const {
   const hdf5::Group group = results_.front().history().group("load").group(input_.load);
   const bool hammer = group.number_attribute("hammer") != 0;
   if (hammer && std::find(sets_.begin(), sets_.end(), input_.set) == sets_.end())
-    throw std::runtime_error(fmt::format("load '{}' has the target '{}', of which there is no history", input_.load, input_.set));
+    throw std::runtime_error(
+        fmt::format("load '{}' has the target '{}', of which there is no history", input_.load, input_.set));
   for (const std::string& set : sets_) {
     const std::string by = asker(set), name = by.substr(std::min(by.size(), by.find(' ') + 1)), own = behind_dot(set);
     if (by.empty()) continue;
-    const bool of_hammer = by == "hammer " + name, named = own == name || own.compare(0, name.size() + 1, name + "_") == 0;
+    const bool of_hammer = by == "hammer " + name,
+               named = own == name || own.compare(0, name.size() + 1, name + "_") == 0;
     if (!named || (!of_hammer && by != "probe " + name) || (hammer && set == input_.set && !of_hammer))
       throw std::runtime_error(fmt::format("set '{}' was made by '{}', which cannot be", set, by));
   }

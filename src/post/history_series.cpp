@@ -12,13 +12,16 @@
 namespace railwave {
 namespace {
 
-/// Share of the usual distance by which samples may be off and still count as evenly spaced: far above the rounding of times.
+/// Share of the usual distance by which samples may be off and still count as evenly spaced: far above the rounding of
+/// times.
 constexpr double even = 1e-6;
 
 constexpr std::size_t fewest = 4;
 
 ChannelNames names_in(const hdf5::Group& history) {
-  const auto names = [&](const char* group) { return history.has(group) ? history.group(group).names() : std::vector<std::string>{}; };
+  const auto names = [&](const char* group) {
+    return history.has(group) ? history.group(group).names() : std::vector<std::string>{};
+  };
   std::vector<std::string> loads;
   for (const std::string& load : names("load"))
     if (history.group("load").group(load).has("force")) loads.push_back(load);
@@ -26,7 +29,8 @@ ChannelNames names_in(const hdf5::Group& history) {
   for (const std::string& set : names("set")) {
     const hdf5::Group group = history.group("set").group(set);
     const auto any = [&](std::initializer_list<const char*> quantities) {
-      return std::any_of(quantities.begin(), quantities.end(), [&](const char* quantity) { return group.has(quantity); });
+      return std::any_of(quantities.begin(), quantities.end(),
+                         [&](const char* quantity) { return group.has(quantity); });
     };
     if (any({"displacement", "velocity", "acceleration"})) moving.push_back(set);
     if (any({"stress", "strain", "plastic_strain"})) inside.push_back(set);
@@ -47,14 +51,18 @@ double von_mises(const double* s) {
 /// One component of all samples of a tensor.
 std::vector<double> component(const std::vector<double>& raw, const ChannelPlace& place) {
   std::vector<double> values(raw.size() / 6);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = place.component == ChannelPlace::von_mises ? von_mises(&raw[6 * i]) : raw[6 * i + static_cast<std::size_t>(place.component)];
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = place.component == ChannelPlace::von_mises ? von_mises(&raw[6 * i])
+                                                           : raw[6 * i + static_cast<std::size_t>(place.component)];
   return values;
 }
 
 /// All samples of one place.
 std::vector<double> read(const hdf5::Group& history, const ChannelPlace& place) {
   if (!group_of(history, place).has(place.quantity))
-    throw InputError(fmt::format("channel '{}': the run did not write the {} of {}; name it among the probe's quantities", place.name(), place.quantity, place.owner));
+    throw InputError(
+        fmt::format("channel '{}': the run did not write the {} of {}; name it among the probe's quantities",
+                    place.name(), place.quantity, place.owner));
   const hdf5::Dataset dataset = group_of(history, place).dataset(place.quantity);
   const hdf5::Shape shape = dataset.shape();
   std::vector<double> raw;
@@ -86,7 +94,8 @@ HistoryChannel read_mean(const hdf5::Group& history, const std::vector<ChannelPl
     const auto values = read(history, place);
     if (channel.values.empty()) channel.values.assign(values.size(), 0.0);
     channel.values.resize(std::min(channel.values.size(), values.size()));
-    for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] += values[i] / static_cast<double>(places.size());
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      channel.values[i] += values[i] / static_cast<double>(places.size());
     const hdf5::Group group = group_of(history, place);
     placed = placed && place.group == "set" && group.has("position");
     // Stress holds at the element's centre, motion at the nodes.
@@ -106,14 +115,20 @@ void space_evenly(HistorySeries& series, std::vector<double> times, const std::s
   const auto refuse = [&](const std::string& why) { throw InputError(fmt::format("histories of {}: {}", file, why)); };
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
-      refuse(fmt::format("time does not ascend from sample {} ({} s) to the next ({} s): the file is damaged, or put together from several runs", i - 1, times[i - 1], times[i]));
+      refuse(
+          fmt::format("time does not ascend from sample {} ({} s) to the next ({} s): the file is damaged, or put "
+                      "together from several runs",
+                      i - 1, times[i - 1], times[i]));
   std::vector<double> distances(times.size() - 1);
   for (std::size_t i = 0; i < distances.size(); ++i) distances[i] = times[i + 1] - times[i];
-  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2), distances.end());
+  std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
+                   distances.end());
   const double usual = distances[distances.size() / 2];
 
   // The run's last sample is at its end, wherever that falls.
-  const auto off = [&](std::size_t i, double interval) { return std::fabs(times[i + 1] - times[i] - interval) > even * interval; };
+  const auto off = [&](std::size_t i, double interval) {
+    return std::fabs(times[i + 1] - times[i] - interval) > even * interval;
+  };
   if (times.size() > fewest && times[times.size() - 1] - times[times.size() - 2] < (1 - even) * usual) times.pop_back();
   double least = usual, most = usual;
   bool uneven = false;
@@ -122,11 +137,16 @@ void space_evenly(HistorySeries& series, std::vector<double> times, const std::s
     most = std::max(most, times[i + 1] - times[i]);
     uneven = uneven || off(i, usual);
   }
-  if (most > 2 * usual) refuse(fmt::format("a gap of {:.4g} s among samples {:.4g} s apart; choose times without it by --from and --to", most, usual));
+  if (most > 2 * usual)
+    refuse(fmt::format("a gap of {:.4g} s among samples {:.4g} s apart; choose times without it by --from and --to",
+                       most, usual));
   series.start = times.front();
   series.interval = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   if (uneven) {
-    series.notes.push_back(fmt::format("the run changed its step: samples {:.6g} to {:.6g} s apart were moved to every {:.6g} s by cubic interpolation", least, most, series.interval));
+    series.notes.push_back(
+        fmt::format("the run changed its step: samples {:.6g} to {:.6g} s apart were moved to every {:.6g} s by cubic "
+                    "interpolation",
+                    least, most, series.interval));
   }
   for (HistoryChannel& channel : series.channels) {
     channel.values.resize(times.size());
@@ -150,18 +170,22 @@ HistorySeries read(const ResultsReader& results, const HistoryRequest& request) 
   auto times = history.dataset("time").read<double>();
   // A kill in the middle of a flush may leave arrays longer than the times.
   for (const HistoryChannel& channel : series.channels) times.resize(std::min(times.size(), channel.values.size()));
-  const std::string whole = times.empty() ? "none at all" : fmt::format("they go from {:.6g} s to {:.6g} s", times.front(), times.back());
+  const std::string whole =
+      times.empty() ? "none at all" : fmt::format("they go from {:.6g} s to {:.6g} s", times.front(), times.back());
   const auto first = std::lower_bound(times.begin(), times.end(), request.from) - times.begin();
   const auto last = std::upper_bound(times.begin(), times.end(), request.to) - times.begin();
   if (last - first < static_cast<std::ptrdiff_t>(fewest))
-    throw InputError(fmt::format("{} has {} history samples from {} s to {} s, of which {} are wanted at least; {}", results.path(), std::max<std::ptrdiff_t>(0, last - first),
-                                 request.from, request.to, fewest, whole));
+    throw InputError(fmt::format("{} has {} history samples from {} s to {} s, of which {} are wanted at least; {}",
+                                 results.path(), std::max<std::ptrdiff_t>(0, last - first), request.from, request.to,
+                                 fewest, whole));
   times = {times.begin() + first, times.begin() + last};
   for (HistoryChannel& channel : series.channels) {
     channel.values = {channel.values.begin() + first, channel.values.begin() + last};
     for (std::size_t i = 0; i < channel.values.size(); ++i)
       if (!std::isfinite(channel.values[i]))
-        throw InputError(fmt::format("channel '{}' of {} is no number at t = {:.6g} s: the run went wrong there; leave that out by --to", channel.name, results.path(), times[i]));
+        throw InputError(fmt::format(
+            "channel '{}' of {} is no number at t = {:.6g} s: the run went wrong there; leave that out by --to",
+            channel.name, results.path(), times[i]));
   }
   space_evenly(series, std::move(times), results.path());
   return series;
@@ -169,8 +193,10 @@ HistorySeries read(const ResultsReader& results, const HistoryRequest& request) 
 
 }  // namespace
 
-std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start, double interval, std::size_t count) {
-  if (times.size() < fewest || times.size() != values.size()) throw std::logic_error("cubic interpolation needs four samples");
+std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start,
+                              double interval, std::size_t count) {
+  if (times.size() < fewest || times.size() != values.size())
+    throw std::logic_error("cubic interpolation needs four samples");
   std::vector<double> result(count);
   std::size_t before = 0;  // the sample at or before the time
   for (std::size_t i = 0; i < count; ++i) {

@@ -18,9 +18,9 @@ struct LocalFrame {
   }
 };
 
-/// Axes from the direction of the normal force and the rolling direction; neither need have unit length. "Left" is that of
-/// someone who looks along the rolling direction with z up. Where the normal is the rolling direction itself (a head-on
-/// impact) the longitudinal axis is the z axis turned into the tangent plane.
+/// Axes from the direction of the normal force and the rolling direction; neither need have unit length. "Left" is that
+/// of someone who looks along the rolling direction with z up. Where the normal is the rolling direction itself (a
+/// head-on impact) the longitudinal axis is the z axis turned into the tangent plane.
 LocalFrame local_frame(const Vector& centre, const Vector& normal, const Vector& rolling);
 
 }  // namespace railwave

@@ -22,8 +22,8 @@ RelativeMotion motion_at(const ContactSide& slave, int node, const ContactSide& 
 
 }  // namespace
 
-std::vector<RelativeMotion> relative_motion(const ContactSide& slave, const std::vector<int>& nodes, const ContactSide& master,
-                                            const SurfaceSearch& search) {
+std::vector<RelativeMotion> relative_motion(const ContactSide& slave, const std::vector<int>& nodes,
+                                            const ContactSide& master, const SurfaceSearch& search) {
   std::vector<RelativeMotion> motions;
   motions.reserve(nodes.size());
   for (const int node : nodes) {

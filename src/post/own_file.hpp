@@ -20,13 +20,14 @@ struct OwnFormat {
 };
 
 /// Writes an HDF5 file, whole or not at all: format, results_file and title as attributes, and what `fill` adds. An
-/// older file of the same format is replaced. Throws InputError if there is another file of that name (unless --overwrite
-/// gave it), or if it cannot be written.
+/// older file of the same format is replaced. Throws InputError if there is another file of that name (unless
+/// --overwrite gave it), or if it cannot be written.
 void write_own_file(const std::string& path, const OwnFormat& format, const ResultsReader& results,
                     const std::function<void(const hdf5::Group&)>& fill);
 
 /// A table (CSV) that a command writes.
-/// @param columns names of its first columns, without units, separated by commas: by its heading an older table is known again
+/// @param columns names of its first columns, without units, separated by commas: by its heading an older table is
+/// known again
 /// @param more what the name of each further column contains; empty: there is none
 FileKind table_kind(const std::string& called, const std::string& columns, const std::string& more = "");
 

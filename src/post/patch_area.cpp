@@ -29,8 +29,8 @@ class Surface {
     return std::find(corners.begin(), corners.end(), node) != corners.end();
   }
 
-  /// The next node after `to` on the mesh line that comes from `from`, or -1: joined to `to` by an edge, but with no facet
-  /// in common with the edge from-to, and straight ahead within 45 degrees.
+  /// The next node after `to` on the mesh line that comes from `from`, or -1: joined to `to` by an edge, but with no
+  /// facet in common with the edge from-to, and straight ahead within 45 degrees.
   int straight_on(int from, int to) const {
     const Vector ahead = (position(to) - position(from)).normalized();
     int best = -1;
@@ -84,7 +84,8 @@ class Surface {
 
 double polygon_area(const std::vector<Vector>& corners) {
   Vector twice = Vector::Zero();
-  for (std::size_t i = 2; i < corners.size(); ++i) twice += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    twice += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
   return 0.5 * twice.norm();
 }
 

@@ -13,13 +13,15 @@ struct SeenPatch {
   bool small = false;              ///< fewer nodes than smallest_patch
 };
 
-/// Numbers the patches of a contact from output to output by their places: a patch keeps its number as long as it is where its way so far
-/// leads it, whatever its force, also when it was not there at outputs between. Forces take no part in it.
+/// Numbers the patches of a contact from output to output by their places: a patch keeps its number as long as it is
+/// where its way so far leads it, whatever its force, also when it was not there at outputs between. Forces take no
+/// part in it.
 ///
-/// A patch's way is foreseen with its velocity between the last two outputs at which it was seen; where it was seen once, with that
-/// of the patch nearest to it; while no velocity is known, with any common motion along the rolling direction, the smallest that fits most patches.
-/// Of the pairs of known and seen patches the nearest take each other first, patches of enough nodes before small ones. What
-/// lies farther from every foreseen place than two to four of the patch's sizes is a new patch.
+/// A patch's way is foreseen with its velocity between the last two outputs at which it was seen; where it was seen
+/// once, with that of the patch nearest to it; while no velocity is known, with any common motion along the rolling
+/// direction, the smallest that fits most patches. Of the pairs of known and seen patches the nearest take each other
+/// first, patches of enough nodes before small ones. What lies farther from every foreseen place than two to four of
+/// the patch's sizes is a new patch.
 class PatchIdentities {
  public:
   /// @param rolling direction, of any length
@@ -33,23 +35,23 @@ class PatchIdentities {
  private:
   struct Track {
     SeenPatch last;
-    double time = 0;                      ///< s, of `last`
-    bool moving = false;                  ///< its velocity is known
-    Vector velocity = Vector::Zero();     ///< m/s
-    Vector foreseen = Vector::Zero();     ///< m, at the present output
-    double doubt = 0;                     ///< m, of that
+    double time = 0;                   ///< s, of `last`
+    bool moving = false;               ///< its velocity is known
+    Vector velocity = Vector::Zero();  ///< m/s
+    Vector foreseen = Vector::Zero();  ///< m, at the present output
+    double doubt = 0;                  ///< m, of that
   };
   struct Match {
-    std::vector<int> track;               ///< of each patch, -1: none
+    std::vector<int> track;  ///< of each patch, -1: none
     int large = 0, all = 0;
-    double distance = 0;                  ///< m, sum
+    double distance = 0;  ///< m, sum
   };
 
   void foresee(double time);
   Match match(const std::vector<SeenPatch>& patches, const Vector& shift) const;
 
   Vector rolling_;
-  std::vector<Track> tracks_;             ///< number 1 first
+  std::vector<Track> tracks_;  ///< number 1 first
 };
 
 }  // namespace railwave

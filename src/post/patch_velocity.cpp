@@ -38,11 +38,14 @@ std::vector<Vector> patch_velocity(const std::vector<PatchInstant>& instants) {
   for (std::size_t i = 0; i < instants.size(); ++i) {
     velocities.push_back(Vector::Constant(std::numeric_limits<double>::quiet_NaN()));
     if (!instants[i].touches) continue;
-    const auto travel = [&](std::size_t other) { return (instants[other].centre - instants[i].centre).norm() / instants[i].semi_axis; };
+    const auto travel = [&](std::size_t other) {
+      return (instants[other].centre - instants[i].centre).norm() / instants[i].semi_axis;
+    };
     std::size_t first = i, last = i;
     while (first > 0 && instants[first - 1].touches && travel(first) < wanted_travel) --first;
     while (last + 1 < instants.size() && instants[last + 1].touches && travel(last) < wanted_travel) ++last;
-    if (first < last && (instants[last].centre - instants[first].centre).norm() >= needed_travel * instants[i].semi_axis)
+    if (first < last &&
+        (instants[last].centre - instants[first].centre).norm() >= needed_travel * instants[i].semi_axis)
       velocities.back() = slope(instants, first, last);
   }
   return velocities;

@@ -20,8 +20,10 @@ std::vector<int> PatchWays::add(double time, const ContactSolution& solution) {
     added.push_back({numbers[p], static_cast<int>(way.size()) - 1});
     if (!patch.small() && ++large == 1) only = added.back();
   }
-  if (added.size() == 1) only = added[0];
-  else if (large != 1) only = {0, 0};
+  if (added.size() == 1)
+    only = added[0];
+  else if (large != 1)
+    only = {0, 0};
   rows_.push_back(only);
   std::sort(added.begin(), added.end(), [](const Row& a, const Row& b) { return a.number < b.number; });
   rows_.insert(rows_.end(), added.begin(), added.end());
@@ -33,7 +35,8 @@ std::vector<Vector> PatchWays::velocity_of_rows() const {
   for (const auto& way : ways_) velocities.push_back(patch_velocity(way));
   std::vector<Vector> result;
   for (const Row& row : rows_)
-    result.push_back(row.number > 0 ? velocities[row.number - 1][row.sighting] : Vector(Vector::Constant(std::numeric_limits<double>::quiet_NaN())));
+    result.push_back(row.number > 0 ? velocities[row.number - 1][row.sighting]
+                                    : Vector(Vector::Constant(std::numeric_limits<double>::quiet_NaN())));
   return result;
 }
 

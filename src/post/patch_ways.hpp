@@ -17,15 +17,15 @@ class PatchWays {
   /// @return number of each of the solution's patches
   std::vector<int> add(double time, const ContactSolution& solution);
 
-  /// Of the rows that ContactTables::add makes of the same outputs: each patch's own velocity over ground, m/s, from the slope of its own
-  /// centre's way (patch_velocity), outputs at which it was not there left out. Row 0 has that of its only patch, or only one that is not small. NaN
-  /// where it is not known.
+  /// Of the rows that ContactTables::add makes of the same outputs: each patch's own velocity over ground, m/s, from
+  /// the slope of its own centre's way (patch_velocity), outputs at which it was not there left out. Row 0 has that of
+  /// its only patch, or only one that is not small. NaN where it is not known.
   std::vector<Vector> velocity_of_rows() const;
 
  private:
   struct Row {
-    int number;     ///< of the patch, 0: none
-    int sighting;   ///< among the patch's
+    int number;    ///< of the patch, 0: none
+    int sighting;  ///< among the patch's
   };
 
   PatchIdentities identities_;

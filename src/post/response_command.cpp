@@ -21,7 +21,8 @@ const std::vector<std::string> quantities = {"accelerance", "mobility", "recepta
 const std::vector<std::string> units = {"m/s2/N", "m/s/N", "m/N"};
 constexpr OwnFormat file_format{"Railwave frequency responses", 1, "railwave frf --hdf5"};
 
-constexpr const char* heading = "response,kind,frequency,amplitude,decibels,phase,real,imaginary,coherence,force_spectrum";
+constexpr const char* heading =
+    "response,kind,frequency,amplitude,decibels,phase,real,imaginary,coherence,force_spectrum";
 
 FileKind response_table() { return table_kind("a table of 'railwave frf --csv'", heading); }
 
@@ -37,7 +38,8 @@ void check(const ResponseRequest& request) {
     throw InputError(fmt::format("--prominence {}: must be above 0 dB", request.prominence));
   if (request.from && request.to && !(*request.from < *request.to))
     throw InputError(fmt::format("--from {} is not below --to {}", *request.from, *request.to));
-  check_wanted_files(request.results, {{"--csv", request.csv, response_table()}, {"--hdf5", request.hdf5, file_format.kind()}},
+  check_wanted_files(request.results,
+                     {{"--csv", request.csv, response_table()}, {"--hdf5", request.hdf5, file_format.kind()}},
                      request.overwrite);
 }
 

@@ -17,12 +17,14 @@ namespace railwave {
 namespace {
 
 constexpr double known_version = 1;
-const std::vector<std::string> side_arrays = {"area", "position", "velocity", "normal", "normal_force", "tangential_force"};
+const std::vector<std::string> side_arrays = {"area",   "position",     "velocity",
+                                              "normal", "normal_force", "tangential_force"};
 const std::vector<std::string> slave_arrays = {"gap", "slip_velocity", "slipping"};
 
 void check_readable(const std::string& path) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(fmt::format("{} is a folder, not a results file", path));
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(fmt::format("{} is a folder, not a results file", path));
   if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
     throw InputError(fmt::format("{} is a pipe, device or socket, not a results file", path));
   std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -31,7 +33,10 @@ void check_readable(const std::string& path) {
   const std::size_t length = std::fread(mark, 1, sizeof mark, file);
   std::fclose(file);
   if (length < sizeof mark || std::memcmp(mark, "\211HDF\r\n\032\n", sizeof mark) != 0)
-    throw InputError(fmt::format("{} is no HDF5 file, so no results file of Railwave; 'railwave run' writes one under the name that the case gives as output.file", path));
+    throw InputError(
+        fmt::format("{} is no HDF5 file, so no results file of Railwave; 'railwave run' writes one under the name that "
+                    "the case gives as output.file",
+                    path));
 }
 
 ContactSide read_side(const hdf5::Group& group, std::size_t index) {
@@ -41,7 +46,8 @@ ContactSide read_side(const hdf5::Group& group, std::size_t index) {
   if (corners.size() % 4 != 0) throw std::runtime_error("a facet has no four corners");
   side.facets.resize(corners.size() / 4);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (corners[i] < 0 || corners[i] >= static_cast<int>(side.nodes.size())) throw std::runtime_error("a facet has a corner that is no node");
+    if (corners[i] < 0 || corners[i] >= static_cast<int>(side.nodes.size()))
+      throw std::runtime_error("a facet has a corner that is no node");
     side.facets[i / 4][i % 4] = corners[i];
   }
   side.area = group.dataset("area").read_row<double>(index);
@@ -67,8 +73,10 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
     if (!root.has_attribute("format") || root.text_attribute("format") != "Railwave results")
       throw InputError(fmt::format("{} is an HDF5 file, but no results file of Railwave", path));
     if (root.number_attribute("format_version") > known_version)
-      throw InputError(fmt::format("{} was written by a newer program ({}), in a format that this one does not know", path, root.text_attribute("program")));
-    if (root.has_attribute("title")) title_ = root.text_attribute("title");  // now, before a command has written half of its files
+      throw InputError(fmt::format("{} was written by a newer program ({}), in a format that this one does not know",
+                                   path, root.text_attribute("program")));
+    if (root.has_attribute("title"))
+      title_ = root.text_attribute("title");  // now, before a command has written half of its files
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -76,7 +84,8 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
   } catch (const std::exception& error) {
     const std::string reason = error.what();
     if (reason.find("truncated") != std::string::npos)
-      throw InputError(fmt::format("results file {} is cut short: copy it again, or repeat the run ({})", path, reason));
+      throw InputError(
+          fmt::format("results file {} is cut short: copy it again, or repeat the run ({})", path, reason));
     throw InputError(fmt::format("results file {} cannot be read: {}", path, reason));
   }
 }
@@ -107,16 +116,20 @@ std::string ResultsReader::slave_surface(const std::string& contact) const {
 std::vector<double> ResultsReader::contact_times(const std::string& contact) const {
   const std::vector<std::string> known = contacts();
   if (std::find(known.begin(), known.end(), contact) == known.end())
-    throw InputError(fmt::format("results file {} has no contact '{}'; {}", path_, contact, suggestion(contact, known)));
+    throw InputError(
+        fmt::format("results file {} has no contact '{}'; {}", path_, contact, suggestion(contact, known)));
   try {
     const hdf5::Group group = file_.root().group("contact").group(contact);
     std::vector<double> times = group.dataset("time").read<double>();
     // A kill in the middle of a flush may leave the arrays with different lengths.
     std::size_t complete = times.size();
     for (const char* side : {"slave", "master"})
-      for (const std::string& name : side_arrays) complete = std::min<std::size_t>(complete, group.group(side).dataset(name).shape().at(0));
-    for (const std::string& name : slave_arrays) complete = std::min<std::size_t>(complete, group.group("slave").dataset(name).shape().at(0));
-    if (group.group("slave").has("friction")) complete = std::min<std::size_t>(complete, group.group("slave").dataset("friction").shape().at(0));
+      for (const std::string& name : side_arrays)
+        complete = std::min<std::size_t>(complete, group.group(side).dataset(name).shape().at(0));
+    for (const std::string& name : slave_arrays)
+      complete = std::min<std::size_t>(complete, group.group("slave").dataset(name).shape().at(0));
+    if (group.group("slave").has("friction"))
+      complete = std::min<std::size_t>(complete, group.group("slave").dataset("friction").shape().at(0));
     times.resize(complete);
     return times;
   } catch (const std::bad_alloc&) {
@@ -126,17 +139,24 @@ std::vector<double> ResultsReader::contact_times(const std::string& contact) con
   }
 }
 
-std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set, const std::vector<double>& times) const {
+std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set,
+                                                         const std::vector<double>& times) const {
   try {
     const hdf5::Group history = file_.root().group("history");
-    const std::vector<std::string> known = history.has("set") ? history.group("set").names() : std::vector<std::string>{};
+    const std::vector<std::string> known =
+        history.has("set") ? history.group("set").names() : std::vector<std::string>{};
     if (known.empty())
-      throw InputError(fmt::format("results file {} has the history of no set; the case names them in output.history_sets", path_));
+      throw InputError(
+          fmt::format("results file {} has the history of no set; the case names them in output.history_sets", path_));
     if (std::find(known.begin(), known.end(), set) == known.end())
-      throw InputError(fmt::format("results file {} has no history of set '{}'; {}", path_, set, suggestion(set, known)));
+      throw InputError(
+          fmt::format("results file {} has no history of set '{}'; {}", path_, set, suggestion(set, known)));
     const std::vector<double> sampled = history.dataset("time").read<double>();
     if (!history.group("set").group(set).has("velocity"))
-      throw InputError(fmt::format("results file {} has the history of '{}' without its velocity; name a set of nodes, or a probe whose quantities include velocity", path_, set));
+      throw InputError(
+          fmt::format("results file {} has the history of '{}' without its velocity; name a set of nodes, or a probe "
+                      "whose quantities include velocity",
+                      path_, set));
     const std::vector<double> velocity = history.group("set").group(set).dataset("velocity").read<double>();
     const std::size_t count = std::min(sampled.size(), velocity.size() / 3);
     if (count == 0) throw std::runtime_error("its history is empty");
@@ -144,8 +164,11 @@ std::vector<Eigen::Vector3d> ResultsReader::set_velocity(const std::string& set,
     for (const double time : times) {
       const std::size_t after = std::upper_bound(sampled.begin(), sampled.begin() + count, time) - sampled.begin();
       const std::size_t one = after == 0 ? 0 : after - 1, other = std::min(after, count - 1);
-      const double share = sampled[other] > sampled[one] ? std::clamp((time - sampled[one]) / (sampled[other] - sampled[one]), 0.0, 1.0) : 0.0;
-      result.push_back((1 - share) * Eigen::Vector3d(&velocity[3 * one]) + share * Eigen::Vector3d(&velocity[3 * other]));
+      const double share = sampled[other] > sampled[one]
+                               ? std::clamp((time - sampled[one]) / (sampled[other] - sampled[one]), 0.0, 1.0)
+                               : 0.0;
+      result.push_back((1 - share) * Eigen::Vector3d(&velocity[3 * one]) +
+                       share * Eigen::Vector3d(&velocity[3 * other]));
     }
     return result;
   } catch (const InputError&) {
@@ -179,7 +202,8 @@ ContactState ResultsReader::contact_state(const std::string& contact, std::size_
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("results file {} is damaged: contact '{}', output time {}: {}", path_, contact, index, error.what()));
+    throw InputError(fmt::format("results file {} is damaged: contact '{}', output time {}: {}", path_, contact, index,
+                                 error.what()));
   }
 }
 

@@ -14,7 +14,8 @@ namespace railwave {
 /// Reads what the contacts did from a results file, also from one whose run was killed.
 class ResultsReader {
  public:
-  /// Throws InputError saying what is wrong: no such file, no HDF5 file, cut short, not Railwave's, of a newer Railwave.
+  /// Throws InputError saying what is wrong: no such file, no HDF5 file, cut short, not Railwave's, of a newer
+  /// Railwave.
   explicit ResultsReader(const std::string& path);
 
   const std::string& path() const { return path_; }
@@ -45,8 +46,8 @@ class ResultsReader {
   /// Output times that are there in full, s.
   std::vector<double> contact_times(const std::string& contact) const;
 
-  /// Velocity of one of the run's history sets, m/s, at each of `times`, between two samples in proportion. Throws InputError
-  /// if there is no such set.
+  /// Velocity of one of the run's history sets, m/s, at each of `times`, between two samples in proportion. Throws
+  /// InputError if there is no such set.
   std::vector<Eigen::Vector3d> set_velocity(const std::string& set, const std::vector<double>& times) const;
 
   /// Group /history. Throws InputError if there is none.

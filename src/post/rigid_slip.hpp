@@ -14,13 +14,13 @@ struct CreepageRing {
 
 /// How two bodies would slip in a patch if they were rigid: the velocity of the slave less that of the master.
 struct RigidSlip {
-  RigidMotion slave, master;         ///< about the patch's centre
-  bool known = false;                ///< both were found
-  double along = 0, across = 0;      ///< m/s, at the patch's centre
-  double spin = 0;                   ///< rad/s, about along x across
+  RigidMotion slave, master;               ///< about the patch's centre
+  bool known = false;                      ///< both were found
+  double along = 0, across = 0;            ///< m/s, at the patch's centre
+  double spin = 0;                         ///< rad/s, about along x across
   double mean_along = 0, mean_across = 0;  ///< m/s, mean velocity of the two bodies there
-  /// What the choice of the ring does: largest distance of the same from its inner and its outer half alone. NaN if a half
-  /// has too few nodes.
+  /// What the choice of the ring does: largest distance of the same from its inner and its outer half alone. NaN if a
+  /// half has too few nodes.
   double spread_along = 0, spread_across = 0, spread_spin = 0;
 };
 

@@ -16,15 +16,19 @@ bool matches(const char* pattern, const char* name) {
 
 }  // namespace
 
-bool matches_pattern(const std::string& pattern, const std::string& name) { return matches(pattern.c_str(), name.c_str()); }
+bool matches_pattern(const std::string& pattern, const std::string& name) {
+  return matches(pattern.c_str(), name.c_str());
+}
 
 bool in_number_order(const std::string& a, const std::string& b) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
     if (digit(a[i]) && digit(b[j])) {
-      const std::size_t end_a = std::min(a.size(), a.find_first_not_of("0123456789", i)), end_b = std::min(b.size(), b.find_first_not_of("0123456789", j));
-      const double number_a = leading_real(std::string_view(a).substr(i, end_a - i)), number_b = leading_real(std::string_view(b).substr(j, end_b - j));
+      const std::size_t end_a = std::min(a.size(), a.find_first_not_of("0123456789", i)),
+                        end_b = std::min(b.size(), b.find_first_not_of("0123456789", j));
+      const double number_a = leading_real(std::string_view(a).substr(i, end_a - i)),
+                   number_b = leading_real(std::string_view(b).substr(j, end_b - j));
       if (number_a != number_b) return number_a < number_b;
       i = end_a;
       j = end_b;

@@ -16,14 +16,17 @@ namespace {
 
 constexpr OwnFormat format{"Railwave signals", 1, "railwave signal --hdf5"};
 
-/// Columns: those of its table that have always the same name. More: further ones are named after channels, which have a dot.
+/// Columns: those of its table that have always the same name. More: further ones are named after channels, which have
+/// a dot.
 struct Kind {
   const char* name;
   SignalReport (*report)(const SignalInput&);
   const char* columns;
   const char* more;
 
-  FileKind table() const { return table_kind(fmt::format("a table of 'railwave signal {} --csv'", name), columns, more); }
+  FileKind table() const {
+    return table_kind(fmt::format("a table of 'railwave signal {} --csv'", name), columns, more);
+  }
 };
 
 /// In the order of SignalKind.
@@ -32,13 +35,17 @@ constexpr Kind signal_kinds[] = {
     {"wavelet", report_wavelet, "frequency,period,scale,global_power,global_power_in_cone,red_noise_95", ""},
     {"bandpass", report_bandpass, "time [s]", "."},
     {"cross", report_cross, "frequency,density_first,density_second,cross_density,phase,coherence", ""},
-    {"ellipse", report_ellipse, "x,y,z,semi_axis_major,semi_axis_minor,tilt,phase,amplitude_ratio,retrograde,polarisation,coherence,strongest_time", ""},
+    {"ellipse", report_ellipse,
+     "x,y,z,semi_axis_major,semi_axis_minor,tilt,phase,amplitude_ratio,retrograde,polarisation,coherence,strongest_"
+     "time",
+     ""},
     {"speed", report_speed, "x,y,z,distance,lag,similarity", ""}};
 
 const Kind& kind_of(const SignalRequest& request) { return signal_kinds[static_cast<int>(request.kind)]; }
 
 void check_files(const SignalRequest& request) {
-  check_wanted_files({request.results}, {{"--csv", request.csv, kind_of(request).table()}, {"--hdf5", request.hdf5, format.kind()}},
+  check_wanted_files({request.results},
+                     {{"--csv", request.csv, kind_of(request).table()}, {"--hdf5", request.hdf5, format.kind()}},
                      request.overwrite);
 }
 

@@ -26,7 +26,7 @@ struct SignalRequest {
   double overlap = 0.5;
   double w0 = 6, scale_spacing = 0.125;  ///< of the wavelet
   std::optional<std::string> csv, hdf5;  ///< files to write
-  bool overwrite = false;  ///< files of others too
+  bool overwrite = false;                ///< files of others too
 };
 
 /// Prints what the analysis found in a few lines, and writes tables where names for them are given: all that

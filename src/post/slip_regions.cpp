@@ -4,7 +4,8 @@
 
 namespace railwave {
 
-SlipRegions slip_regions(const ContactState& state, const std::vector<int>& nodes, const std::vector<double>& micro_slip) {
+SlipRegions slip_regions(const ContactState& state, const std::vector<int>& nodes,
+                         const std::vector<double>& micro_slip) {
   const ContactSide& slave = state.slave;
   double largest = 0;
   for (const int node : nodes) largest = std::max(largest, entry(slave.tangential_force, node).norm());

@@ -6,8 +6,8 @@
 
 namespace railwave {
 
-inline constexpr double slip_force_tolerance = 0.003;   ///< of the largest tangential nodal force, thesis 3.4.3
-inline constexpr double slip_velocity_tolerance = 0.05; ///< m/s, thesis 3.4.3
+inline constexpr double slip_force_tolerance = 0.003;    ///< of the largest tangential nodal force, thesis 3.4.3
+inline constexpr double slip_velocity_tolerance = 0.05;  ///< m/s, thesis 3.4.3
 
 /// Which of the nodes in contact slip, by three ways of telling: in the order of `nodes`.
 struct SlipRegions {
@@ -18,7 +18,8 @@ struct SlipRegions {
 
 /// @param nodes      of the slave surface, in contact
 /// @param micro_slip m/s, size at each of `nodes`; a node of which it is not known (NaN) does not slip
-SlipRegions slip_regions(const ContactState& state, const std::vector<int>& nodes, const std::vector<double>& micro_slip);
+SlipRegions slip_regions(const ContactState& state, const std::vector<int>& nodes,
+                         const std::vector<double>& micro_slip);
 
 int count_of(const std::vector<bool>& marks);
 

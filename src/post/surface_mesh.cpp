@@ -27,8 +27,10 @@ FacetsAroundNodes::FacetsAroundNodes(const ContactSide& side) : first_(side.node
 TouchingNodes touching_nodes(const ContactSide& side) {
   TouchingNodes result{nodal_pressure(side), {}};
   for (std::size_t i = 0; i < side.nodes.size(); ++i) {
-    if (result.pressure[i] * side.area[i] > contact_threshold) result.nodes.push_back(static_cast<int>(i));
-    else result.pressure[i] = 0;
+    if (result.pressure[i] * side.area[i] > contact_threshold)
+      result.nodes.push_back(static_cast<int>(i));
+    else
+      result.pressure[i] = 0;
   }
   return result;
 }

@@ -12,13 +12,15 @@ std::vector<Vec3> points_of(const ContactSide& side) {
 
 }  // namespace
 
-SurfaceSearch::SurfaceSearch(const ContactSide& side, const FacetsAroundNodes& around) : side_(side), around_(around), nodes_(points_of(side)) {}
+SurfaceSearch::SurfaceSearch(const ContactSide& side, const FacetsAroundNodes& around)
+    : side_(side), around_(around), nodes_(points_of(side)) {}
 
 FacetPlace SurfaceSearch::find(const Vector& point, double reach) const {
   FacetPlace nearest;
   const int node = nodes_.find({point[0], point[1], point[2]}, reach);
   if (node < 0) return nearest;
-  // On graded or skewed facets the nearest place need not be on a facet of the nearest node: their neighbours are asked too.
+  // On graded or skewed facets the nearest place need not be on a facet of the nearest node: their neighbours are asked
+  // too.
   std::vector<int> facets(around_[node].begin(), around_[node].end());
   facets = facets_around(around_, nodes_of_facets(side_, facets));
   for (const int facet : facets) {

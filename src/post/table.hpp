@@ -24,8 +24,8 @@ class Table {
   double& at(std::size_t row, const std::string& column) { return values_[place(column)][row]; }
   double at(std::size_t row, const std::string& column) const { return values_[place(column)][row]; }
 
-  /// The names of the columns, after one called "contact"; and the rows, after that contact's name. Columns whose unit is
-  /// "row" link one table to another and are left out.
+  /// The names of the columns, after one called "contact"; and the rows, after that contact's name. Columns whose unit
+  /// is "row" link one table to another and are left out.
   std::string csv_heading() const;
   std::string csv_rows(const std::string& contact) const;
 

@@ -22,8 +22,10 @@ std::size_t without_small_factors(std::size_t length, std::size_t largest) {
 std::vector<Complex> mixed_radix(const std::vector<Complex>& values, bool inverse) {
   Eigen::FFT<double> transform;
   std::vector<Complex> result(values.size());
-  if (inverse) transform.inv(result.data(), values.data(), static_cast<Eigen::Index>(values.size()));
-  else transform.fwd(result.data(), values.data(), static_cast<Eigen::Index>(values.size()));
+  if (inverse)
+    transform.inv(result.data(), values.data(), static_cast<Eigen::Index>(values.size()));
+  else
+    transform.fwd(result.data(), values.data(), static_cast<Eigen::Index>(values.size()));
   return result;
 }
 
@@ -48,7 +50,8 @@ std::vector<Complex> by_convolution(const std::vector<Complex>& values) {
 
 std::vector<Complex> spectrum_of(const std::vector<Complex>& values) {
   if (values.size() < 2) return values;  // which Eigen cannot do
-  return without_small_factors(values.size(), largest_factor) == 1 ? mixed_radix(values, false) : by_convolution(values);
+  return without_small_factors(values.size(), largest_factor) == 1 ? mixed_radix(values, false)
+                                                                   : by_convolution(values);
 }
 
 std::vector<Complex> values_of(const std::vector<Complex>& spectrum) {
@@ -71,9 +74,11 @@ std::vector<Complex> real_spectrum(const std::vector<double>& values, std::size_
 }
 
 std::vector<double> real_values(const std::vector<Complex>& half_spectrum, std::size_t length) {
-  if (half_spectrum.size() != length / 2 + 1) throw std::logic_error("a half spectrum has another length than its values need");
+  if (half_spectrum.size() != length / 2 + 1)
+    throw std::logic_error("a half spectrum has another length than its values need");
   std::vector<Complex> whole(length);
-  for (std::size_t k = 0; k < length; ++k) whole[k] = k <= length / 2 ? half_spectrum[k] : std::conj(half_spectrum[length - k]);
+  for (std::size_t k = 0; k < length; ++k)
+    whole[k] = k <= length / 2 ? half_spectrum[k] : std::conj(half_spectrum[length - k]);
   whole = values_of(whole);
   std::vector<double> values(length);
   for (std::size_t n = 0; n < length; ++n) values[n] = whole[n].real();
@@ -82,7 +87,8 @@ std::vector<double> real_values(const std::vector<Complex>& half_spectrum, std::
 
 std::vector<double> spectrum_frequencies(std::size_t length, double interval) {
   std::vector<double> frequencies(length / 2 + 1);
-  for (std::size_t k = 0; k < frequencies.size(); ++k) frequencies[k] = static_cast<double>(k) / (static_cast<double>(length) * interval);
+  for (std::size_t k = 0; k < frequencies.size(); ++k)
+    frequencies[k] = static_cast<double>(k) / (static_cast<double>(length) * interval);
   return frequencies;
 }
 

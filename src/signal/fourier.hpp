@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-/// Discrete Fourier transforms of any length N: X_k = sum over n of x_n exp(-2 pi i k n / N), without a factor; the inverse has the
-/// factor 1/N. A length with a large prime factor takes about six times as long as one of small factors.
+/// Discrete Fourier transforms of any length N: X_k = sum over n of x_n exp(-2 pi i k n / N), without a factor; the
+/// inverse has the factor 1/N. A length with a large prime factor takes about six times as long as one of small
+/// factors.
 namespace railwave {
 
 using Complex = std::complex<double>;

@@ -27,15 +27,20 @@ double cosines(double share, std::initializer_list<double> factors) {
 /// @param share n/N
 double value(WindowType type, double share, double parameter) {
   switch (type) {
-    case WindowType::rectangular: return 1;
-    case WindowType::hann: return cosines(share, {0.5, 0.5});
-    case WindowType::hamming: return cosines(share, {0.54, 0.46});
-    case WindowType::flat_top: return cosines(share, {0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368});
+    case WindowType::rectangular:
+      return 1;
+    case WindowType::hann:
+      return cosines(share, {0.5, 0.5});
+    case WindowType::hamming:
+      return cosines(share, {0.54, 0.46});
+    case WindowType::flat_top:
+      return cosines(share, {0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368});
     case WindowType::tukey: {
       const double from_end = std::min(share, 1 - share);
       return from_end >= parameter / 2 ? 1 : 0.5 * (1 - std::cos(2 * pi * from_end / parameter));
     }
-    case WindowType::exponential: return std::pow(parameter, share);
+    case WindowType::exponential:
+      return std::pow(parameter, share);
   }
   return 1;
 }
@@ -56,7 +61,8 @@ WindowType window_named(const std::string& name) {
 
 std::vector<double> window(WindowType type, std::size_t length, double parameter) {
   std::vector<double> values(length);
-  for (std::size_t n = 0; n < length; ++n) values[n] = value(type, static_cast<double>(n) / static_cast<double>(length), parameter);
+  for (std::size_t n = 0; n < length; ++n)
+    values[n] = value(type, static_cast<double>(n) / static_cast<double>(length), parameter);
   return values;
 }
 

@@ -8,8 +8,8 @@
 #include "model/element_histories.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
-#include "model/host_copy.hpp"
 #include "model/group_material.hpp"
+#include "model/host_copy.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
 #include "solve/beams.hpp"
@@ -90,8 +90,10 @@ struct ContactEnergy {
     if (contact.status(s) == status_apart) return;
     const double stiffness = contact.segment_stiffness(contact.tracked(s));
     const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
-    if (law.active) sum[0] += stiffness * law.growth.at(-contact.gap(s)).energy + 0.5 * dot(t, t) / stiffness;
-    else sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / stiffness;
+    if (law.active)
+      sum[0] += stiffness * law.growth.at(-contact.gap(s)).energy + 0.5 * dot(t, t) / stiffness;
+    else
+      sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / stiffness;
   }
 };
 
@@ -105,8 +107,8 @@ struct MultiplierEnergy {
   }
 };
 
-/// Sums over the slave's nodes: normal force, tangential force, what the shape functions pass on to the master; nodes in
-/// contact, nodes that slip.
+/// Sums over the slave's nodes: normal force, tangential force, what the shape functions pass on to the master; nodes
+/// in contact, nodes that slip.
 struct SlaveSums {
   static constexpr int values = 11;
   ContactArrays contact;
@@ -183,33 +185,40 @@ void share_out(const Model& model, const ElementGroup& group, std::vector<PartEn
 }
 
 template <class S, class Hourglass>
-void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part, Reductions& sums) {
+void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part,
+                          Reductions& sums) {
   const int count = group.patches.count;
   with_material(group, [&](const auto& material) {
     using State = PatchState<S, std::decay_t<decltype(material)>, Hourglass>;
-    launch_patches(group.patches, State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, group.patch_energy});
+    launch_patches(group.patches,
+                   State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, group.patch_energy});
   });
   sums.sum(PatchEnergy{group.patch_energy, group.patches.hourglass_energy}, count, [&energy](const double* sum) {
     energy.internal += sum[0];
     energy.hourglass += sum[1];
   });
   if (by_part) {
-    Kokkos::parallel_for("add_dissipated", Range(0, count), AddDissipated{group.patch_energy, group.patches.hourglass_energy, power_sums});
+    Kokkos::parallel_for("add_dissipated", Range(0, count),
+                         AddDissipated{group.patch_energy, group.patches.hourglass_energy, power_sums});
     if (group.plastic.active())
-      Kokkos::parallel_for("add_plastic", Range(0, count), AddPlastic<S>{{group.patches, group.plastic}, group.patch_energy});
+      Kokkos::parallel_for("add_plastic", Range(0, count),
+                           AddPlastic<S>{{group.patches, group.plastic}, group.patch_energy});
     Kokkos::deep_copy(ExecutionSpace(), group.patch_energy_fetched, group.patch_energy);
   }
   if (group.damping.active())
     sums.sum(ArraySum{group.damping.energy}, count, [&energy](const double* sum) { energy.damping += *sum; });
   if (group.plastic.active())
-    sums.sum(PlasticEnergy<S>{group.patches, group.plastic}, count * patch_size, [&energy](const double* sum) { energy.plastic += *sum; });
+    sums.sum(PlasticEnergy<S>{group.patches, group.plastic}, count * patch_size,
+             [&energy](const double* sum) { energy.plastic += *sum; });
 }
 
 template <class S>
 void queue_element_energies(const Model& model, EnergyAccount& energy, bool by_part, Reductions& sums) {
   for (const ElementGroup& group : model.elements) {
-    if (group.hourglass == scene::HourglassType::viscous) queue_element_energy<S, ViscousHourglass>(model, group, energy, by_part, sums);
-    else queue_element_energy<S, StiffnessHourglass>(model, group, energy, by_part, sums);
+    if (group.hourglass == scene::HourglassType::viscous)
+      queue_element_energy<S, ViscousHourglass>(model, group, energy, by_part, sums);
+    else
+      queue_element_energy<S, StiffnessHourglass>(model, group, energy, by_part, sums);
   }
 }
 
@@ -226,10 +235,11 @@ void queue_contact_energies(const Model& model, EnergyAccount& energy, Reduction
         energy.damping += sum[2];
       });
     } else {
-      sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count, [&energy, add](const double* sum) {
-        add(sum);
-        energy.impacts += sum[0];
-      });
+      sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count,
+               [&energy, add](const double* sum) {
+                 add(sum);
+                 energy.impacts += sum[0];
+               });
     }
   }
 }
@@ -237,26 +247,30 @@ void queue_contact_energies(const Model& model, EnergyAccount& energy, Reduction
 /// Everything that account_energies() gives, into `energy`, when the sums are fetched. Parts get theirs by share_out().
 void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, Reductions& sums) {
   const auto external = [&energy](const double* sum) { energy.external_work += *sum; };
-  sums.sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count, [&energy](const double* sum) {
-    energy.kinetic += sum[0];
-    energy.external_work += sum[1];
-  });
-  with_element_precision(model.scene, [&](auto number) { queue_element_energies<decltype(number)>(model, energy, by_part, sums); });
+  sums.sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count,
+           [&energy](const double* sum) {
+             energy.kinetic += sum[0];
+             energy.external_work += sum[1];
+           });
+  with_element_precision(model.scene,
+                         [&](auto number) { queue_element_energies<decltype(number)>(model, energy, by_part, sums); });
   queue_contact_energies(model, energy, sums);
   if (!model.loads.empty()) sums.sum(ArraySum{model.extra.work}, model.extra.contribution_count, external);
   for (const PrescribedSet& set : model.prescribed)
     sums.sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), external);
   if (model.ends.arrays.count > 0)
-    sums.sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count, [&energy](const double* sum) {
-      energy.damping += sum[0];
-      energy.external_work += sum[1];
-    });
+    sums.sum(NonReflectingEnergy{model.ends.arrays, model.nodes.position}, model.ends.arrays.count,
+             [&energy](const double* sum) {
+               energy.damping += sum[0];
+               energy.external_work += sum[1];
+             });
   if (model.beams) queue_beam_energies(model, step, energy, sums);
   if (model.connectors.arrays.count > 0)
-    sums.sum(ConnectorEnergy{model.connectors.arrays.energy}, model.connectors.arrays.count, [&energy](const double* sum) {
-      energy.connector += sum[0];
-      energy.damping += sum[1];
-    });
+    sums.sum(ConnectorEnergy{model.connectors.arrays.energy}, model.connectors.arrays.count,
+             [&energy](const double* sum) {
+               energy.connector += sum[0];
+               energy.damping += sum[1];
+             });
 }
 
 /// A part's share of the groups' energies, when the sums have been fetched.
@@ -281,8 +295,9 @@ double balance_total(const EnergyAccount& energy) {
 }
 
 double deformation_energy(const EnergyAccount& energy) {
-  return std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.friction) + std::fabs(energy.connector) +
-         std::fabs(energy.damping) + std::fabs(energy.plastic);
+  return std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) +
+         std::fabs(energy.friction) + std::fabs(energy.connector) + std::fabs(energy.damping) +
+         std::fabs(energy.plastic);
 }
 
 double largest_energy(const EnergyAccount& energy) {
@@ -304,9 +319,10 @@ void queue_pair_totals(const Model& model, const ContactPair& pair, ContactTotal
     totals.nodes_slipping = static_cast<int>(sum[10]);
   });
   if (!pair.own_master) return;
-  sums.sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count, [&totals](const double* sum) {
-    for (int i = 0; i < 3; ++i) totals.master_force[i] = sum[i];
-  });
+  sums.sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count,
+           [&totals](const double* sum) {
+             for (int i = 0; i < 3; ++i) totals.master_force[i] = sum[i];
+           });
 }
 
 /// The other half of a symmetric contact has the surfaces exchanged.
@@ -340,7 +356,8 @@ MeanMotion mean_motion_with_ties(const Model& model, int set) {
   const auto weight = to_host(model.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
   MeanMotion mean;
-  for (auto [field, sum] : {std::pair{NodeField::displacement, &mean.displacement}, {NodeField::velocity, &mean.velocity},
+  for (auto [field, sum] : {std::pair{NodeField::displacement, &mean.displacement},
+                            {NodeField::velocity, &mean.velocity},
                             {NodeField::acceleration, &mean.acceleration}}) {
     const auto values = node_field(model, field, nodes).values;
     for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -351,13 +368,14 @@ MeanMotion mean_motion_with_ties(const Model& model, int set) {
 
 void queue_mean_motion(const Model& model, int set, MeanMotion& mean, Reductions& sums) {
   const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
-  sums.sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin, [&mean](const double* sum) {
-    for (int i = 0; i < 3; ++i) {
-      mean.displacement[i] = sum[i];
-      mean.velocity[i] = sum[3 + i];
-      mean.acceleration[i] = sum[6 + i];
-    }
-  });
+  sums.sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin,
+           [&mean](const double* sum) {
+             for (int i = 0; i < 3; ++i) {
+               mean.displacement[i] = sum[i];
+               mean.velocity[i] = sum[3 + i];
+               mean.acceleration[i] = sum[6 + i];
+             }
+           });
 }
 
 }  // namespace
@@ -386,8 +404,10 @@ void add_what_histories_tell(const Model& model, HistorySample& sample) {
   sample.sets.resize(model.history_sets.size());
   Reductions sums(*model.reduction_space);
   for (std::size_t s = 0; s < sample.sets.size(); ++s) {
-    if (tied) sample.sets[s] = mean_motion_with_ties(model, model.history_sets[s]);
-    else queue_mean_motion(model, model.history_sets[s], sample.sets[s], sums);
+    if (tied)
+      sample.sets[s] = mean_motion_with_ties(model, model.history_sets[s]);
+    else
+      queue_mean_motion(model, model.history_sets[s], sample.sets[s], sums);
   }
   queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, sample.loads, sums);

@@ -14,8 +14,8 @@ EnergyAccount account_energies(const Model& model, double step);
 /// kinetic + stored + dissipated - external work: constant in an exact run.
 double balance_total(const EnergyAccount& energy);
 
-/// What deformation, contacts and connectors hold, and what was dissipated so far, J: all entries but kinetic energy and the work
-/// of loads, which alone know of rigid travel.
+/// What deformation, contacts and connectors hold, and what was dissipated so far, J: all entries but kinetic energy
+/// and the work of loads, which alone know of rigid travel.
 double deformation_energy(const EnergyAccount& energy);
 
 /// The largest of the account's entries.

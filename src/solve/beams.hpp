@@ -27,9 +27,9 @@ std::vector<BeamResultants> beam_resultants(const Model& model);
 void relax_rotations(const Model& model, double damping);
 void stop_rotations(const Model& model);
 struct BeamRelaxationState {
-  double energy = 0;        ///< twice the kinetic one
-  double unbalanced = 0;    ///< N, moments on the arm of an element
-  double applied = 0;       ///< N
+  double energy = 0;      ///< twice the kinetic one
+  double unbalanced = 0;  ///< N, moments on the arm of an element
+  double applied = 0;     ///< N
 };
 BeamRelaxationState relaxation_state(const Model& model);
 

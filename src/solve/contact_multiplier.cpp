@@ -22,19 +22,23 @@ FreeMotion free_motion(const Model& model, const Instant& instant) {
   return {model.acceleration(), advance.velocity_step, advance.step, {}, {}};
 }
 
-using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>, ContactMultiplier<false, SmoothNormals>,
-                                   ContactMultiplier<true, SmoothNormals>>;
+using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>,
+                                   ContactMultiplier<false, SmoothNormals>, ContactMultiplier<true, SmoothNormals>>;
 
 template <class Normals>
 AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const Instant& instant) {
   const ContactSearch search{{pair.arrays, model.nodes.position}};
   const FreeMotion motion = free_motion(model, instant);
-  if (pair.arrays.friction > 0) return ContactMultiplier<true, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
-  return ContactMultiplier<false, Normals>{search, pair.window, model.extra.sum, motion, pair.multipliers, first_touch(model, instant)};
+  if (pair.arrays.friction > 0)
+    return ContactMultiplier<true, Normals>{search, pair.window,      model.extra.sum,
+                                            motion, pair.multipliers, first_touch(model, instant)};
+  return ContactMultiplier<false, Normals>{search, pair.window,      model.extra.sum,
+                                           motion, pair.multipliers, first_touch(model, instant)};
 }
 
 AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
-  if (pair.contact->normals == scene::ContactNormals::smooth) return multiplier_with<SmoothNormals>(model, pair, instant);
+  if (pair.contact->normals == scene::ContactNormals::smooth)
+    return multiplier_with<SmoothNormals>(model, pair, instant);
   return multiplier_with<FacetNormals>(model, pair, instant);
 }
 
@@ -44,7 +48,8 @@ void run_phase(const char* name, const AnyMultiplier& any, bool by_node = false)
       [&](const auto& multiplier) {
         // How many nodes can touch is known on the device only.
         using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-        Kokkos::parallel_for(name, Policy(0, (by_node ? multiplier.multipliers.most_nodes : 1) * multiplier.window.count), multiplier);
+        Kokkos::parallel_for(
+            name, Policy(0, (by_node ? multiplier.multipliers.most_nodes : 1) * multiplier.window.count), multiplier);
       },
       any);
 }
@@ -56,8 +61,10 @@ void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
   for (int sweep = 1; sweep <= sweeps; ++sweep)
     for (const auto& pair : pairs) {
       run_phase<Multiplier::Correct>("multipliers_correct", pair);
-      if (sweep < sweeps) run_phase<Multiplier::Push>("multipliers_push", pair);
-      else run_phase<Multiplier::Finish>("multipliers_finish", pair);
+      if (sweep < sweeps)
+        run_phase<Multiplier::Push>("multipliers_push", pair);
+      else
+        run_phase<Multiplier::Finish>("multipliers_finish", pair);
     }
 }
 
@@ -68,7 +75,8 @@ Stage multiplier_stage(Model& model) {
   int sweeps = 0;
   for (const ContactPair& pair : model.contacts) {
     if (pair.has_springs()) continue;
-    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact), describe_contact_law(*pair.contact));
+    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact),
+                        describe_contact_law(*pair.contact));
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
   return {name, [&model, sweeps](const Instant& instant) {

@@ -21,8 +21,8 @@ constexpr long least_steps_between_looks = 16;
 /// Steps between two choices of the nodes that can touch.
 constexpr long steps_between_near_looks = 64, steps_between_near_looks_settling = 16;
 
-/// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels: the
-/// surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
+/// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
+/// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
 constexpr double sudden_share = 0.005;
 
 struct GatherRows {
@@ -99,7 +99,7 @@ class CellGrid {
 /// Largest squared distance of a surface's nodes from where they were, and largest squared speed, in blocks.
 struct SurfaceMotion {
   static constexpr int block = 16;
-  Array<const double* [3]> position, velocity;
+  Array<const double*[3]> position, velocity;
   Array<const int*> nodes;
   Array<const double* [3]> before;
   Array<double* [2]> largest;
@@ -137,11 +137,12 @@ Motion measure(const Model& model, const ContactPair& pair) {
   const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
   const auto largest = unset_array<double* [2]>("largest motion", slave_blocks + master_blocks);
   const NodeArrays& nodes = model.nodes;
-  Kokkos::parallel_for("slave_motion", Range(0, slave_blocks),
-                       SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
+  Kokkos::parallel_for(
+      "slave_motion", Range(0, slave_blocks),
+      SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
   Kokkos::parallel_for("master_motion", Range(0, master_blocks),
-                       SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout, largest,
-                                     slave_blocks});
+                       SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout,
+                                     largest, slave_blocks});
   const auto host = to_host(largest);
   Motion motion;
   for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
@@ -211,8 +212,8 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
 
 /// Whether the window was laid out anew.
 bool renew_window(Model& model, ContactPair& pair, double step, double sudden) {
-  // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so more
-  // than two margins from touching.
+  // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
+  // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
   ++pair.looks;
   const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
@@ -235,7 +236,8 @@ double sudden_motion(const Model& model, const ContactPair& pair, const Instant&
   // Settling scales masses such that a wave travels a share of each element in a step.
   if (instant.settling) return sudden_share * pair.segment_size;
   double fastest = 0;
-  for (const scene::Material& material : model.scene.materials) fastest = std::max(fastest, material.dilatational_speed());
+  for (const scene::Material& material : model.scene.materials)
+    fastest = std::max(fastest, material.dilatational_speed());
   return sudden_share * fastest * instant.step;
 }
 
@@ -247,7 +249,8 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   if (!near_look && pair.boxed) return;
   const double sudden = sudden_motion(model, pair, instant);
   const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
-  const double interval = static_cast<double>(steps) * instant.step, sudden_until_then = static_cast<double>(steps) * sudden;
+  const double interval = static_cast<double>(steps) * instant.step,
+               sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || instant.settling;
   const bool laid_out = look && renew_window(model, pair, instant.step, sudden);
   const ContactSearch search{{pair.arrays, model.nodes.position}};
@@ -258,11 +261,13 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
   pair.next_near_look = model.step + steps;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   apart_parallel_for("contact_look", pair.window.count,
-                     ContactLook{search, pair.window, model.nodes.velocity, interval, sudden_until_then, first, first || laid_out, pair.missed});
+                     ContactLook{search, pair.window, model.nodes.velocity, interval, sudden_until_then, first,
+                                 first || laid_out, pair.missed});
 }
 
 FirstTouch first_touch(const Model& model, const Instant& instant) {
-  return {{model.nodes.velocity, instant.settling ? 0.0 : instant.elapsed}, static_cast<double>(1L << (model.subcycling.levels - 1))};
+  return {{model.nodes.velocity, instant.settling ? 0.0 : instant.elapsed},
+          static_cast<double>(1L << (model.subcycling.levels - 1))};
 }
 
 std::vector<std::string> late_contacts(const Model& model) {
@@ -270,15 +275,17 @@ std::vector<std::string> late_contacts(const Model& model) {
   for (const ContactPair& pair : model.contacts) {
     const auto gaps = to_vector(pair.arrays.gap);
     if (const auto inside = std::count(gaps.begin(), gaps.end(), turned_away); inside > 0)
-      lines.push_back(fmt::format("contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
-                                  "beside its surface {}, not through it; name the faces that they came through in the contact too, "
-                                  "as a list of masters",
-                                  pair.contact->name, inside, pair.reversed ? pair.contact->master.text() : pair.contact->slave,
-                                  pair.reversed ? pair.contact->slave : pair.contact->master.text()));
+      lines.push_back(fmt::format(
+          "contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
+          "beside its surface {}, not through it; name the faces that they came through in the contact too, "
+          "as a list of masters",
+          pair.contact->name, inside, pair.reversed ? pair.contact->master.text() : pair.contact->slave,
+          pair.reversed ? pair.contact->slave : pair.contact->master.text()));
     if (const int late = to_host(pair.missed)(0); late > 0)
-      lines.push_back(fmt::format("contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
-                                  "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
-                                  pair.contact->name, late, steps_between_near_looks));
+      lines.push_back(fmt::format(
+          "contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
+          "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
+          pair.contact->name, late, steps_between_near_looks));
   }
   return lines;
 }

@@ -31,9 +31,13 @@ RowLoads row_loads(const Model& model, double elapsed) {
 }
 
 ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant) {
-  return {pair.law, model.nodes.velocity, model.nodes.mass, instant.settling ? 0.0 : pair.law.damping,
+  return {pair.law,
+          model.nodes.velocity,
+          model.nodes.mass,
+          instant.settling ? 0.0 : pair.law.damping,
           instant.settling ? 0.0 : instant.elapsed,
-          pair.contact->normals == scene::ContactNormals::smooth ? Array<const double* [3]>(model.nodes.position) : Array<const double* [3]>()};
+          pair.contact->normals == scene::ContactNormals::smooth ? Array<const double* [3]>(model.nodes.position)
+                                                                 : Array<const double* [3]>()};
 }
 
 SetLoads set_loads(const Model& model, const Instant& instant) {

@@ -37,13 +37,22 @@ Found waves(const PartOf& part) {
   const scene::Material& material = part.material();
   const double speed = material.dilatational_speed();
   if (speed >= slowest_wave && speed <= fastest_wave) return {};
-  if (material.poissons_ratio > high_poissons_ratio && speed > fastest_wave && material.shear_speed() < 0.6 * fastest_wave)
+  if (material.poissons_ratio > high_poissons_ratio && speed > fastest_wave &&
+      material.shear_speed() < 0.6 * fastest_wave)
     return {fault_of(FaultKind::material, part, speed, fastest_wave,
-                     {"material", fmt::format("material {} of part {} has waves of {:.3g} m/s, for it is nearly incompressible: see materials.{} poissons_ratio, {}; "
-                                              "0.49 and below does", material.name, part.name(), speed, material.name, material.poissons_ratio), 90})};
+                     {"material",
+                      fmt::format("material {} of part {} has waves of {:.3g} m/s, for it is nearly incompressible: "
+                                  "see materials.{} poissons_ratio, {}; "
+                                  "0.49 and below does",
+                                  material.name, part.name(), speed, material.name, material.poissons_ratio),
+                      90})};
   return {fault_of(FaultKind::material, part, speed, speed > fastest_wave ? fastest_wave : slowest_wave,
-                   {"material", fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and youngs_modulus (Pa); a table in "
-                                            "mm and tonnes must be converted", material.name, part.name(), speed, material.name), 90})};
+                   {"material",
+                    fmt::format("material {} of part {} has waves of {:.3g} m/s: see materials.{} density (kg/m3) and "
+                                "youngs_modulus (Pa); a table in "
+                                "mm and tonnes must be converted",
+                                material.name, part.name(), speed, material.name),
+                    90})};
 }
 
 Found yield(const PartOf& part) {
@@ -52,18 +61,25 @@ Found yield(const PartOf& part) {
   const double share = *material.yield_stress / material.youngs_modulus;
   if (share >= lowest_yield) return {};
   return {fault_of(FaultKind::yield, part, share, lowest_yield,
-                   {"yield stress", fmt::format("material {} of part {} yields at {:.3g} Pa: see materials.{} yield_stress, in Pa", material.name, part.name(),
-                                                *material.yield_stress, material.name), 89})};
+                   {"yield stress",
+                    fmt::format("material {} of part {} yields at {:.3g} Pa: see materials.{} yield_stress, in Pa",
+                                material.name, part.name(), *material.yield_stress, material.name),
+                    89})};
 }
 
 Found size(const PartOf& part) {
   const auto& range = part.range();
   double mean = 0;
-  for (int e = range.first_element; e < range.first_element + range.element_count; ++e) mean += part.model.element_length[e] / range.element_count;
+  for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
+    mean += part.model.element_length[e] / range.element_count;
   if (range.element_count == 0 || (mean >= finest_mesh && mean <= coarsest_mesh)) return {};
   const std::string& mesh = part.model.scene.parts[part.number].mesh;
-  return {fault_of(FaultKind::size, part, mean, mean > coarsest_mesh ? coarsest_mesh : finest_mesh,
-                   {"size", fmt::format("the elements of part {} are {:.3g} m across: see the lengths of meshes.{}, in m, or its scale", part.name(), mean, mesh), 95})};
+  return {fault_of(
+      FaultKind::size, part, mean, mean > coarsest_mesh ? coarsest_mesh : finest_mesh,
+      {"size",
+       fmt::format("the elements of part {} are {:.3g} m across: see the lengths of meshes.{}, in m, or its scale",
+                   part.name(), mean, mesh),
+       95})};
 }
 
 }  // namespace

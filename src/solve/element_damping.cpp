@@ -16,26 +16,30 @@ void element_damping(const Model& model, const ElementGroup& group, const Instan
   const double elapsed = static_cast<double>(1L << group.level) * instant.elapsed;
   const double before = group.level == 0 ? 1 : 0;
   if (!model.scene.solver.elements_in_single())
-    launch_patches(group.patches, PatchDamping<double, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step), elapsed,
-                                                                    before, model.partial.wide});
-  else if (!model.carried.active())
-    launch_patches(group.patches, PatchDamping<float, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step), elapsed,
-                                                                   before, model.partial.narrow});
-  else
     launch_patches(group.patches,
-                   PatchDamping<float, CarriedAdvance>{group.damping, group.patches, carried_advance(model, group.carried, instant.step),
-                                                       elapsed, before, model.partial.narrow});
+                   PatchDamping<double, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step),
+                                                     elapsed, before, model.partial.wide});
+  else if (!model.carried.active())
+    launch_patches(group.patches,
+                   PatchDamping<float, NodeAdvance>{group.damping, group.patches, node_advance(model, instant.step),
+                                                    elapsed, before, model.partial.narrow});
+  else
+    launch_patches(group.patches, PatchDamping<float, CarriedAdvance>{
+                                      group.damping, group.patches, carried_advance(model, group.carried, instant.step),
+                                      elapsed, before, model.partial.narrow});
 }
 
 void book_damping(const Model& model, const ElementGroup& group, double elapsed) {
   const double half_time = 0.5 * static_cast<double>(1L << group.level) * elapsed;
   const Range patches(0, group.patches.count);
   if (!model.scene.solver.elements_in_single())
-    Kokkos::parallel_for("book_damping", patches,
-                         BookDamping<double>{group.damping, group.patches, model.nodes.velocity, half_time, model.partial.wide});
+    Kokkos::parallel_for(
+        "book_damping", patches,
+        BookDamping<double>{group.damping, group.patches, model.nodes.velocity, half_time, model.partial.wide});
   else
-    Kokkos::parallel_for("book_damping", patches,
-                         BookDamping<float>{group.damping, group.patches, model.nodes.velocity, half_time, model.partial.narrow});
+    Kokkos::parallel_for(
+        "book_damping", patches,
+        BookDamping<float>{group.damping, group.patches, model.nodes.velocity, half_time, model.partial.narrow});
 }
 
 }  // namespace railwave

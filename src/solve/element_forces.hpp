@@ -5,12 +5,13 @@
 
 namespace railwave {
 
-/// Step of the nodes from the present instant: positions by a step, velocities from their instant, half a step back (at the
-/// start: none, thesis table 2.1), to half a step ahead.
+/// Step of the nodes from the present instant: positions by a step, velocities from their instant, half a step back (at
+/// the start: none, thesis table 2.1), to half a step ahead.
 NodeAdvance node_advance(const Model& model, double step);
 
-/// Forces of a group's elements at an instant, to `model.partial`, or to the nodes themselves where patches may move them.
-/// Each pair of types has a source file of its own (element_forces_double.cpp, ...): their kernels take compilers long.
+/// Forces of a group's elements at an instant, to `model.partial`, or to the nodes themselves where patches may move
+/// them. Each pair of types has a source file of its own (element_forces_double.cpp, ...): their kernels take compilers
+/// long.
 /// @tparam S number type of the elements
 /// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
 template <class S, class Nodes>

@@ -2,6 +2,7 @@
 
 namespace railwave {
 
-template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&, const KinematicBilinear&);
+template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
+                                                      const KinematicBilinear&);
 
 }  // namespace railwave

@@ -12,11 +12,11 @@
 namespace railwave {
 namespace {
 
-constexpr double opposite = -0.5;       ///< cosine between the directions of two ends that lie opposite
+constexpr double opposite = -0.5;         ///< cosine between the directions of two ends that lie opposite
 constexpr double nearly_touching = 0.05;  ///< gap over the largest segment's diagonal
-constexpr double slid = 0.25;           ///< of the distance of two slave nodes
-constexpr double most_of = 0.5;         ///< of the nodes that touched last: so many beyond the end have fallen off it
-constexpr double moved_out = 0.5;       ///< of the largest segment's diagonal
+constexpr double slid = 0.25;             ///< of the distance of two slave nodes
+constexpr double most_of = 0.5;           ///< of the nodes that touched last: so many beyond the end have fallen off it
+constexpr double moved_out = 0.5;         ///< of the largest segment's diagonal
 
 /// Slaves around each slave over its facets.
 void link_slaves(const ContactPair& pair, std::vector<int>& first, std::vector<int>& around) {
@@ -63,7 +63,8 @@ std::vector<int> coarse(const Model& model, const std::vector<std::array<int, 4>
 
 }  // namespace
 
-EndWatch::EndWatch(const Model& model) : sightings_(model.scene.contacts.size()), ever_closed_(model.scene.contacts.size(), 0) {
+EndWatch::EndWatch(const Model& model)
+    : sightings_(model.scene.contacts.size()), ever_closed_(model.scene.contacts.size(), 0) {
   const Assembly& assembly = model.assembly;
   for (const ContactPair& pair : model.contacts) {
     Pair made;
@@ -74,18 +75,24 @@ EndWatch::EndWatch(const Model& model) : sightings_(model.scene.contacts.size())
     for (std::size_t f = 0; f < slave.corners.size(); ++f)
       for (int k = 0; k < 4; ++k) {
         const auto& corner = pair.slave_facets[f];
-        if (slave.beyond[f][k] == static_cast<int>(Beyond::set_ends)) kind[corner[k]] |= 1, kind[corner[(k + 1) % 4]] |= 1;
+        if (slave.beyond[f][k] == static_cast<int>(Beyond::set_ends))
+          kind[corner[k]] |= 1, kind[corner[(k + 1) % 4]] |= 1;
         if (coarse_slave[f] == 0) fine[corner[k]] = 1;
       }
     for (std::size_t s = 0; s < kind.size(); ++s)
       if (fine[s] == 0) kind[s] |= 2;
     link_slaves(pair, first, around);
-    made.arrays = {to_device("facets' corners", master.corners), to_device("beyond facets", master.beyond), to_device("coarse facets", coarse_facet),
-                   to_device("kinds of slaves", kind), to_device("first around slaves", first), to_device("around slaves", around),
+    made.arrays = {to_device("facets' corners", master.corners),
+                   to_device("beyond facets", master.beyond),
+                   to_device("coarse facets", coarse_facet),
+                   to_device("kinds of slaves", kind),
+                   to_device("first around slaves", first),
+                   to_device("around slaves", around),
                    Array<int*>("touched at glances", pair.slave_nodes.size())};
     made.part = {part_of_node(assembly, pair.slave_nodes.front()), part_of_node(assembly, pair.master_nodes.front())};
     if (made.part[0] >= 0 && made.part[1] >= 0) {
-      const Vec3 way = difference(mean_place(assembly.nodes, assembly.parts[made.part[0]]), mean_place(assembly.nodes, assembly.parts[made.part[1]]));
+      const Vec3 way = difference(mean_place(assembly.nodes, assembly.parts[made.part[0]]),
+                                  mean_place(assembly.nodes, assembly.parts[made.part[1]]));
       std::copy(way.begin(), way.end(), made.way_start);
     }
     pairs_.push_back(std::move(made));
@@ -104,8 +111,8 @@ void EndWatch::look(const Model& model, bool thorough) {
   Reductions glances(*model.reduction_space);
   std::vector<Largest<ContactEndForces::values>> found(pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p)
-    glances.largest(ContactEndForces{model.contacts[p].arrays, pairs_[p].arrays, model.nodes.position}, model.contacts[p].arrays.slave_count,
-                    [&found, p](const auto& of) { found[p] = of; });
+    glances.largest(ContactEndForces{model.contacts[p].arrays, pairs_[p].arrays, model.nodes.position},
+                    model.contacts[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
   glances.fetch();
   for (EndSighting& one : sightings_) one = {};
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -122,8 +129,10 @@ void EndWatch::look(const Model& model, bool thorough) {
       if (now.outside_zone > model.scene.watch.fine_zone) place_outside_zone(model, p, found[p].place[2]);
       const double share = largest[1] / force;
       if (thorough) memory.harmless = 0;
-      if (share > model.scene.watch.contact_edge && memory.harmless == 0) judge(model, p);
-      else if (share <= model.scene.watch.contact_edge) memory.ever_clear = 1;
+      if (share > model.scene.watch.contact_edge && memory.harmless == 0)
+        judge(model, p);
+      else if (share <= model.scene.watch.contact_edge)
+        memory.ever_clear = 1;
       if (share <= model.scene.watch.contact_edge || memory.harmless != 0) memory.at_end = 0;
       if (memory.at_end != 0) {
         now.at_end = share;
@@ -133,7 +142,8 @@ void EndWatch::look(const Model& model, bool thorough) {
       memory.lost = 0;
     } else if (was_closed) {
       double sum[ContactEndLosses::values] = {};
-      block_sum(ContactEndLosses{pair.arrays, pairs_[p].arrays, model.nodes.position}, pair.arrays.slave_count, sum, *model.reduction_space);
+      block_sum(ContactEndLosses{pair.arrays, pairs_[p].arrays, model.nodes.position}, pair.arrays.slave_count, sum,
+                *model.reduction_space);
       const bool fell = sum[0] > 0 && sum[1] >= most_of * sum[0];
       memory.lost = fell || (memory.at_end != 0 && (memory.ever_clear != 0 || has_moved_out(model, p)));
     }
@@ -177,7 +187,8 @@ void EndWatch::judge(const Model& model, std::size_t number) {
   const auto status = to_host(pair.arrays.status);
   const auto tracked = to_host(pair.arrays.tracked);
   const auto force = to_host(pair.arrays.normal_force);
-  const auto first = to_host(own.arrays.first_around), around = to_host(own.arrays.around), kind = to_host(own.arrays.slave_kind);
+  const auto first = to_host(own.arrays.first_around), around = to_host(own.arrays.around),
+             kind = to_host(own.arrays.slave_kind);
   using Rows = Array<int* [4]>::HostMirror;
   const Rows corners = to_host(own.arrays.corners), beyond = to_host(own.arrays.beyond);
   const WayOverFacets<Rows, decltype(position)> way{corners, beyond, position};
@@ -197,7 +208,9 @@ void EndWatch::judge(const Model& model, std::size_t number) {
   double most_of_set = 0;
   const auto gap = to_host(pair.arrays.gap);
   // Faces that lie on each other need not press everywhere: one that slides may tilt a little.
-  const auto lies_on = [&](int s) { return tracked(s) >= 0 && (status(s) != status_apart || gap(s) < nearly_touching * pair.segment_size); };
+  const auto lies_on = [&](int s) {
+    return tracked(s) >= 0 && (status(s) != status_apart || gap(s) < nearly_touching * pair.segment_size);
+  };
   for (int s = 0; s < pair.arrays.slave_count; ++s) {
     if (!lies_on(s)) continue;
     const double own_force = status(s) == status_apart ? 0 : length({force(s, 0), force(s, 1), force(s, 2)});
@@ -214,7 +227,8 @@ void EndWatch::judge(const Model& model, std::size_t number) {
       if (!way.leads_out(beside, 0, facet, side)) continue;
       const bool flush = !way.leads_out(beside, ContactEndForces::flush * distance, last, last_side);
       const Vec3 out = outward(x, own.ends[1].corners[facet], side);
-      const bool moved = dot(difference(shift(pair.slave_nodes[s]), shift(own.ends[1].corners[facet][side])), out) > slid * distance;
+      const bool moved =
+          dot(difference(shift(pair.slave_nodes[s]), shift(own.ends[1].corners[facet][side])), out) > slid * distance;
       crossings.push_back({s, facet, side, flush ? 0 : own_force, out, moved});
     }
   }
@@ -234,7 +248,9 @@ void EndWatch::judge(const Model& model, std::size_t number) {
     if (!(one.force > least)) continue;
     const bool of_set = own.ends[1].beyond[one.facet][one.side] == static_cast<int>(Beyond::set_ends);
     const auto across = [&](const Vec3& out) { return dot(out, one.out) < opposite; };
-    if (!of_set && std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& other) { return across(other.out); })) continue;
+    if (!of_set &&
+        std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& other) { return across(other.out); }))
+      continue;
     if (!of_set && !one.slid_out && std::any_of(own_ends.begin(), own_ends.end(), across)) continue;
     if (worst == nullptr || one.force > worst->force) worst = &one;
   }
@@ -280,19 +296,30 @@ void EndWatch::place_outside_zone(const Model& model, std::size_t number, int sl
   own.now.zone_node = of_master ? facet[0] : pair.slave_nodes[slave];
   const int part = part_of_node(model.assembly, own.now.zone_node);
   const std::string& name = model.assembly.parts[part].name;
-  own.now.zone = fmt::format("contact {} is outside the fine zone of part {}, where elements are longer than {:.3g} m; make the zone reach farther, let the contact begin elsewhere, or end the run "
-                             "(time.end) before", pair.contact->name, name, finest_wanted(model.scene, name));
+  own.now.zone = fmt::format(
+      "contact {} is outside the fine zone of part {}, where elements are longer than {:.3g} m; make the zone reach "
+      "farther, let the contact begin elsewhere, or end the run "
+      "(time.end) before",
+      pair.contact->name, name, finest_wanted(model.scene, name));
 }
 
 std::string EndWatch::told_end(const ContactPair& pair, const Memory& memory) const {
   const scene::Contact& contact = *pair.contact;
-  const std::string masters = contact.master.text(), &slave = pair.reversed ? masters : contact.slave, &master = pair.reversed ? contact.slave : masters;
+  const std::string masters = contact.master.text(), &slave = pair.reversed ? masters : contact.slave,
+                    &master = pair.reversed ? contact.slave : masters;
   const bool at_slave = memory.facet < 0;
   const std::string& surface = at_slave ? slave : master;
-  const std::string where = at_slave ? std::string() : fmt::format(" towards {}", direction_name({memory.out[0], memory.out[1], memory.out[2]}));
+  const std::string where =
+      at_slave ? std::string()
+               : fmt::format(" towards {}", direction_name({memory.out[0], memory.out[1], memory.out[2]}));
   const std::string mend = memory.of_set != 0
-                               ? fmt::format("the body goes on there but the surface does not, so that contact beyond it is not seen: name a surface that reaches farther in contacts.{}", contact.name)
-                               : std::string("the body ends there: make it longer, let the other begin farther from that end, or end the run (time.end) before");
+                               ? fmt::format(
+                                     "the body goes on there but the surface does not, so that contact beyond it is "
+                                     "not seen: name a surface that reaches farther in contacts.{}",
+                                     contact.name)
+                               : std::string(
+                                     "the body ends there: make it longer, let the other begin farther from that end, "
+                                     "or end the run (time.end) before");
   return fmt::format("contact {} is at the end of '{}'{}; {}", contact.name, surface, where, mend);
 }
 
@@ -308,8 +335,11 @@ std::vector<std::string> EndWatch::never_closed(const Model& model) const {
       for (int s = 0; s < pair.arrays.slave_count; ++s)
         if (tracked(s) >= 0 && gap(s) > 0) least = std::min(least, gap(s));
     }
-    lines.push_back(fmt::format("contact {} never closed, as far as glances every {} steps and histories saw{}: see where its parts are and move, unless that is meant", model.scene.contacts[c].name, steps_between,
-                                is_distance(least) ? fmt::format("; at the end its surfaces are {:.3g} m apart", least) : std::string()));
+    lines.push_back(fmt::format(
+        "contact {} never closed, as far as glances every {} steps and histories saw{}: see where its parts are and "
+        "move, unless that is meant",
+        model.scene.contacts[c].name, steps_between,
+        is_distance(least) ? fmt::format("; at the end its surfaces are {:.3g} m apart", least) : std::string()));
   }
   return lines;
 }
@@ -322,7 +352,8 @@ void EndWatch::archive_memory(Archive& archive) {
 
 void EndWatch::archive(StateTaker& state) {
   archive_memory(state);
-  for (std::size_t p = 0; p < pairs_.size(); ++p) state.values(fmt::format("end_watch_touched_{}", p), to_vector(pairs_[p].arrays.touched));
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
+    state.values(fmt::format("end_watch_touched_{}", p), to_vector(pairs_[p].arrays.touched));
 }
 
 void EndWatch::archive(StateLayer& state) {
@@ -331,7 +362,8 @@ void EndWatch::archive(StateLayer& state) {
     const std::string name = fmt::format("end_watch_touched_{}", p);
     std::vector<int> touched;
     state.values(name, touched);
-    if (touched.size() != pairs_[p].arrays.touched.extent(0)) refuse_state(name, fmt::format("has {} values, not {}", touched.size(), pairs_[p].arrays.touched.extent(0)));
+    if (touched.size() != pairs_[p].arrays.touched.extent(0))
+      refuse_state(name, fmt::format("has {} values, not {}", touched.size(), pairs_[p].arrays.touched.extent(0)));
     pairs_[p].arrays.touched = to_device("touched at glances", touched);
   }
 }

@@ -15,7 +15,8 @@ constexpr std::size_t least_samples = 20;
 
 void ForceSwing::add(double time, const Vec3& normal_force) {
   time_.push_back(time);
-  force_.push_back(std::sqrt(normal_force[0] * normal_force[0] + normal_force[1] * normal_force[1] + normal_force[2] * normal_force[2]));
+  force_.push_back(std::sqrt(normal_force[0] * normal_force[0] + normal_force[1] * normal_force[1] +
+                             normal_force[2] * normal_force[2]));
 }
 
 double ForceSwing::static_value() const {
@@ -48,11 +49,14 @@ double ForceSwing::quiet_from() const {
 std::string ForceSwing::told(const std::string& contact) const {
   if (time_.size() < least_samples || !(static_value() > 0)) return {};
   const double from = quiet_from();
-  const std::string when = std::isfinite(from) ? fmt::format("from t = {:.4g} ms on it stays within {:.0f} % of that", 1e3 * from, 100 * quiet)
-                                               : fmt::format("to the end it does not stay within {:.0f} % of that", 100 * quiet);
-  return fmt::format("contact {}: the run began unsettled; the normal force swung by {:.3g} % of its mean over the second half "
-                     "({:.4g} kN) in the first tenth of the run, by {:.3g} % in the last; {}",
-                     contact, 100 * swing(0, 0.1), 1e-3 * static_value(), 100 * swing(0.9, 1), when);
+  const std::string when =
+      std::isfinite(from)
+          ? fmt::format("from t = {:.4g} ms on it stays within {:.0f} % of that", 1e3 * from, 100 * quiet)
+          : fmt::format("to the end it does not stay within {:.0f} % of that", 100 * quiet);
+  return fmt::format(
+      "contact {}: the run began unsettled; the normal force swung by {:.3g} % of its mean over the second half "
+      "({:.4g} kN) in the first tenth of the run, by {:.3g} % in the last; {}",
+      contact, 100 * swing(0, 0.1), 1e-3 * static_value(), 100 * swing(0.9, 1), when);
 }
 
 }  // namespace railwave

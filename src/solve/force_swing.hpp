@@ -7,9 +7,9 @@
 
 namespace railwave {
 
-/// How a contact's normal force oscillates in a run that did not begin in equilibrium, and from when on it is quiet: the
-/// dynamic relaxation of thesis 3.3.5, which ends when the oscillation is below a tenth of the static value. That value is the
-/// mean over the second half of the run.
+/// How a contact's normal force oscillates in a run that did not begin in equilibrium, and from when on it is quiet:
+/// the dynamic relaxation of thesis 3.3.5, which ends when the oscillation is below a tenth of the static value. That
+/// value is the mean over the second half of the run.
 class ForceSwing {
  public:
   static constexpr double quiet = 0.1;
@@ -23,7 +23,8 @@ class ForceSwing {
     archive.values(name + "_force", force_);
   }
 
-  /// Half of what lies between the largest and the smallest force from `from` to `to` of the run, over the static value.
+  /// Half of what lies between the largest and the smallest force from `from` to `to` of the run, over the static
+  /// value.
   double swing(double from, double to) const;
   /// s, from when on the force stays within `quiet` of the static value; infinite: it doesn't.
   double quiet_from() const;

@@ -17,23 +17,24 @@ struct SettleReport;
 /// the time integration failed to account for.
 struct EnergyAccount {
   double kinetic = 0;
-  double internal = 0;       ///< elastic, of solids and beams
-  double hourglass = 0;      ///< dissipated (viscous) and stored (stiffness)
-  double contact = 0;        ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
+  double internal = 0;   ///< elastic, of solids and beams
+  double hourglass = 0;  ///< dissipated (viscous) and stored (stiffness)
+  double contact =
+      0;  ///< stored in the penalty springs, normal and tangential; of multipliers: taken out by nodes' impacts
   double friction = 0;       ///< dissipated
   double connector = 0;      ///< stored in springs
   double damping = 0;        ///< dissipated in dashpots and by contact damping
   double plastic = 0;        ///< dissipated by plastic flow
   double external_work = 0;  ///< by loads and gravity
   double balance_error = 0;
-  double impacts = 0;        ///< of `contact`, what nodes' impacts on multipliers took out
+  double impacts = 0;  ///< of `contact`, what nodes' impacts on multipliers took out
 };
 
 /// Sums over one contact pair, on the slave, N, global axes.
 struct ContactTotals {
   Vec3 normal_force{};
   Vec3 tangential_force{};
-  Vec3 master_force{};       ///< sum gathered on the master's nodes; minus the slave's to rounding
+  Vec3 master_force{};  ///< sum gathered on the master's nodes; minus the slave's to rounding
   int nodes_in_contact = 0;
   int nodes_slipping = 0;
 };
@@ -45,8 +46,8 @@ struct MeanMotion {
   Vec3 acceleration{};
 };
 
-/// Section forces and moments of the elements of one of scene.beams, in the middle of each, in its own axes (the first along
-/// it): three values for each element, chain by chain.
+/// Section forces and moments of the elements of one of scene.beams, in the middle of each, in its own axes (the first
+/// along it): three values for each element, chain by chain.
 struct BeamResultants {
   std::vector<double> force;   ///< N: axial (tension positive), shear along the second and third axis
   std::vector<double> moment;  ///< N m: torsion, bending about the second and third axis
@@ -54,51 +55,51 @@ struct BeamResultants {
 
 /// What one of the scene's loads comes to.
 struct LoadTotals {
-  Vec3 force{};              ///< N; none of a torque
-  double moment = 0;         ///< N m, of a torque about its axis
+  Vec3 force{};       ///< N; none of a torque
+  double moment = 0;  ///< N m, of a torque about its axis
 };
 
 struct HistorySample {
   double time = 0;
   long step = 0;
   EnergyAccount energy;
-  std::vector<ContactTotals> contacts;   ///< one for each contact of the scene
-  std::vector<MeanMotion> sets;          ///< one for each of scene.output.history_sets whose motion is written
-  std::vector<ElementMeans> elements;    ///< one for each of these whose stress, strain or plastic strain is written
-  std::vector<BeamResultants> beams;     ///< one for each of the scene's beams
-  std::vector<LoadTotals> loads;         ///< one for each of the scene's loads
+  std::vector<ContactTotals> contacts;  ///< one for each contact of the scene
+  std::vector<MeanMotion> sets;         ///< one for each of scene.output.history_sets whose motion is written
+  std::vector<ElementMeans> elements;   ///< one for each of these whose stress, strain or plastic strain is written
+  std::vector<BeamResultants> beams;    ///< one for each of the scene's beams
+  std::vector<LoadTotals> loads;        ///< one for each of the scene's loads
 };
 
 /// Energies of one part's elements, J.
 struct PartEnergy {
-  double internal = 0;   ///< elastic, and the work of plastic flow
+  double internal = 0;  ///< elastic, and the work of plastic flow
   double hourglass = 0;
 };
 
 /// How a run ended.
 struct RunSummary {
   bool completed = false;
-  std::string reason;                    ///< when not completed: interrupted, or what went wrong
-  bool out_of_time = false;              ///< it ended because its wall-time budget was spent
-  int checkpoints = 0;                   ///< written
-  double checkpoint_seconds = 0;         ///< s, the loop waited for these in all
-  double watch_seconds = 0;              ///< s, that looks of the watch added to the run
-  std::string account;                   ///< how well the energy account was kept, or that nobody judged it
-  std::string watched;                   ///< the worst values that it saw, and their limits; empty: it saw nothing
-  long first_step = 0;                   ///< at which this process took the run up; 0 unless restarted
+  std::string reason;             ///< when not completed: interrupted, or what went wrong
+  bool out_of_time = false;       ///< it ended because its wall-time budget was spent
+  int checkpoints = 0;            ///< written
+  double checkpoint_seconds = 0;  ///< s, the loop waited for these in all
+  double watch_seconds = 0;       ///< s, that looks of the watch added to the run
+  std::string account;            ///< how well the energy account was kept, or that nobody judged it
+  std::string watched;            ///< the worst values that it saw, and their limits; empty: it saw nothing
+  long first_step = 0;            ///< at which this process took the run up; 0 unless restarted
   double time = 0;
   long steps = 0;
-  double step_size = 0;                  ///< s, the last one
+  double step_size = 0;                        ///< s, the last one
   double smallest_step = 0, largest_step = 0;  ///< s
-  int step_renewals = 0;                 ///< of the global estimate of the stable step
-  std::vector<std::string> step_estimates;  ///< what each estimate of the stable step allows, and which one counts
-  std::vector<std::string> subcycling;   ///< how many elements go at which pace, and what that saves; none without it
+  int step_renewals = 0;                       ///< of the global estimate of the stable step
+  std::vector<std::string> step_estimates;     ///< what each estimate of the stable step allows, and which one counts
+  std::vector<std::string> subcycling;  ///< how many elements go at which pace, and what that saves; none without it
   double wall_seconds = 0;
-  double element_steps_per_second = 0;   ///< of the element updates that were made
-  std::vector<std::string> swings;       ///< where the run began unsettled: how its contact forces oscillated
-  std::optional<Fault> fault;            ///< what stopped it, if the watch did
-  std::vector<std::string> warnings;     ///< what may have cost accuracy
-  std::vector<std::string> left_out;     ///< what the scene did not need and the run did not compute
+  double element_steps_per_second = 0;  ///< of the element updates that were made
+  std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated
+  std::optional<Fault> fault;           ///< what stopped it, if the watch did
+  std::vector<std::string> warnings;    ///< what may have cost accuracy
+  std::vector<std::string> left_out;    ///< what the scene did not need and the run did not compute
 };
 
 /// What the time loop tells the outside. Called on the host thread, between two steps.

@@ -15,7 +15,9 @@ void refuse_state(const std::string& name, const std::string& what) {
   throw std::runtime_error(fmt::format("it does not fit this model: {} {}", name, what));
 }
 
-std::string back_end_name() { return fmt::format("{} of {} numbers in a pack", ExecutionSpace::name(), lane_count<double>); }
+std::string back_end_name() {
+  return fmt::format("{} of {} numbers in a pack", ExecutionSpace::name(), lane_count<double>);
+}
 
 namespace {
 
@@ -27,7 +29,8 @@ template <class View, class Do>
 void each_value(const View& host, const Do& one) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < host.extent(0); ++i) {
-    if constexpr (View::rank == 1) one(host(i), at++);
+    if constexpr (View::rank == 1)
+      one(host(i), at++);
     else
       for (std::size_t k = 0; k < host.extent(1); ++k) one(host(i, k), at++);
   }
@@ -54,26 +57,31 @@ void array(StateLayer& layer, const std::string& name, View& view) {
   if (view.size() == 0) return;
   const auto host = Kokkos::create_mirror_view(view);
   const auto* from = reinterpret_cast<const char*>(bytes.data());
-  each_value(host, [&](Value& value, std::size_t at) { std::memcpy(&value, from + at * sizeof(Value), sizeof(Value)); });
+  each_value(host,
+             [&](Value& value, std::size_t at) { std::memcpy(&value, from + at * sizeof(Value), sizeof(Value)); });
   Kokkos::deep_copy(view, host);
 }
 
 /// Of arrays whose length the run changes.
 template <class View>
-void growing_array(StateTaker& taker, const std::string& name, View& view) { array(taker, name, view); }
+void growing_array(StateTaker& taker, const std::string& name, View& view) {
+  array(taker, name, view);
+}
 
 template <class View>
 void growing_array(StateLayer& layer, const std::string& name, View& view) {
   std::size_t row = sizeof(typename View::non_const_value_type);
   if constexpr (View::rank == 2) row *= view.static_extent(1);
-  view = View(Kokkos::view_alloc(view.label().empty() ? name : view.label(), Kokkos::WithoutInitializing), layer.of(name).size() / row);
+  view = View(Kokkos::view_alloc(view.label().empty() ? name : view.label(), Kokkos::WithoutInitializing),
+              layer.of(name).size() / row);
   array(layer, name, view);
 }
 
 /// Tiles are as wide as the machine's packs; a state has the values slot after slot.
 template <class S, class Do>
 void each_tiled(std::size_t size, int values, const Do& one) {
-  for (std::size_t at = 0; at < size; ++at) one(at, tiled_slot<S>(static_cast<int>(at / values), values, static_cast<int>(at % values)));
+  for (std::size_t at = 0; at < size; ++at)
+    one(at, tiled_slot<S>(static_cast<int>(at / values), values, static_cast<int>(at % values)));
 }
 
 template <class S>
@@ -131,8 +139,10 @@ void archive_elements(Archive& archive, const std::string& of, ElementGroup& gro
   const auto one = [&](const char* name, auto& view) { array(archive, of + name, view); };
   one("frame", group.patches.frame);
   one("hourglass_energy", group.patches.hourglass_energy);
-  if (group.plastic.active()) tiles<S>(archive, of + "plastic_history", group.plastic.history, Bilinear::history_values);
-  if (group.plastic.kinematic()) tiles<S>(archive, of + "back_stress", group.plastic.back_stress, KinematicBilinear::back_values);
+  if (group.plastic.active())
+    tiles<S>(archive, of + "plastic_history", group.plastic.history, Bilinear::history_values);
+  if (group.plastic.kinematic())
+    tiles<S>(archive, of + "back_stress", group.plastic.back_stress, KinematicBilinear::back_values);
   one("damping_energy", group.damping.energy);
   one("carrier_arm", group.carried.arm);
 }
@@ -165,11 +175,12 @@ void archive(Archive& archive_, StableStep& stable) {
   archive_.value("stable_global", stable.global);
   archive_.value("stable_limit", stable.limit);
   archive_.value("stable_springs", stable.springs);
-  for (std::size_t p = 0; p < stable.seen.size(); ++p) archive_.values(fmt::format("stable_seen_{}", p), stable.seen[p]);
+  for (std::size_t p = 0; p < stable.seen.size(); ++p)
+    archive_.values(fmt::format("stable_seen_{}", p), stable.seen[p]);
 }
 
-/// The forces of an instant are computed anew from what is here, except where work is counted by the trapezoidal rule: that
-/// needs the forces of the instant before.
+/// The forces of an instant are computed anew from what is here, except where work is counted by the trapezoidal rule:
+/// that needs the forces of the instant before.
 template <class Archive>
 void archive(Archive& archive_, Model& model) {
   const auto one = [&](const char* name, auto& view) { array(archive_, name, view); };
@@ -187,7 +198,8 @@ void archive(Archive& archive_, Model& model) {
     for (std::size_t g = 0; g < model.elements.size(); ++g)
       archive_elements<decltype(number)>(archive_, fmt::format("elements_{}_", g), model.elements[g]);
   });
-  if (std::any_of(model.elements.begin(), model.elements.end(), [](const ElementGroup& group) { return group.damping.active(); })) {
+  if (std::any_of(model.elements.begin(), model.elements.end(),
+                  [](const ElementGroup& group) { return group.damping.active(); })) {
     one("partial_wide", model.partial.wide);
     one("partial_narrow", model.partial.narrow);
   }
@@ -199,14 +211,16 @@ void archive(Archive& archive_, Model& model) {
   one("connector_energy", model.connectors.arrays.energy);
   one("torque_now", model.torques.now);
   if (model.beams) archive(archive_, model.beams->arrays);
-  for (std::size_t k = 0; k < model.prescribed.size(); ++k) array(archive_, fmt::format("prescribed_{}_work", k), model.prescribed[k].work);
+  for (std::size_t k = 0; k < model.prescribed.size(); ++k)
+    array(archive_, fmt::format("prescribed_{}_work", k), model.prescribed[k].work);
   one("end_support", model.ends.arrays.support);
   one("end_start", model.ends.arrays.start);
   one("end_force", model.ends.arrays.force);
   one("end_dissipated", model.ends.arrays.dissipated);
   one("tie_before", model.ties.arrays.before);
   one("tie_passed_on", model.ties.arrays.passed_on);
-  for (std::size_t p = 0; p < model.contacts.size(); ++p) archive(archive_, fmt::format("contact_{}_", p), model.contacts[p]);
+  for (std::size_t p = 0; p < model.contacts.size(); ++p)
+    archive(archive_, fmt::format("contact_{}_", p), model.contacts[p]);
 }
 
 }  // namespace

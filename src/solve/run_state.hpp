@@ -20,26 +20,30 @@ struct RunState {
 
   std::vector<Values> values;
   long step = 0;
-  double time = 0;              ///< s
-  long history_rows = 0;        ///< written to the results before that step
-  long field_outputs = 0;       ///< likewise
-  std::string back_end;         ///< on which it was computed
+  double time = 0;         ///< s
+  long history_rows = 0;   ///< written to the results before that step
+  long field_outputs = 0;  ///< likewise
+  std::string back_end;    ///< on which it was computed
 };
 
 /// Throws std::runtime_error with what does not fit where a state is laid into another model than it was taken from.
 [[noreturn]] void refuse_state(const std::string& name, const std::string& what);
 
-/// Takes values into a state, one after the other. Taking and laying go through the same functions `archive`, so that what is
-/// taken is what is laid.
+/// Takes values into a state, one after the other. Taking and laying go through the same functions `archive`, so that
+/// what is taken is what is laid.
 class StateTaker {
  public:
   explicit StateTaker(RunState& state) : state_(state) {}
 
   template <class T>
-  void value(const std::string& name, const T& value) { bytes(name, &value, sizeof value); }
+  void value(const std::string& name, const T& value) {
+    bytes(name, &value, sizeof value);
+  }
 
   template <class T>
-  void values(const std::string& name, const std::vector<T>& list) { bytes(name, list.data(), list.size() * sizeof(T)); }
+  void values(const std::string& name, const std::vector<T>& list) {
+    bytes(name, list.data(), list.size() * sizeof(T));
+  }
 
   void bytes(const std::string& name, const void* from, std::size_t size) {
     const auto* first = static_cast<const signed char*>(from);

@@ -25,13 +25,13 @@ namespace {
 /// approach, which the resets at peaks of kinetic energy end.
 constexpr double local_damping = 0.05;
 constexpr int steps_between_peaks = 10;
-/// Share of each element's stable step V / (A_max C_d) that one unit of pseudo-time stands for. A lone element is stable
-/// up to 0.73 of it; force against velocity counts 1 + local_damping.
+/// Share of each element's stable step V / (A_max C_d) that one unit of pseudo-time stands for. A lone element is
+/// stable up to 0.73 of it; force against velocity counts 1 + local_damping.
 constexpr double safety = 0.65;
 constexpr int steps_between_checks = 50;
 
-/// Masses with which a unit step is stable everywhere: an element's mass over its own stable step squared, and for springs
-/// the bound m >= sum_j |K_ij| / 4 of the central difference.
+/// Masses with which a unit step is stable everywhere: an element's mass over its own stable step squared, and for
+/// springs the bound m >= sum_j |K_ij| / 4 of the central difference.
 std::vector<double> relaxation_masses(const Model& model) {
   const Assembly& assembly = model.assembly;
   std::vector<double> mass(assembly.nodes.size(), 0);
@@ -59,7 +59,8 @@ std::vector<double> relaxation_masses(const Model& model) {
   for (std::size_t i = 0; i < cell.size(); ++i) {
     const ConnectorCell& own = model.connectors.cells[cell[i]];
     const Vec3& k = model.scene.connectors[own.connector].stiffness;
-    mass[contribution_node(model.connectors.first + i)] += spring_share * std::fabs(share[i]) * own.share * (k[0] + k[1] + k[2]);
+    mass[contribution_node(model.connectors.first + i)] +=
+        spring_share * std::fabs(share[i]) * own.share * (k[0] + k[1] + k[2]);
   }
   if (model.beams)
     for (std::size_t n = 0; n < mass.size(); ++n) mass[n] += model.beams->relaxation_mass[n];
@@ -178,16 +179,22 @@ SettleReport settle_automatically(Model& model, const std::function<bool(const S
   SettleReport report = settle_by_relaxation(model, model.scene.settle.max_steps - newton.steps, go_on);
   report.steps += newton.steps;
   if (!report.settled) report.adrift = newton.adrift;
-  report.remarks.push_back(fmt::format("Newton's method did not settle it in {} evaluations{}{}; then it was left to relaxation, which holds "
-                                       "point masses where they are", newton.steps, newton.adrift.empty() ? "" : ": ", newton.adrift));
+  report.remarks.push_back(fmt::format(
+      "Newton's method did not settle it in {} evaluations{}{}; then it was left to relaxation, which holds "
+      "point masses where they are",
+      newton.steps, newton.adrift.empty() ? "" : ": ", newton.adrift));
   return report;
 }
 
-SettleReport settle_by(scene::SettleMethod method, Model& model, const std::function<bool(const SettleReport&)>& go_on) {
+SettleReport settle_by(scene::SettleMethod method, Model& model,
+                       const std::function<bool(const SettleReport&)>& go_on) {
   switch (method) {
-    case scene::SettleMethod::automatic: return settle_automatically(model, go_on);
-    case scene::SettleMethod::newton: return settle_by_newton(model, go_on);
-    case scene::SettleMethod::relaxation: break;
+    case scene::SettleMethod::automatic:
+      return settle_automatically(model, go_on);
+    case scene::SettleMethod::newton:
+      return settle_by_newton(model, go_on);
+    case scene::SettleMethod::relaxation:
+      break;
   }
   return settle_by_relaxation(model, model.scene.settle.max_steps, go_on);
 }

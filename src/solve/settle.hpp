@@ -11,25 +11,26 @@ namespace railwave {
 /// How settling went.
 struct SettleReport {
   bool settled = false;
-  int steps = 0;          ///< force evaluations, those of the linearised forces included
-  int iterations = 0;     ///< steps of Newton's method
-  double unbalance = 0;   ///< sum of |unbalanced nodal force| over sum of |applied and contact force|
+  int steps = 0;         ///< force evaluations, those of the linearised forces included
+  int iterations = 0;    ///< steps of Newton's method
+  double unbalance = 0;  ///< sum of |unbalanced nodal force| over sum of |applied and contact force|
   double wall_seconds = 0;
-  std::string adrift;     ///< where it didn't settle: what is not in equilibrium as a whole; empty: nothing, or not known
-  std::string taken_from;  ///< file that the settled state comes from; nothing was computed then
-  std::string begun_from;  ///< file of an unfinished state from which it went on
+  std::string adrift;  ///< where it didn't settle: what is not in equilibrium as a whole; empty: nothing, or not known
+  std::string taken_from;            ///< file that the settled state comes from; nothing was computed then
+  std::string begun_from;            ///< file of an unfinished state from which it went on
   std::vector<std::string> remarks;  ///< on the method, and on the files of settled states
 };
 
-/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.hpp), and where that finds none or the case asks for it
-/// by dynamic relaxation with kinetic damping (velocities are reset at every
-/// peak of the kinetic energy) and a little local damping: the state from which the run starts. Bodies that
-/// will rotate (initial_motion) are loaded by the centrifugal field of that rotation, so that the start of rolling does
-/// not ring. In a relaxation point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
+/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.hpp), and where that finds none or
+/// the case asks for it by dynamic relaxation with kinetic damping (velocities are reset at every peak of the kinetic
+/// energy) and a little local damping: the state from which the run starts. Bodies that will rotate (initial_motion)
+/// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
+/// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
 /// @param go_on told every few steps how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 
-/// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the part's.
+/// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the
+/// part's.
 Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position);
 

@@ -24,8 +24,8 @@ NodeAdvance node_advance(const Model& model, double step) {
 
 namespace {
 
-/// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which costs
-/// strain a few parts in 1e9. Whole rounds of any levels, so that every patch is evaluated when its frame is due.
+/// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which
+/// costs strain a few parts in 1e9. Whole rounds of any levels, so that every patch is evaluated when its frame is due.
 constexpr long steps_between_frames = 64;
 static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
 
@@ -42,13 +42,19 @@ Stage element_stage(Model& model, const ElementGroup& group) {
     if (!instant.settling && group.level > model.subcycling.phase(model.step)) return;
     if (frames_are_due(model, instant)) renew_frames(model, group);
     // While a scene settles its nodes are in double precision whatever the run's own.
-    if (!model.scene.solver.elements_in_single()) element_forces<double, NodeAdvance>(model, group, instant);
-    else if (instant.settling || !model.carried.active()) element_forces<float, NodeAdvance>(model, group, instant);
-    else element_forces<float, CarriedAdvance>(model, group, instant);
+    if (!model.scene.solver.elements_in_single())
+      element_forces<double, NodeAdvance>(model, group, instant);
+    else if (instant.settling || !model.carried.active())
+      element_forces<float, NodeAdvance>(model, group, instant);
+    else
+      element_forces<float, CarriedAdvance>(model, group, instant);
   };
-  const char* kind = group.plastic.kinematic() ? ", elastoplastic with back stress" : group.plastic.active() ? ", elastoplastic" : "";
+  const char* kind = group.plastic.kinematic() ? ", elastoplastic with back stress"
+                     : group.plastic.active()  ? ", elastoplastic"
+                                               : "";
   const std::string pace = group.level == 0 ? "" : ", every " + std::to_string(1L << group.level) + " steps";
-  return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control" + pace, run};
+  return {"elements of " + group.parts + kind + (viscous ? ", viscous" : ", stiffness") + " hourglass control" + pace,
+          run};
 }
 
 /// Statics know no damping: while the scene settles its rows stay empty.
@@ -65,8 +71,10 @@ Stage damping_stage(const Model& model, const ElementGroup& group) {
 Stage carrier_stage(Model& model) {
   return {"carriers of nodes in single precision", [&model](const Instant& instant) {
             if (instant.settling) return;
-            if (!model.carried.begun) take_nodes_over(model);
-            else if (!instant.advancing) give_nodes_back(model);
+            if (!model.carried.begun)
+              take_nodes_over(model);
+            else if (!instant.advancing)
+              give_nodes_back(model);
             lay_carrier_steps(model, instant.step);
           }};
 }
@@ -111,18 +119,20 @@ Stage set_load_stage(Model& model) {
             if (model.rows_are_due) return;
             if (sets) launch_set_loads(model, set_loads(model, instant));
             if (rows_are_left)
-              Kokkos::parallel_for("row_loads", SpreadRange(0, model.extra.loaded_count), row_loads(model, instant.elapsed));
+              Kokkos::parallel_for("row_loads", SpreadRange(0, model.extra.loaded_count),
+                                   row_loads(model, instant.elapsed));
           }};
 }
 
 /// After all other forces on their nodes.
 Stage non_reflecting_stage(Model& model) {
-  return {"non-reflecting ends", [&model](const Instant& instant) {
-            if (instant.settling) return;
-            NonReflectingForce force{model.ends.arrays, model.paced_acceleration(), model.velocity_lag, instant.elapsed};
-            force.acceleration.phase = model.subcycling.phase(model.step);
-            Kokkos::parallel_for("non_reflecting", SpreadRange(0, model.ends.arrays.count), force);
-          }};
+  return {
+      "non-reflecting ends", [&model](const Instant& instant) {
+        if (instant.settling) return;
+        NonReflectingForce force{model.ends.arrays, model.paced_acceleration(), model.velocity_lag, instant.elapsed};
+        force.acceleration.phase = model.subcycling.phase(model.step);
+        Kokkos::parallel_for("non_reflecting", SpreadRange(0, model.ends.arrays.count), force);
+      }};
 }
 
 /// The node update leaves the sum cleared; settling, and forces computed twice at one instant, do not.
@@ -135,16 +145,19 @@ Stage contact_clearing_stage(Model& model) {
 
 template <bool Friction>
 Stage contact_stage(Model& model, ContactPair& pair) {
-  return {"contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : "") + describe_contact_law(*pair.contact),
+  return {"contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : "") +
+              describe_contact_law(*pair.contact),
           [&model, &pair](const Instant& instant) {
             keep_window(model, pair, instant);
             if (go_together(model, instant)) return;
             const SpreadRange range(0, pair.window.count);
             if (pair.contact->normals == scene::ContactNormals::smooth)
-              Kokkos::parallel_for("contact_force", range,
-                                   contact_force<Friction, SmoothNormals>(model, pair, instant, contact_law(model, pair, instant)));
+              Kokkos::parallel_for(
+                  "contact_force", range,
+                  contact_force<Friction, SmoothNormals>(model, pair, instant, contact_law(model, pair, instant)));
             else if (pair.law.active)
-              Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant, contact_law(model, pair, instant)));
+              Kokkos::parallel_for("contact_force", range,
+                                   contact_force<Friction>(model, pair, instant, contact_law(model, pair, instant)));
             else
               Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant));
           }};
@@ -166,26 +179,32 @@ void advance_carried(const Model& model, double step) {
     for (const ElementGroup& group : model.elements)
       launch_patches(group.patches, CarriedPatchUpdate{group.patches, carried_advance(model, group.carried, step),
                                                        model.partial.narrow, group.first_partial});
-  Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
-                       CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, step), model.listed_nodes,
-                                           model.carried.listed_arm, row_loads(model, model.rows_elapsed), model.rows_are_due});
+  Kokkos::parallel_for(
+      "listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
+      CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, step), model.listed_nodes,
+                          model.carried.listed_arm, row_loads(model, model.rows_elapsed), model.rows_are_due});
 }
 
 }  // namespace
 
 Stage tie_stage(Model& model) {
-  return {"ties", [&model](const Instant&) {
-            const TieArrays& ties = model.ties.arrays;
-            Kokkos::parallel_for("tie_force", SpreadRange(0, ties.slave_count), TieForce{ties, model.acceleration().force});
-            Kokkos::parallel_for("tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_rows, model.extra.sum.load});
-          }};
+  return {
+      "ties", [&model](const Instant&) {
+        const TieArrays& ties = model.ties.arrays;
+        Kokkos::parallel_for("tie_force", SpreadRange(0, ties.slave_count), TieForce{ties, model.acceleration().force});
+        Kokkos::parallel_for("tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
+                             TieGather{ties, ties.master_rows, model.extra.sum.load});
+      }};
 }
 
 void follow_ties(const Model& model, double step, bool carried) {
   const TieFollow follow{model.ties.arrays, model.nodes, step};
   const SpreadRange slaves(0, model.ties.arrays.slave_count);
-  if (carried) Kokkos::parallel_for("ties", slaves, CarriedTieFollow{follow, carried_advance(model, {}, step).nodes, model.ties.carrier});
-  else Kokkos::parallel_for("ties", slaves, follow);
+  if (carried)
+    Kokkos::parallel_for("ties", slaves,
+                         CarriedTieFollow{follow, carried_advance(model, {}, step).nodes, model.ties.carrier});
+  else
+    Kokkos::parallel_for("ties", slaves, follow);
 }
 
 std::vector<Stage> force_stages_without_multipliers(Model& model) {
@@ -212,7 +231,8 @@ std::vector<Stage> force_stages(Model& model) {
   std::vector<Stage> stages = force_stages_without_multipliers(model);
   if (model.ties.arrays.active()) stages.push_back(tie_stage(model));
   if (model.ends.arrays.count > 0) stages.push_back(non_reflecting_stage(model));
-  if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
+  if (std::any_of(model.contacts.begin(), model.contacts.end(),
+                  [](const ContactPair& pair) { return !pair.has_springs(); }))
     stages.push_back(multiplier_stage(model));
   return stages;
 }
@@ -220,10 +240,13 @@ std::vector<Stage> force_stages(Model& model) {
 void advance(Model& model, double step) {
   const NodeAdvance advance_node = node_advance(model, step);
   for (const PrescribedSet& set : model.prescribed)
-    Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))), prescribed_motion(model, set, step));
+    Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))),
+                         prescribed_motion(model, set, step));
   if (model.beams) advance_rotations(model, step);
-  if (model.subcycling.levels > 1) advance_in_phase(model, advance_node);
-  else if (model.carried.active()) advance_carried(model, step);
+  if (model.subcycling.levels > 1)
+    advance_in_phase(model, advance_node);
+  else if (model.carried.active())
+    advance_carried(model, step);
   else if (model.patches_have_advanced)
     Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
                          ListedNodeUpdate{model.acceleration(), advance_node, model.listed_nodes,

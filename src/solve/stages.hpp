@@ -11,12 +11,12 @@ namespace railwave {
 
 /// What the stages of a step must know of time.
 struct Instant {
-  double time = 0;           ///< s
-  double step = 0;           ///< s to the next instant
-  double elapsed = 0;        ///< s since the instant before; 0 at the first
-  bool settling = false;     ///< pseudo-time of a dynamic relaxation
+  double time = 0;                               ///< s
+  double step = 0;                               ///< s to the next instant
+  double elapsed = 0;                            ///< s since the instant before; 0 at the first
+  bool settling = false;                         ///< pseudo-time of a dynamic relaxation
   const RelaxationUpdate* relaxation = nullptr;  ///< how that moves the nodes
-  bool advancing = false;    ///< nobody looks at this instant: patches may move the nodes that are theirs alone at once
+  bool advancing = false;  ///< nobody looks at this instant: patches may move the nodes that are theirs alone at once
 };
 
 /// One piece of physics of a step. A scene's list holds only those that it needs.

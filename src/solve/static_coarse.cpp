@@ -9,8 +9,8 @@
 namespace railwave {
 namespace {
 
-/// Elements of an aggregate, at least; more where there would be more aggregates than that: of a compact body E fills up, and its
-/// factors take the square of their number.
+/// Elements of an aggregate, at least; more where there would be more aggregates than that: of a compact body E fills
+/// up, and its factors take the square of their number.
 constexpr int least_elements = 16, most_aggregates = 600;
 /// A motion counts if its size is that share of the aggregate's largest, squared.
 constexpr double least_motion = 1e-8;
@@ -23,7 +23,8 @@ void StaticCoarse::each_motion(int row, const Visit& visit) const {
   for (const auto& [aggregate, mode] : slaves_.at(row)) visit(Motion{aggregate, &mode});
 }
 
-StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent) : tangent_(tangent), unknowns_(tangent.unknowns()) {
+StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent)
+    : tangent_(tangent), unknowns_(tangent.unknowns()) {
   divide_nodes(model);
   lay_modes();
   lay_slaves();
@@ -50,13 +51,14 @@ void StaticCoarse::divide_nodes(const Model& model) {
       for (int i = 0; i < 3; ++i) middle[e][i] += 0.125 * model.assembly.nodes[n][i];
   }
   const int largest = std::max(least_elements, static_cast<int>(elements.size()) / most_aggregates);
-  for (const auto& part : model.assembly.parts) divide(elements, middle, order, part.first_element, part.first_element + part.element_count, largest);
+  for (const auto& part : model.assembly.parts)
+    divide(elements, middle, order, part.first_element, part.first_element + part.element_count, largest);
   for (int& a : aggregate_)
     if (a < 0) a = count_++;
 }
 
-void StaticCoarse::divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order, int begin,
-                          int end, int largest) {
+void StaticCoarse::divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle,
+                          std::vector<int>& order, int begin, int end, int largest) {
   if (end - begin <= largest) {
     bool any = false;
     for (int k = begin; k < end; ++k)
@@ -166,7 +168,8 @@ void StaticCoarse::add_elements(const Model& model) {
       held = held || unknowns_.projection(corners[N]) != nullptr;
       each_motion(corners[N], [&](const Motion& motion) {
         motions.push_back({N, motion});
-        if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end()) touched.push_back(motion.aggregate);
+        if (std::find(touched.begin(), touched.end(), motion.aggregate) == touched.end())
+          touched.push_back(motion.aggregate);
       });
     }
     if (touched.size() == 1 && !held) continue;
@@ -209,7 +212,8 @@ void StaticCoarse::add_springs(const SpringCollector& springs, Blocks& blocks) c
     for (const auto& [column, right] : stretch)
       for (const auto& [row, left] : stretch) {
         if (row < column) continue;
-        blocks.try_emplace({row, column}, Block::Zero()).first->second += springs.stiffness()[s] * left * right.transpose();
+        blocks.try_emplace({row, column}, Block::Zero()).first->second +=
+            springs.stiffness()[s] * left * right.transpose();
       }
   }
 }
@@ -242,11 +246,13 @@ void StaticCoarse::factor(const SpringCollector& springs) {
   matrix.setFromTriplets(entries.begin(), entries.end());
   if (!factors_) factors_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
   factors_->compute(matrix);
-  if (factors_->info() != Eigen::Success) throw std::runtime_error("the static equilibrium's coarse stiffness is singular");
+  if (factors_->info() != Eigen::Success)
+    throw std::runtime_error("the static equilibrium's coarse stiffness is singular");
 }
 
 void StaticCoarse::precondition(const NodeVector& r, const NodeVector& z) const {
-  Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes, threads_of_sum), CoarseRestrict{on_device_, r, coarse_});
+  Kokkos::parallel_for("coarse_restrict", SumTeams(count_ * modes, threads_of_sum),
+                       CoarseRestrict{on_device_, r, coarse_});
   const auto host = to_host(coarse_);
   Eigen::Map<Eigen::VectorXd> y(host.data(), count_ * modes);
   y = factors_->solve(y).eval();

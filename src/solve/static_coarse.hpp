@@ -9,9 +9,9 @@
 
 namespace railwave {
 
-/// Rigid motions of aggregates of nodes, in which the slow modes that a diagonal can't reach are solved exactly: E = Z^T K Z,
-/// sparse, factored on the host. An aggregate is the nodes of a compact group of elements of one part; nodes of no element and
-/// rotations are aggregates of their own. Slaves of ties go with their masters' aggregates.
+/// Rigid motions of aggregates of nodes, in which the slow modes that a diagonal can't reach are solved exactly: E =
+/// Z^T K Z, sparse, factored on the host. An aggregate is the nodes of a compact group of elements of one part; nodes
+/// of no element and rotations are aggregates of their own. Slaves of ties go with their masters' aggregates.
 class StaticCoarse {
  public:
   StaticCoarse(const Model& model, const StaticTangent& tangent);
@@ -30,8 +30,8 @@ class StaticCoarse {
   using Blocks = std::map<std::pair<int, int>, Block>;  ///< row aggregate >= column aggregate
 
   void divide_nodes(const Model& model);
-  void divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order, int begin, int end,
-              int largest);
+  void divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
+              int begin, int end, int largest);
   void lay_modes();
   void lay_slaves();
   void add_elements(const Model& model);
@@ -49,10 +49,10 @@ class StaticCoarse {
   const StaticTangent& tangent_;
   const StaticUnknowns& unknowns_;
   int count_ = 0;
-  std::vector<int> aggregate_;                    ///< by row
-  std::vector<RowModes> mode_;                    ///< by row; zero along held directions
-  std::map<int, std::map<int, RowModes>> slaves_; ///< by row and aggregate
-  std::vector<double> unused_;                    ///< by coarse coordinate: 1 where the aggregate has no such motion
+  std::vector<int> aggregate_;                     ///< by row
+  std::vector<RowModes> mode_;                     ///< by row; zero along held directions
+  std::map<int, std::map<int, RowModes>> slaves_;  ///< by row and aggregate
+  std::vector<double> unused_;                     ///< by coarse coordinate: 1 where the aggregate has no such motion
   Blocks of_elements_;
   CoarseModes on_device_;
   Array<double*> coarse_;

@@ -13,9 +13,11 @@
 namespace railwave {
 namespace {
 
-/// Stiffness of augmented Lagrange over that of penalty springs: more makes the gaps vanish sooner, and the equations stiffer.
+/// Stiffness of augmented Lagrange over that of penalty springs: more makes the gaps vanish sooner, and the equations
+/// stiffer.
 constexpr double stiffening = 4;
-/// Tangential stiffness of a node that slips, over that of one that sticks: none would do, but for bodies held by friction alone.
+/// Tangential stiffness of a node that slips, over that of one that sticks: none would do, but for bodies held by
+/// friction alone.
 constexpr double slipping_share = 0.1;
 
 template <class View>
@@ -52,7 +54,8 @@ void copy_state(const ContactArrays& to, const ContactArrays& from) {
 /// What trials make flow, group by group.
 std::vector<Array<double*>> plastic_state(const Model& model) {
   std::vector<Array<double*>> state;
-  for (const ElementGroup& group : model.elements) state.insert(state.end(), {group.plastic.history, group.plastic.back_stress});
+  for (const ElementGroup& group : model.elements)
+    state.insert(state.end(), {group.plastic.history, group.plastic.back_stress});
   return state;
 }
 
@@ -102,11 +105,13 @@ struct CurvedWeights {
     if (contact.status(s) == status_apart || contact.tracked(s) < 0 || !(pressing > 0)) return;
     const int segment = contact.tracked(s);
     const Vector3 normal = (1 / pressing) * force;
-    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, normal, KeepWeights{contact, node, weight, count, contact.surface(segment), normal, s});
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, normal,
+                            KeepWeights{contact, node, weight, count, contact.surface(segment), normal, s});
   }
 };
 
-/// Of each slave node that presses on a curved segment by a spring: what moves the gap, the master's nodes with their weights. Empty for other pairs.
+/// Of each slave node that presses on a curved segment by a spring: what moves the gap, the master's nodes with their
+/// weights. Empty for other pairs.
 std::vector<std::map<int, double>> curved_weights(const Model& model, const ContactPair& pair) {
   if (pair.contact->normals != scene::ContactNormals::smooth || !pair.has_springs()) return {};
   const auto first = to_host(pair.arrays.first_segment);
@@ -120,7 +125,8 @@ std::vector<std::map<int, double>> curved_weights(const Model& model, const Cont
   const auto node = unset_array<int**>("nodes of curved segments", slaves, most);
   const auto weight = unset_array<double**>("weights of curved segments", slaves, most);
   const Array<int*> count("terms of curved segments", slaves);
-  Kokkos::parallel_for("curved_weights", Range(0, slaves), CurvedWeights{ContactSearch{{pair.arrays, model.nodes.position}}, node, weight, count});
+  Kokkos::parallel_for("curved_weights", Range(0, slaves),
+                       CurvedWeights{ContactSearch{{pair.arrays, model.nodes.position}}, node, weight, count});
   const auto nodes = to_host(node);
   const auto weights = to_host(weight);
   const auto counts = to_host(count);
@@ -138,8 +144,10 @@ struct SmoothNormalsOfMultipliers : SmoothNormals {
 template <class Normals>
 void press_pair(const Model& model, const ContactPair& pair, const Instant& instant, const AugmentedLaw& law) {
   const SpreadRange range(0, pair.window.count);
-  if (pair.arrays.friction > 0) Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, instant, law));
-  else Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, instant, law));
+  if (pair.arrays.friction > 0)
+    Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, instant, law));
+  else
+    Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, instant, law));
 }
 
 }  // namespace
@@ -153,7 +161,8 @@ StaticContact::StaticContact(Model& model) : model_(model) {
     }
     for (const auto& segment : pair.master_segments)
       for (int k : {0, 1}) {
-        const Vec3 &a = model.assembly.nodes[pair.master_nodes[segment[k]]], &b = model.assembly.nodes[pair.master_nodes[segment[k + 2]]];
+        const Vec3 &a = model.assembly.nodes[pair.master_nodes[segment[k]]],
+                   &b = model.assembly.nodes[pair.master_nodes[segment[k + 2]]];
         smallest_segment_ = std::min(smallest_segment_, length(difference(a, b)));
       }
   }
@@ -190,8 +199,10 @@ void StaticContact::press() {
     if (pair.has_springs()) continue;
     keep_window(model_, pair, instant);
     const AugmentedLaw law(kept_[p].multiplier, stiffening);
-    if (pair.contact->normals == scene::ContactNormals::smooth) press_pair<SmoothNormalsOfMultipliers>(model_, pair, instant, law);
-    else press_pair<FacetNormals>(model_, pair, instant, law);
+    if (pair.contact->normals == scene::ContactNormals::smooth)
+      press_pair<SmoothNormalsOfMultipliers>(model_, pair, instant, law);
+    else
+      press_pair<FacetNormals>(model_, pair, instant, law);
   }
 }
 
@@ -218,8 +229,11 @@ void StaticContact::add_springs(SpringCollector& springs) const {
       for (double& n : normal) n /= pressing;
       const double spring = (pair.has_springs() ? 1 : stiffening) * pair.segment_stiffness[tracked(s)];
       // Of a spring whose stiffness grows straight from its start.
-      const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0 ? std::max(spring, -2 * pressing / gap(s) - spring) : spring;
-      const double across = !(pair.arrays.friction > 0) ? 0 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
+      const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0
+                                   ? std::max(spring, -2 * pressing / gap(s) - spring)
+                                   : spring;
+      const double across =
+          !(pair.arrays.friction > 0) ? 0 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
       if (curved.empty()) {
         springs.add_spring(nodes, weights, normal, stiffness - across);
       } else {

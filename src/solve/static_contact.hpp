@@ -6,9 +6,9 @@
 
 namespace railwave {
 
-/// What contact is to the search for a static equilibrium. Pairs with penalty springs press as they do in the run. Pairs with
-/// multipliers press by augmented Lagrange (kernels/static_contact.hpp). A force evaluation leaves what nodes touch, stick
-/// to and have flowed plastically in the arrays; a trial that is not taken must not.
+/// What contact is to the search for a static equilibrium. Pairs with penalty springs press as they do in the run.
+/// Pairs with multipliers press by augmented Lagrange (kernels/static_contact.hpp). A force evaluation leaves what
+/// nodes touch, stick to and have flowed plastically in the arrays; a trial that is not taken must not.
 class StaticContact {
  public:
   explicit StaticContact(Model& model);
@@ -40,8 +40,8 @@ class StaticContact {
   Model& model_;
   bool augmented_ = false;
   double smallest_segment_ = 1e300;
-  std::vector<Kept> kept_;                     ///< by pair
-  std::vector<Array<double*>> plastic_;        ///< see plastic_state
+  std::vector<Kept> kept_;               ///< by pair
+  std::vector<Array<double*>> plastic_;  ///< see plastic_state
 };
 
 }  // namespace railwave

@@ -35,7 +35,8 @@ void refuse_drifting_points(const Model& model, const NodeVector& unbalanced, do
       if (std::fabs(force) <= model.scene.settle.tolerance * applied) continue;
       const scene::PointMass& point = model.scene.points[k];
       throw InputError(fmt::format(
-          "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), where no "
+          "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), "
+          "where no "
           "connector is stiff; give one a stiffness there, preload it by that force, or constrain the point",
           model.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
     }
@@ -53,8 +54,10 @@ std::string what_drifts(const Model& model, const NodeVector& unbalanced, double
     const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
     if (!(size > largest)) return;
     largest = size;
-    worst = fmt::format("{} is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not met "
-                        "what will", what, sum[0], sum[1], sum[2]);
+    worst = fmt::format(
+        "{} is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not met "
+        "what will",
+        what, sum[0], sum[1], sum[2]);
   };
   for (const auto& part : model.assembly.parts) {
     std::vector<int> nodes(part.node_count);

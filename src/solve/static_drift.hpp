@@ -14,7 +14,8 @@ namespace railwave {
 /// Throws InputError naming the point, the force and its direction.
 void refuse_drifting_points(const Model& model, const NodeVector& unbalanced, double applied);
 
-/// The part or beam on which the largest force is left, if that is more than rounding leaves of deformation; else empty.
+/// The part or beam on which the largest force is left, if that is more than rounding leaves of deformation; else
+/// empty.
 std::string what_drifts(const Model& model, const NodeVector& unbalanced, double applied);
 
 }  // namespace railwave

@@ -27,17 +27,18 @@ constexpr double taken_share = 0.7;
 constexpr int most_trials = 20;
 /// A rotation turns no farther at once, rad: its moments have changed by then.
 constexpr double most_turn = 0.5;
-/// Share of the diagonal that is added to the stiffness: much where contact has still to close, and a body that nothing holds
-/// would turn by angles that strain it; raised where a step went too far to be taken whole or made things worse, and lowered
-/// where it didn't; to no less than a floor that rises while nothing improves, for bodies that slide away without friction.
+/// Share of the diagonal that is added to the stiffness: much where contact has still to close, and a body that nothing
+/// holds would turn by angles that strain it; raised where a step went too far to be taken whole or made things worse,
+/// and lowered where it didn't; to no less than a floor that rises while nothing improves, for bodies that slide away
+/// without friction.
 constexpr double least_shift = 1e-12, most_shift = 1e-5, shift_up = 100, shift_down = 10, worse = 2;
 constexpr int idle_steps_of_floor = 3;
 /// Newton steps without a better residual after which it is given up.
 constexpr int most_idle_steps = 25;
 /// Multipliers are renewed when the unbalance is below that many tolerances.
 constexpr double renewal_unbalance = 30;
-/// Change of a multiplier, over the largest one, at which they count as found: what is left of the gaps would take as much
-/// off the penalty springs.
+/// Change of a multiplier, over the largest one, at which they count as found: what is left of the gaps would take as
+/// much off the penalty springs.
 constexpr double multiplier_tolerance = 1e-3;
 
 struct Measure {
@@ -49,11 +50,21 @@ struct Measure {
 class Newton {
  public:
   Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
-      : model_(model), go_on_(go_on), unknowns_(model), contact_(model), stages_(force_stages_without_multipliers(model)),
-        tangent_(model, unknowns_), coarse_(model, tangent_),
-        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), unknowns_.held(), vector("residual")},
-        origin_("origin", model.nodes.count), step_(vector("static step")), left_(vector("left residual")), z_(vector("preconditioned")),
-        way_(vector("search direction")), image_(vector("image")) {
+      : model_(model),
+        go_on_(go_on),
+        unknowns_(model),
+        contact_(model),
+        stages_(force_stages_without_multipliers(model)),
+        tangent_(model, unknowns_),
+        coarse_(model, tangent_),
+        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), unknowns_.held(),
+                  vector("residual")},
+        origin_("origin", model.nodes.count),
+        step_(vector("static step")),
+        left_(vector("left residual")),
+        z_(vector("preconditioned")),
+        way_(vector("search direction")),
+        image_(vector("image")) {
     if (model.ties.arrays.active()) ties_.push_back(tie_stage(model));
     if (model.beams) turned_from_ = Array<double* [4]>("turned from", unknowns_.rotations());
   }
@@ -125,7 +136,8 @@ class Newton {
   /// Moments count as forces on the arm of an element, as in a relaxation.
   void add_moments(double (&sum)[2]) {
     const BeamNodeMoment rotation{model_.beams->arrays};
-    Kokkos::parallel_for("static_moment", Range(0, unknowns_.rotations()), StaticMoment{rotation, unknowns_.nodes(), residual_.residual});
+    Kokkos::parallel_for("static_moment", Range(0, unknowns_.rotations()),
+                         StaticMoment{rotation, unknowns_.nodes(), residual_.residual});
     const BeamRelaxationState beams = relaxation_state(model_);
     sum[0] += beams.unbalanced;
     sum[1] += beams.applied;
@@ -135,7 +147,8 @@ class Newton {
     contact_.restore();
     Kokkos::parallel_for("go_along", nodes(), GoAlong{model_.nodes.position, origin_, step_, share});
     const TieArrays& ties = model_.ties.arrays;
-    if (ties.active()) Kokkos::parallel_for("place_slaves", Range(0, ties.slave_count), PlaceSlaves{ties, model_.nodes.position});
+    if (ties.active())
+      Kokkos::parallel_for("place_slaves", Range(0, ties.slave_count), PlaceSlaves{ties, model_.nodes.position});
     if (model_.beams)
       Kokkos::parallel_for("turn_along", Range(0, unknowns_.rotations()),
                            TurnAlong{{model_.beams->arrays}, unknowns_.nodes(), turned_from_, step_, share});
@@ -173,13 +186,15 @@ class Newton {
     return true;
   }
 
-  /// Largest share of the step that moves no node of a contact surface farther than a segment, so that none passes through
-  /// another, and turns no rotation too far.
+  /// Largest share of the step that moves no node of a contact surface farther than a segment, so that none passes
+  /// through another, and turns no rotation too far.
   double largest_share() const {
     if (!contact_.any() && !model_.beams) return 1;
     const auto step = to_host(step_);
     double farthest = 0, turned = 0;
-    const auto look = [&](int n, double& most) { most = std::max(most, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2))); };
+    const auto look = [&](int n, double& most) {
+      most = std::max(most, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2)));
+    };
     for (const ContactPair& pair : model_.contacts)
       for (const auto* of_surface : {&pair.slave_nodes, &pair.master_nodes})
         for (int n : *of_surface) look(n, farthest);
@@ -190,8 +205,8 @@ class Newton {
     return share;
   }
 
-  /// Goes along the step until the force along it has come down. Regula falsi of the Illinois kind between two places at
-  /// which that force has different signs.
+  /// Goes along the step until the force along it has come down. Regula falsi of the Illinois kind between two places
+  /// at which that force has different signs.
   Measure go(double unbalance_before) {
     Kokkos::deep_copy(origin_, model_.nodes.position);
     if (model_.beams) Kokkos::deep_copy(turned_from_, model_.beams->arrays.rotation);

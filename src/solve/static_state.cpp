@@ -14,7 +14,8 @@ auto flat(const View& view) {
   std::vector<Value> values;
   values.reserve(view.size());
   for (std::size_t i = 0; i < host.extent(0); ++i) {
-    if constexpr (View::rank == 1) values.push_back(host(i));
+    if constexpr (View::rank == 1)
+      values.push_back(host(i));
     else
       for (std::size_t k = 0; k < host.extent(1); ++k) values.push_back(host(i, k));
   }
@@ -27,7 +28,8 @@ void lay(const View& view, const std::vector<Value>& values) {
   const auto host = Kokkos::create_mirror_view(view);
   std::size_t at = 0;
   for (std::size_t i = 0; i < host.extent(0); ++i) {
-    if constexpr (View::rank == 1) host(i) = values[at++];
+    if constexpr (View::rank == 1)
+      host(i) = values[at++];
     else
       for (std::size_t k = 0; k < host.extent(1); ++k) host(i, k) = values[at++];
   }
@@ -35,8 +37,8 @@ void lay(const View& view, const std::vector<Value>& values) {
 }
 
 bool suits(const Model& model, const StaticState& state) {
-  bool right = state.position.size() == 3 * model.assembly.nodes.size() && state.contacts.size() == model.contacts.size() &&
-               state.plastic.size() == model.elements.size();
+  bool right = state.position.size() == 3 * model.assembly.nodes.size() &&
+               state.contacts.size() == model.contacts.size() && state.plastic.size() == model.elements.size();
   for (std::size_t p = 0; right && p < state.contacts.size(); ++p) {
     const StaticState::Contact& contact = state.contacts[p];
     const std::size_t slaves = model.contacts[p].slave_nodes.size();
@@ -51,7 +53,8 @@ bool suits(const Model& model, const StaticState& state) {
   for (std::size_t g = 0; right && g < state.plastic.size(); ++g)
     right = state.plastic[g].size() == model.elements[g].plastic.history.size() &&
             state.back_stress[g].size() == model.elements[g].plastic.back_stress.size();
-  const std::size_t beam_nodes = model.beams ? model.beams->arrays.node_count : 0, beams = model.beams ? model.beams->arrays.count : 0;
+  const std::size_t beam_nodes = model.beams ? model.beams->arrays.node_count : 0,
+                    beams = model.beams ? model.beams->arrays.count : 0;
   return right && state.beam_rotation.size() == 4 * beam_nodes && state.beam_stretch.size() == beams &&
          state.end_support.size() == 3u * model.ends.arrays.count;
 }
@@ -63,8 +66,9 @@ StaticState take_static_state(const Model& model) {
   state.position = flat(model.nodes.position);
   for (const ContactPair& pair : model.contacts) {
     const ContactArrays& contact = pair.arrays;
-    state.contacts.push_back({flat(contact.tracked), flat(contact.status), flat(contact.place), flat(contact.gap), flat(contact.normal_force),
-                              flat(contact.tangential_force), flat(pair.multipliers.way_since_stuck)});
+    state.contacts.push_back({flat(contact.tracked), flat(contact.status), flat(contact.place), flat(contact.gap),
+                              flat(contact.normal_force), flat(contact.tangential_force),
+                              flat(pair.multipliers.way_since_stuck)});
   }
   for (const ElementGroup& group : model.elements) {
     state.plastic.push_back(flat(group.plastic.history));

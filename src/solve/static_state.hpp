@@ -11,18 +11,19 @@ namespace railwave {
 /// Everything of a settled scene that its run starts from, as plain data; velocities are zero.
 struct StaticState {
   struct Contact {
-    std::vector<int> tracked, status;                          ///< by slave node, as in ContactArrays
+    std::vector<int> tracked, status;  ///< by slave node, as in ContactArrays
     std::vector<double> place, gap, normal_force, tangential_force, way_since_stuck;
   };
 
   bool settled = false;
   double unbalance = 0;
-  int steps = 0, iterations = 0;                ///< it took, see SettleReport
-  std::vector<double> position;                 ///< m, node by node
-  std::vector<Contact> contacts;                ///< by pair of the model
+  int steps = 0, iterations = 0;                          ///< it took, see SettleReport
+  std::vector<double> position;                           ///< m, node by node
+  std::vector<Contact> contacts;                          ///< by pair of the model
   std::vector<std::vector<double>> plastic, back_stress;  ///< by element group
-  std::vector<double> beam_rotation, beam_stretch;        ///< by beam node and beam element, as in BeamArrays; empty without beams
-  std::vector<double> end_support;                        ///< N by node of non-reflecting ends
+  std::vector<double> beam_rotation,
+      beam_stretch;                 ///< by beam node and beam element, as in BeamArrays; empty without beams
+  std::vector<double> end_support;  ///< N by node of non-reflecting ends
 };
 
 StaticState take_static_state(const Model& model);

@@ -15,7 +15,9 @@ Eigen::Matrix3d whole(const std::array<double, 6>& b) {
   return m;
 }
 
-std::array<double, 6> distinct(const Eigen::Matrix3d& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)}; }
+std::array<double, 6> distinct(const Eigen::Matrix3d& m) {
+  return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
+}
 
 }  // namespace
 
@@ -31,9 +33,10 @@ StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
   }
 
   const NodeBlocks blocks = unset_array<double* [6]>("element blocks", nodes);
-  Kokkos::parallel_for("element_blocks", Range(0, static_cast<int>(nodes)),
-                       ElementBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
-                                     to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
+  Kokkos::parallel_for(
+      "element_blocks", Range(0, static_cast<int>(nodes)),
+      ElementBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
+                    to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
   const auto host = to_host(blocks);
   // Slaves' blocks are felt by their masters: what one slave has to do with another is left out.
   std::vector<Eigen::Matrix3d> sum(unknowns.rows(), Eigen::Matrix3d::Zero());
@@ -44,7 +47,9 @@ StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
       sum[n] += whole(own);
       continue;
     }
-    unknowns.each_lead(static_cast<int>(n), [&](const StaticUnknowns::Lead& lead) { sum[lead.row] += lead.share.transpose() * whole(own) * lead.share; });
+    unknowns.each_lead(static_cast<int>(n), [&](const StaticUnknowns::Lead& lead) {
+      sum[lead.row] += lead.share.transpose() * whole(own) * lead.share;
+    });
   }
   element_blocks_.resize(sum.size());
   for (std::size_t n = 0; n < sum.size(); ++n) element_blocks_[n] = distinct(sum[n]);
@@ -92,7 +97,8 @@ void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {
   unknowns_.lead_slaves(u);
   tangent_.apply(model_.assembly, stiffness_, model_.nodes.position, u, 0, f);
   unknowns_.pass_on(f);
-  Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()), ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});
+  Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()),
+                       ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});
 }
 
 }  // namespace railwave

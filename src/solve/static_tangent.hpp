@@ -11,9 +11,9 @@
 namespace railwave {
 
 /// The scene's stiffness about its present place, as an operator on displacements: elements (linear elastic, with the
-/// stiffness hourglass control that they have while settling), connectors, beams and the contact springs that press, T^T K T
-/// with ties u = T u_masters. Always in double. A small multiple of the diagonal is added, so that what nothing holds has an
-/// answer all the same.
+/// stiffness hourglass control that they have while settling), connectors, beams and the contact springs that press,
+/// T^T K T with ties u = T u_masters. Always in double. A small multiple of the diagonal is added, so that what nothing
+/// holds has an answer all the same.
 class StaticTangent {
  public:
   StaticTangent(const Model& model, const StaticUnknowns& unknowns);
@@ -33,6 +33,7 @@ class StaticTangent {
 
   const StaticUnknowns& unknowns() const { return unknowns_; }
   const ElementStiffness& stiffness_of(int element) const { return stiffness_[part_of_element_[element]]; }
+
  private:
   const Model& model_;
   const StaticUnknowns& unknowns_;

@@ -14,11 +14,13 @@ Eigen::Vector3d vector(const Vector3& a) { return {a[0], a[1], a[2]}; }
 Eigen::Matrix3d share_of(const TiedPlace& tied, int corner, const Array<double* [3]>::HostMirror& position) {
   Eigen::Matrix3d share = tied.weight[corner] * Eigen::Matrix3d::Identity();
   if (tied.distance == 0) return share;
-  const Eigen::Vector3d along = vector(tied.sum(tied.slope_xi, position)), across = vector(tied.sum(tied.slope_eta, position));
+  const Eigen::Vector3d along = vector(tied.sum(tied.slope_xi, position)),
+                        across = vector(tied.sum(tied.slope_eta, position));
   const Eigen::Vector3d area = along.cross(across), n = area.normalized();
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d unit = Eigen::Vector3d::Unit(i);
-    const Eigen::Vector3d turned = tied.slope_xi[corner] * unit.cross(across) + tied.slope_eta[corner] * along.cross(unit);
+    const Eigen::Vector3d turned =
+        tied.slope_xi[corner] * unit.cross(across) + tied.slope_eta[corner] * along.cross(unit);
     share.col(i) += tied.distance / area.norm() * (turned - n.dot(turned) * n);
   }
   return share;
@@ -82,14 +84,18 @@ std::vector<Vec3> StaticUnknowns::positions() const {
 
 void StaticUnknowns::lead_slaves(const NodeVector& motion) const {
   const TieArrays& ties = model_.ties.arrays;
-  if (ties.active()) Kokkos::parallel_for("static_ties", SpreadRange(0, ties.slave_count), TieMotion{ties, model_.nodes.position, motion});
+  if (ties.active())
+    Kokkos::parallel_for("static_ties", SpreadRange(0, ties.slave_count),
+                         TieMotion{ties, model_.nodes.position, motion});
 }
 
 void StaticUnknowns::pass_on(const NodeVector& force) const {
   const TieArrays& ties = model_.ties.arrays;
   if (!ties.active()) return;
-  Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties.slave_count), TieMotionForce{ties, model_.nodes.position, force});
-  Kokkos::parallel_for("static_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum), TieGather{ties, ties.master_nodes, force});
+  Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties.slave_count),
+                       TieMotionForce{ties, model_.nodes.position, force});
+  Kokkos::parallel_for("static_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
+                       TieGather{ties, ties.master_nodes, force});
 }
 
 }  // namespace railwave

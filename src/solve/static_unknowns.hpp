@@ -9,9 +9,9 @@
 
 namespace railwave {
 
-/// The unknowns of a static equilibrium: a displacement of each node, then a rotation of each beam node, rows of a NodeVector.
-/// Slaves of ties follow their masters, nodes of non-reflecting ends are held: neither has unknowns of its own, and in forces
-/// and preconditioned vectors their rows are zero.
+/// The unknowns of a static equilibrium: a displacement of each node, then a rotation of each beam node, rows of a
+/// NodeVector. Slaves of ties follow their masters, nodes of non-reflecting ends are held: neither has unknowns of its
+/// own, and in forces and preconditioned vectors their rows are zero.
 class StaticUnknowns {
  public:
   explicit StaticUnknowns(const Model& model);
@@ -33,7 +33,8 @@ class StaticUnknowns {
   };
   template <class Visit>
   void each_lead(int row, const Visit& visit) const {
-    if (slave_[row] < 0) visit(Lead{row, Eigen::Matrix3d::Identity()});
+    if (slave_[row] < 0)
+      visit(Lead{row, Eigen::Matrix3d::Identity()});
     else
       for (const Lead& lead : leads_[slave_[row]]) visit(lead);
   }
@@ -49,11 +50,11 @@ class StaticUnknowns {
 
   const Model& model_;
   int rows_ = 0;
-  std::vector<int> row_of_;                          ///< of the table, by row; -1: free
+  std::vector<int> row_of_;  ///< of the table, by row; -1: free
   std::vector<std::array<double, 9>> table_;
   HeldRows held_;
-  std::vector<int> slave_;                           ///< by row, -1: none
-  std::vector<std::array<Lead, 4>> leads_;           ///< by slave, as it lay when this was made
+  std::vector<int> slave_;                  ///< by row, -1: none
+  std::vector<std::array<Lead, 4>> leads_;  ///< by slave, as it lay when this was made
 };
 
 }  // namespace railwave

@@ -36,7 +36,9 @@ StepControl::StepControl(Model& model) : model_(model) {
   smallest_ = largest_ = model.step_size;
 }
 
-double StepControl::time() const { return begin_time_ + static_cast<double>(model_.step - begin_step_) * model_.step_size; }
+double StepControl::time() const {
+  return begin_time_ + static_cast<double>(model_.step - begin_step_) * model_.step_size;
+}
 
 bool StepControl::touched_unseen() const {
   for (std::size_t p = 0; p < model_.contacts.size(); ++p) {
@@ -68,7 +70,8 @@ bool StepControl::plan() {
     begin_step_ = 0;
     return model_.step_count != before;
   }
-  if (steps <= planned && static_cast<double>(planned) <= (1 + worthwhile_gain) * static_cast<double>(steps)) return false;
+  if (steps <= planned && static_cast<double>(planned) <= (1 + worthwhile_gain) * static_cast<double>(steps))
+    return false;
   begin_time_ = model_.time;
   begin_step_ = model_.step;
   model_.step_size = left / static_cast<double>(steps);
@@ -79,7 +82,10 @@ bool StepControl::plan() {
 void StepControl::move_end() {
   const double end = model_.scene.time.end, now = time(), step = model_.step_size;
   if (now > end + 1e-6 * step)
-    throw InputError(fmt::format("time.end: the checkpoint's t = {:.6g} s lies beyond {:.6g} s; name a later end, or run the case without --restart", now, end));
+    throw InputError(
+        fmt::format("time.end: the checkpoint's t = {:.6g} s lies beyond {:.6g} s; name a later end, or run the case "
+                    "without --restart",
+                    now, end));
   const auto round = static_cast<double>(model_.subcycling.round());
   model_.step_count = model_.step + static_cast<long>(round * std::ceil((end - now) / (round * step) - 1e-6));
 }

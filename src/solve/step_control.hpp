@@ -7,7 +7,8 @@
 namespace railwave {
 
 /// The run's step as it goes: whole steps of one size to the end, until a renewed estimate of the stable step asks for
-/// others. Time is that of the last change plus whole steps since, so a step that never changes leaves no rounding behind.
+/// others. Time is that of the last change plus whole steps since, so a step that never changes leaves no rounding
+/// behind.
 class StepControl {
  public:
   /// The model stands at its first step, its present motion known.
@@ -17,12 +18,13 @@ class StepControl {
   double time() const;
   long last_step() const { return model_.step_count; }
 
-  /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already. True:
-  /// the step from this instant to the next is another one than the last.
+  /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already.
+  /// True: the step from this instant to the next is another one than the last.
   bool renew();
 
-  /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as they are and go on
-  /// to the first whole round at that end or after it. Throws InputError where the state lies beyond the end.
+  /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as
+  /// they are and go on to the first whole round at that end or after it. Throws InputError where the state lies beyond
+  /// the end.
   void move_end();
 
   int renewals() const { return renewals_; }
@@ -53,8 +55,8 @@ class StepControl {
   double smallest_ = 0, largest_ = 0;
 };
 
-/// Something due about every `interval` seconds, at steps: `interval` rounded to whole rounds of steps (at least one) and
-/// counted from the start, or from where a change of step left it, so that it keeps its times.
+/// Something due about every `interval` seconds, at steps: `interval` rounded to whole rounds of steps (at least one)
+/// and counted from the start, or from where a change of step left it, so that it keeps its times.
 class EverySoOften {
  public:
   /// @param interval s; 0: every round

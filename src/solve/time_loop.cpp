@@ -59,7 +59,8 @@ class Schedule {
 };
 
 /// @return whether the run begins in equilibrium
-bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const std::function<bool()>& go_on) {
+bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
+             const std::function<bool()>& go_on) {
   refuse_moving_held_nodes(model);
   bool in_equilibrium = false;
   if (model.scene.settle.active) {
@@ -76,7 +77,8 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
 
 std::string while_settling(const Model& model, bool out_of_time) {
   const bool kept = model.scene.settle.cache && !model.scene.static_text.empty();
-  return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" + (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
+  return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" +
+         (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
 }
 
 /// What the loop itself remembers from one step to the next.
@@ -105,8 +107,8 @@ struct LoopMemory {
   }
 };
 
-/// What looks of the watch cost: a step that nothing else asked to look at, less what a step takes anyhow; where something else
-/// did, the watch's own part alone.
+/// What looks of the watch cost: a step that nothing else asked to look at, less what a step takes anyhow; where
+/// something else did, the watch's own part alone.
 class LookTime {
  public:
   void begin() {
@@ -136,7 +138,9 @@ class Keeper {
   explicit Keeper(const RunKeeping& keeping) : keeping_(keeping), began_(Clock::now()), last_(began_) {}
 
   bool out_of_time() const { return keeping_.time_left > 0 && seconds_since(began_) >= keeping_.time_left; }
-  bool due() const { return keeping_.checkpoints && keeping_.interval > 0 && seconds_since(last_) >= keeping_.interval; }
+  bool due() const {
+    return keeping_.checkpoints && keeping_.interval > 0 && seconds_since(last_) >= keeping_.interval;
+  }
 
   void keep(Model& model, LoopMemory& memory, RunSummary& summary) {
     if (!keeping_.checkpoints) return;
@@ -162,7 +166,8 @@ class Keeper {
 
 void request_stop() { stop_requested = 1; }
 
-RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping) {
+RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
+               const RunKeeping& keeping) {
   Keeper keeper(keeping);
   for (RunObserver* observer : observers) observer->begin(model);
   const std::vector<std::string> doubts = scene_doubts(model);
@@ -171,8 +176,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   const bool in_equilibrium = keeping.from || prepare(model, observers, settled, go_on);
   const bool prepared = keeping.from || !model.scene.settle.active || go_on();
 
-  LoopMemory memory{StepControl(model), Schedule(model), std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size()),
-                    Watch(model)};
+  LoopMemory memory{StepControl(model), Schedule(model),
+                    std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size()), Watch(model)};
   auto& [control, due, swings, watch, total_at_start, history_rows, field_outputs, elapsed] = memory;
   const auto stages = force_stages(model);
   if (keeping.from) {
@@ -212,7 +217,8 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     watch.glance();
 
     if (looked_at) {
-      HistorySample sample = (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
+      HistorySample sample =
+          (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
       if (first) total_at_start = balance_total(sample.energy);
       sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
       if (asked_for) looks.begin();
@@ -238,9 +244,12 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
     }
     if (due.last()) break;
     if (stopping) {
-      if (!prepared) summary.reason = while_settling(model, summary.out_of_time);
-      else summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s", summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
-                                   model.step_count, model.time);
+      if (!prepared)
+        summary.reason = while_settling(model, summary.out_of_time);
+      else
+        summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s",
+                                     summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
+                                     model.step_count, model.time);
       break;
     }
     advance(model, model.step_size);
@@ -260,20 +269,24 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   for (const std::string& apart : watch.never_closed()) summary.warnings.push_back(apart);
   for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
   if (keeping.checkpoints)
-    if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty()) summary.warnings.push_back(trouble);
+    if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty())
+      summary.warnings.push_back(trouble);
   for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   summary.warnings.insert(summary.warnings.end(), doubts.begin(), doubts.end());
   for (const PlacedElements& placed : placed_element_sets(model.scene, model.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)
-    if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty()) summary.swings.push_back(told);
+    if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty())
+      summary.swings.push_back(told);
   summary.completed = summary.reason.empty();
   summary.time = model.time;
   summary.steps = model.step;
   summary.wall_seconds = seconds_since(began);
-  summary.watch_seconds = looks.seconds(summary.wall_seconds - summary.checkpoint_seconds, model.step - summary.first_step);
-  const double updates = static_cast<double>(model.element_count()) * static_cast<double>(model.step - summary.first_step) / model.subcycling.gain();
+  summary.watch_seconds =
+      looks.seconds(summary.wall_seconds - summary.checkpoint_seconds, model.step - summary.first_step);
+  const double updates = static_cast<double>(model.element_count()) *
+                         static_cast<double>(model.step - summary.first_step) / model.subcycling.gain();
   summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
   for (RunObserver* observer : observers) observer->end(model, summary);
   return summary;

@@ -22,7 +22,8 @@ struct RunKeeping {
 /// Ends early when interrupted (`request_stop`) or when the watch finds something fatal; the summary says which.
 /// @param settled where settled states are kept; null: nowhere
 /// @param keeping throws std::runtime_error where the state to go on from does not fit the model
-RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr, const RunKeeping& keeping = {});
+RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr,
+               const RunKeeping& keeping = {});
 
 /// Asks the running time loop to stop after the present step. Safe in a signal handler.
 void request_stop();

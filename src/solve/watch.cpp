@@ -23,16 +23,18 @@ static_assert(fewest_between_looks % (1L << (most_levels - 1)) == 0);
 constexpr double flattest_corner = 0.03;
 /// Of the whole model's deformation: parts that have less are measured by that.
 constexpr double least_share = 0.1;
-/// What a step's rounding can do to the energy given: velocities are rounded to half a unit in the last place, so that a step changes
-/// v^2 by two such halves at most; and as much again for the sums and for the work. Steps before the first count for sums.
+/// What a step's rounding can do to the energy given: velocities are rounded to half a unit in the last place, so that
+/// a step changes v^2 by two such halves at most; and as much again for the sums and for the work. Steps before the
+/// first count for sums.
 constexpr double rounding_of_step = 4 * 0.5 * std::numeric_limits<double>::epsilon();
 constexpr double steps_of_sums = 1000;
-/// The same of loads' work where nodes are in single precision: these hold what work has changed of the motion that a part began with.
+/// The same of loads' work where nodes are in single precision: these hold what work has changed of the motion that a
+/// part began with.
 constexpr double rounding_of_single_step = 4 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Strain that elements in single precision see at most where bodies travel and there is none.
 constexpr double strain_of_rounding = 8 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// Of the part (w dt)^2 of its kinetic energy, what the first steps of a body that turns by w dt in each, unsettled, can lose or make: they carry its
-/// nodes along tangents, and it rings with what that stretches.
+/// Of the part (w dt)^2 of its kinetic energy, what the first steps of a body that turns by w dt in each, unsettled,
+/// can lose or make: they carry its nodes along tangents, and it rings with what that stretches.
 constexpr double turning = 4;
 /// The angle that loads may make bodies turn by in a step: the same of their work.
 constexpr double turned_by_loads = 5e-4;
@@ -40,8 +42,8 @@ constexpr double turned_by_loads = 5e-4;
 constexpr double short_while = 1e-3;
 
 double magnitude(const EnergyAccount& energy) {
-  return std::fabs(energy.kinetic) + std::fabs(energy.internal) + std::fabs(energy.hourglass) + std::fabs(energy.contact) + std::fabs(energy.connector) +
-         std::fabs(energy.plastic);
+  return std::fabs(energy.kinetic) + std::fabs(energy.internal) + std::fabs(energy.hourglass) +
+         std::fabs(energy.contact) + std::fabs(energy.connector) + std::fabs(energy.plastic);
 }
 
 /// What is seen at an instant, without its place and causes.
@@ -56,8 +58,8 @@ Fault seen_at(const HistorySample& sample, FaultKind kind, bool fatal, double va
   return fault;
 }
 
-/// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its angular velocity, of
-/// what travels nothing.
+/// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its
+/// angular velocity, of what travels nothing.
 double largest_rate(const Model& model) {
   const auto x = to_host(model.nodes.position), v = to_host(model.nodes.velocity);
   double largest = 0;
@@ -81,12 +83,13 @@ double energy_of_rounding(const Model& model) {
   if (model.scene.solver.elements_in_single())
     for (const auto& part : model.assembly.parts)
       for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-        energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain_of_rounding * strain_of_rounding *
-                  hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+        energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain_of_rounding *
+                  strain_of_rounding * hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
   return energy;
 }
 
-/// J, elastic, of what the rounding of places strains elements by: what a scene at rest has of energies, and takes in a step.
+/// J, elastic, of what the rounding of places strains elements by: what a scene at rest has of energies, and takes in a
+/// step.
 double energy_of_rest(const Model& model) {
   double largest = 0, energy = 0;
   for (const Vec3& place : model.assembly.nodes)
@@ -119,13 +122,15 @@ void Watch::glance() {
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];
     const std::string& name = model_.scene.contacts[c].name;
-    wants_look_ = wants_look_ || (seen.at_end > model_.scene.watch.contact_edge && !knows(FaultKind::contact_edge, name)) ||
-                  (seen.outside_zone > model_.scene.watch.fine_zone && !knows(FaultKind::contact_zone, name)) || seen.lost;
+    wants_look_ =
+        wants_look_ || (seen.at_end > model_.scene.watch.contact_edge && !knows(FaultKind::contact_edge, name)) ||
+        (seen.outside_zone > model_.scene.watch.fine_zone && !knows(FaultKind::contact_zone, name)) || seen.lost;
   }
 }
 
 bool Watch::knows(FaultKind kind, const std::string& contact) const {
-  return std::any_of(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind && one.contact == contact; });
+  return std::any_of(found_.begin(), found_.end(),
+                     [&](const Fault& one) { return one.kind == kind && one.contact == contact; });
 }
 
 bool Watch::due(long step) const { return whole_due(step) || (arrays_ && energies_due(step)); }
@@ -168,8 +173,10 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   if (whole) {
     WatchMeasures now = arrays_->measure(model_);
     if (!begun_) evidence_.first = now;
-    if (finite(sample) && std::isfinite(now.speed.value)) evidence_.last = now;
-    else if (evidence_.last.speed.place < 0) evidence_.last.speed.place = now.speed.place;
+    if (finite(sample) && std::isfinite(now.speed.value))
+      evidence_.last = now;
+    else if (evidence_.last.speed.place < 0)
+      evidence_.last.speed.place = now.speed.place;
   }
   evidence_.deepest.resize(evidence_.last.penetration.size());
   for (std::size_t c = 0; c < evidence_.deepest.size(); ++c)
@@ -201,28 +208,36 @@ void Watch::look_at_beginning(const HistorySample& sample) {
     add(std::move(fault));
   }
   const Extreme worst = evidence_.worst_shape;
-  if (worst.place >= 0 && worst.value < flattest_corner) note(FaultKind::shape, false, worst.value, flattest_corner, sample, worst, true);
+  if (worst.place >= 0 && worst.value < flattest_corner)
+    note(FaultKind::shape, false, worst.value, flattest_corner, sample, worst, true);
 }
 
 void Watch::look_at_model(const HistorySample& sample) {
   const scene::Watch& limit = model_.scene.watch;
   const WatchMeasures& now = evidence_.last;
-  if (now.jacobian.place >= 0) judge(FaultKind::inversion, now.jacobian.value, {limit.volume_ratio, 0}, sample, now.jacobian, true);
-  if (now.distortion.place >= 0) judge(FaultKind::hourglass_distortion, now.distortion.value, {limit.hourglass_distortion}, sample, now.distortion, true);
+  if (now.jacobian.place >= 0)
+    judge(FaultKind::inversion, now.jacobian.value, {limit.volume_ratio, 0}, sample, now.jacobian, true);
+  if (now.distortion.place >= 0)
+    judge(FaultKind::hourglass_distortion, now.distortion.value, {limit.hourglass_distortion}, sample, now.distortion,
+          true);
   judge(FaultKind::speed, now.speed.value, {limit.speed, limit.fatal_speed}, sample, now.speed);
   for (const Extreme& one : now.penetration) judge(FaultKind::penetration, one.value, {limit.penetration}, sample, one);
-  for (const Extreme& one : now.chatter) judge(FaultKind::chatter, one.value, {static_cast<double>(limit.chatter)}, sample, one);
+  for (const Extreme& one : now.chatter)
+    judge(FaultKind::chatter, one.value, {static_cast<double>(limit.chatter)}, sample, one);
 }
 
 /// J, that rounding and the step explain of an error of the balance.
 double Watch::floor_of_error(const HistorySample& sample) const {
   const double turn = rate_at_start_ * model_.step_size, steps = steps_of_sums + static_cast<double>(sample.step);
-  double floor = given_ * (rounding_of_step * steps + turning * turn * turn) + work_ * turning * turned_by_loads * turned_by_loads;
-  if (model_.scene.solver.precision == scene::Precision::single_precision) floor += rounding_of_single_step * steps * work_;
+  double floor =
+      given_ * (rounding_of_step * steps + turning * turn * turn) + work_ * turning * turned_by_loads * turned_by_loads;
+  if (model_.scene.solver.precision == scene::Precision::single_precision)
+    floor += rounding_of_single_step * steps * work_;
   return floor + steps * energy_of_rest_ + std::min(energy_of_rounding_, rounding_of_single_step * given_);
 }
 
-/// The error against what deforms (docs/watch.md): rigid travel is in kinetic energy and in the work of loads alone, so it counts in the floor only.
+/// The error against what deforms (docs/watch.md): rigid travel is in kinetic energy and in the work of loads alone, so
+/// it counts in the floor only.
 void Watch::weigh_energies(const HistorySample& sample) {
   const EnergyAccount& energy = sample.energy;
   work_ = std::max(work_, std::fabs(energy.external_work));
@@ -231,7 +246,8 @@ void Watch::weigh_energies(const HistorySample& sample) {
   impacts_ = std::max(impacts_, energy.impacts);
   const double error = energy.balance_error + (impacts_ - energy.impacts);
   deformation_ = std::max(deformation_, deformation_energy(energy) - std::max(0.0, error));
-  const double floor = floor_of_error(sample), scale = std::max(deformation_, floor), beyond = std::max(0.0, std::fabs(error) - floor);
+  const double floor = floor_of_error(sample), scale = std::max(deformation_, floor),
+               beyond = std::max(0.0, std::fabs(error) - floor);
   share_ = scale > 0 ? beyond / scale : 0;
   blown_up_ = beyond > model_.scene.watch.fatal_energy_error * std::max(scale, given_);
   kinetic_share_ = scale > 0 ? std::max(0.0, energy.kinetic - given_ - floor) / scale : 0;
@@ -243,12 +259,14 @@ void Watch::look_at_ends(const HistorySample& sample) {
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];
     judge_contact(FaultKind::contact_edge, false, seen.at_end, limit.contact_edge, sample, c, seen.end_node, seen.end);
-    judge_contact(FaultKind::contact_zone, false, seen.outside_zone, limit.fine_zone, sample, c, seen.zone_node, seen.zone);
+    judge_contact(FaultKind::contact_zone, false, seen.outside_zone, limit.fine_zone, sample, c, seen.zone_node,
+                  seen.zone);
     if (seen.lost) judge_contact(FaultKind::contact_lost, true, 1, 0, sample, c, seen.end_node, seen.end);
   }
 }
 
-void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, std::size_t contact, int node, const std::string& told) {
+void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample,
+                          std::size_t contact, int node, const std::string& told) {
   Worst& worst = worst_[static_cast<int>(kind)];
   if (!fatal && (!worst.seen || value > worst.value)) worst = {value, limit, sample.time, true};
   const std::string& name = model_.scene.contacts[contact].name;
@@ -269,7 +287,8 @@ void Watch::look_at_energies(const HistorySample& sample) {
   judge_lasting(FaultKind::kinetic, kinetic_share_, {limit.kinetic_growth}, lasting_growth_, sample);
 }
 
-/// A node that touches first has next to nothing deformed yet, and can err by as much: what is beyond a limit counts when it has lasted.
+/// A node that touches first has next to nothing deformed yet, and can err by as much: what is beyond a limit counts
+/// when it has lasted.
 void Watch::judge_lasting(FaultKind kind, double value, Limits limits, Lasting& lasting, const HistorySample& sample) {
   const bool last = sample.step == model_.step_count;
   const auto judge_it = [&](double what) { judge(kind, what, limits, sample, evidence_.last.acceleration); };
@@ -310,13 +329,15 @@ void Watch::look_at_parts(const HistorySample& sample) {
     Extreme where;
     const auto& range = model_.assembly.parts[p];
     const int seen = evidence_.last.distortion.place;
-    where.place = seen >= range.first_element && seen < range.first_element + range.element_count ? seen : range.first_element;
-    judge(FaultKind::hourglass_share, (viscous ? parts_[p].dissipated_lately : parts_[p].stored) / deformation, {model_.scene.watch.hourglass_share}, sample,
-          where, true);
+    where.place =
+        seen >= range.first_element && seen < range.first_element + range.element_count ? seen : range.first_element;
+    judge(FaultKind::hourglass_share, (viscous ? parts_[p].dissipated_lately : parts_[p].stored) / deformation,
+          {model_.scene.watch.hourglass_share}, sample, where, true);
   }
 }
 
-void Watch::judge(FaultKind kind, double value, Limits limits, const HistorySample& sample, Extreme where, bool at_element) {
+void Watch::judge(FaultKind kind, double value, Limits limits, const HistorySample& sample, Extreme where,
+                  bool at_element) {
   const bool lower_is_worse = kind == FaultKind::inversion;
   const auto passes = [&](double limit) { return lower_is_worse ? !(value > limit) : !(value <= limit); };
   Worst& worst = worst_[static_cast<int>(kind)];
@@ -326,22 +347,29 @@ void Watch::judge(FaultKind kind, double value, Limits limits, const HistorySamp
   note(kind, fatal, value, fatal ? limits.fatal : limits.warning, sample, where, at_element);
 }
 
-void Watch::note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where, bool at_element) {
+void Watch::note(FaultKind kind, bool fatal, double value, double limit, const HistorySample& sample, Extreme where,
+                 bool at_element) {
   // What has become fatal is told anew.
   const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind; });
   if (known != found_.end() && (known->fatal || !fatal)) return;
   Fault fault = seen_at(sample, kind, fatal, value, limit);
-  if (at_element) place_at_element(fault, where.place);
-  else place_at_node(fault, where.place);
+  if (at_element)
+    place_at_element(fault, where.place);
+  else
+    place_at_node(fault, where.place);
   fault.causes = likely_causes(model_, fault, evidence_);
   add(std::move(fault));
 }
 
 void Watch::add(Fault fault) {
   new_.push_back(fault);
-  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == fault.kind && one.contact == fault.contact; });
-  if (known != found_.end()) *known = std::move(fault);
-  else found_.push_back(std::move(fault));
+  const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) {
+    return one.kind == fault.kind && one.contact == fault.contact;
+  });
+  if (known != found_.end())
+    *known = std::move(fault);
+  else
+    found_.push_back(std::move(fault));
 }
 
 void Watch::place_at_element(Fault& fault, int element) const {
@@ -383,7 +411,8 @@ std::vector<std::string> Watch::told() const {
   for (const Fault& fault : found_) {
     std::string line = "watch: " + fault.told();
     const Worst& worst = worst_[static_cast<int>(fault.kind)];
-    if (worst.seen && worst.value != fault.value) line += fmt::format(" (worst {:.4g}, at t = {:.6g} s)", worst.value, worst.time);
+    if (worst.seen && worst.value != fault.value)
+      line += fmt::format(" (worst {:.4g}, at t = {:.6g} s)", worst.value, worst.time);
     lines.push_back(std::move(line));
   }
   return lines;
@@ -392,17 +421,22 @@ std::vector<std::string> Watch::told() const {
 std::string Watch::account_told() const {
   if (!arrays_) return "energy account not judged: watch.active = false";
   // A run that something else has ended may not have waited for the error to last.
-  const double most = std::max(worst_[static_cast<int>(FaultKind::energy)].value, share_), limit = model_.scene.watch.fatal_energy_error;
-  return fmt::format("energy account {}: error at most {:.2g} of what deformation held and dissipated, limit {:g}", most > limit ? "broken" : "kept", most, limit);
+  const double most = std::max(worst_[static_cast<int>(FaultKind::energy)].value, share_),
+               limit = model_.scene.watch.fatal_energy_error;
+  return fmt::format("energy account {}: error at most {:.2g} of what deformation held and dissipated, limit {:g}",
+                     most > limit ? "broken" : "kept", most, limit);
 }
 
-std::vector<std::string> Watch::never_closed() const { return ends_ ? ends_->never_closed(model_) : std::vector<std::string>(); }
+std::vector<std::string> Watch::never_closed() const {
+  return ends_ ? ends_->never_closed(model_) : std::vector<std::string>();
+}
 
 std::string Watch::worst_told() const {
   std::string line;
   for (int kind = 0; kind < fault_kinds; ++kind)
     if (const Worst& worst = worst_[kind]; worst.seen)
-      line += fmt::format("{}{} {:.3g} ({:.3g})", line.empty() ? "" : ", ", key_of(static_cast<FaultKind>(kind)), worst.value, worst.limit);
+      line += fmt::format("{}{} {:.3g} ({:.3g})", line.empty() ? "" : ", ", key_of(static_cast<FaultKind>(kind)),
+                          worst.value, worst.limit);
   return line;
 }
 

@@ -13,7 +13,7 @@ WatchArrays::WatchArrays(const Model& model) {
   const auto& elements = model.assembly.elements;
   shapes_.count = static_cast<int>(elements.size());
   shapes_.corners = unset_array<int* [8]>("watched corners", elements.size());
-  shapes_.undeformed = unset_array<float* [ElementShapes::values]>("watched shapes", elements.size());
+  shapes_.undeformed = unset_array<float * [ElementShapes::values]>("watched shapes", elements.size());
   const auto corners = Kokkos::create_mirror_view(shapes_.corners);
   const auto undeformed = Kokkos::create_mirror_view(shapes_.undeformed);
   for (int e = 0; e < shapes_.count; ++e) {
@@ -32,11 +32,13 @@ WatchArrays::WatchArrays(const Model& model) {
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);
-  for (const ContactPair& pair : model.contacts) changes_.push_back(Array<int*>("watched contact", pair.arrays.slave_count));
+  for (const ContactPair& pair : model.contacts)
+    changes_.push_back(Array<int*>("watched contact", pair.arrays.slave_count));
 }
 
 void WatchArrays::archive(StateTaker& state) {
-  for (std::size_t c = 0; c < changes_.size(); ++c) state.values(fmt::format("watch_contact_{}", c), to_vector(changes_[c]));
+  for (std::size_t c = 0; c < changes_.size(); ++c)
+    state.values(fmt::format("watch_contact_{}", c), to_vector(changes_[c]));
 }
 
 void WatchArrays::archive(StateLayer& state) {
@@ -44,7 +46,8 @@ void WatchArrays::archive(StateLayer& state) {
     const std::string name = fmt::format("watch_contact_{}", c);
     std::vector<int> seen;
     state.values(name, seen);
-    if (seen.size() != changes_[c].extent(0)) refuse_state(name, fmt::format("has {} values, not {}", seen.size(), changes_[c].extent(0)));
+    if (seen.size() != changes_[c].extent(0))
+      refuse_state(name, fmt::format("has {} values, not {}", seen.size(), changes_[c].extent(0)));
     changes_[c] = to_device("watched contact", seen);
   }
 }
@@ -62,11 +65,12 @@ WatchMeasures WatchArrays::measure(const Model& model) const {
   });
   for (std::size_t c = 0; c < model.contacts.size(); ++c) {
     const ContactPair& pair = model.contacts[c];
-    looks.largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count, [&](const Largest<2>& of) {
-      const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
-      found.penetration.push_back({of.value[0], node(of.place[0])});
-      found.chatter.push_back({of.value[1], node(of.place[1])});
-    });
+    looks.largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count,
+                  [&](const Largest<2>& of) {
+                    const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
+                    found.penetration.push_back({of.value[0], node(of.place[0])});
+                    found.chatter.push_back({of.value[1], node(of.place[1])});
+                  });
   }
   looks.fetch();
   return found;

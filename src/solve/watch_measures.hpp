@@ -16,12 +16,12 @@ struct Extreme {
 
 /// What one look at the whole model found.
 struct WatchMeasures {
-  Extreme jacobian;                   ///< smallest over the undeformed one, 1 in the beginning; element
-  Extreme distortion;                 ///< largest hourglass mode over the size; element
-  Extreme speed;                      ///< m/s; node
-  Extreme acceleration;               ///< m/s2; node
-  std::vector<Extreme> penetration;   ///< by contact pair: over the face's size; node of the model
-  std::vector<Extreme> chatter;       ///< by contact pair: times opened and closed; node of the model
+  Extreme jacobian;                  ///< smallest over the undeformed one, 1 in the beginning; element
+  Extreme distortion;                ///< largest hourglass mode over the size; element
+  Extreme speed;                     ///< m/s; node
+  Extreme acceleration;              ///< m/s2; node
+  std::vector<Extreme> penetration;  ///< by contact pair: over the face's size; node of the model
+  std::vector<Extreme> chatter;      ///< by contact pair: times opened and closed; node of the model
 };
 
 /// The device arrays of the watch, and the reductions over them: a few launches a look, none in a step.

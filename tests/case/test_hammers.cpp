@@ -76,7 +76,8 @@ TEST_CASE("a row of probes becomes numbered sets, one probe a set of its name, a
 
 TEST_CASE("a hammer may strike what a track makes, with the hourglass control that the track has", "[case]") {
   TemporaryCase file(
-      "[tracks.track]\nstart = -3\nend = 3\nhourglass = \"stiffness\"\n[hammers.blow]\npart = \"track_rail\"\nposition = [0, 0, 0.16]\npeak = "
+      "[tracks.track]\nstart = -3\nend = 3\nhourglass = \"stiffness\"\n[hammers.blow]\npart = \"track_rail\"\nposition "
+      "= [0, 0, 0.16]\npeak = "
       "1\nduration = 2e-4\n[time]\nend = 1e-3\n");
   const auto scene = read_case(file.path());
   CHECK(scene.loads.at(0).target == "track_rail.blow");

@@ -23,9 +23,12 @@ TEST_CASE("numbers of bytes are told for people", "[case]") {
 }
 
 TEST_CASE("what Kokkos could not have is told in words of ours, whatever its version", "[case]") {
-  const std::string older = "Kokkos failed to allocate memory for label \"position\".  Allocation using MemorySpace named \"Host\" failed with the "
-                            "following error:  Allocation of size 3.725 G failed, likely due to insufficient memory.";
-  const std::string later = "Kokkos ERROR: Cuda memory space failed to allocate 39.55 MiB (label=\"tangent corner force\").";
+  const std::string older =
+      "Kokkos failed to allocate memory for label \"position\".  Allocation using MemorySpace named \"Host\" failed "
+      "with the "
+      "following error:  Allocation of size 3.725 G failed, likely due to insufficient memory.";
+  const std::string later =
+      "Kokkos ERROR: Cuda memory space failed to allocate 39.55 MiB (label=\"tangent corner force\").";
   CHECK(is_refusal_of_kokkos(older.c_str()));
   CHECK(is_refusal_of_kokkos(later.c_str()));
   CHECK_FALSE(is_refusal_of_kokkos("Kokkos ERROR: a view was used after its end"));
@@ -37,8 +40,9 @@ TEST_CASE("what Kokkos could not have is told in words of ours, whatever its ver
 TEST_CASE("what needs more memory than there is is refused with both figures", "[case]") {
   CHECK_NOTHROW(expect_memory(1e9, "reading it needs", "split it", 1e9));
   CHECK_NOTHROW(expect_memory(1e30, "reading it needs", "split it", std::numeric_limits<double>::infinity()));
-  CHECK_THROWS_WITH(expect_memory(3.2e12, "a.inp: reading it needs", "split it", 22e9),
-                    Equals("a.inp: reading it needs about 3.2 TB of memory, but this machine has 22 GB left; split it"));
+  CHECK_THROWS_WITH(
+      expect_memory(3.2e12, "a.inp: reading it needs", "split it", 22e9),
+      Equals("a.inp: reading it needs about 3.2 TB of memory, but this machine has 22 GB left; split it"));
 }
 
 TEST_CASE("the memory that is left is known, and a limit set for the process counts", "[case]") {

@@ -524,8 +524,11 @@ TEST_CASE("an override can mend a mistake of the file", "[case]") {
 
 TEST_CASE("a contact's master is one surface or several") {
   const auto masters = [](const std::string& written) {
-    const TemporaryCase file(small_case + "[parts.other]\nmesh = \"cube\"\nmaterial = \"steel\"\n[parts.third]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
-                                          "[contacts.touch]\nslave = \"cube.z_min\"\nmaster = " + written + "\n");
+    const TemporaryCase file(
+        small_case +
+        "[parts.other]\nmesh = \"cube\"\nmaterial = \"steel\"\n[parts.third]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
+        "[contacts.touch]\nslave = \"cube.z_min\"\nmaster = " +
+        written + "\n");
     return read_case(file.path()).contacts.at(0).master;
   };
   CHECK(masters("\"other.z_max\"") == "other.z_max");

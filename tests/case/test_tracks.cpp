@@ -87,9 +87,11 @@ TEST_CASE("two timber sleepers stand 0.24 m apart at a joint, and regular ones g
 }
 
 TEST_CASE("sleepers stand where the case puts them, of the kinds that it names", "[case]") {
-  TemporaryCase file("[sleepers.twin]\nbase = \"concrete\"\nhalf_length = 0.84\nballast_stiffness = 30e6\nmaterial = \"hard\"\n"
-                     "[materials.hard]\nyoungs_modulus = 40e9\npoissons_ratio = 0.2\ndensity = 2400\n" +
-                     track_case("sleeper = \"twin\"\npositions = [1.2, -1, 0.1]\nother_positions = [2]\ninclination = -0.025\nposition = [10, 0, 0]"));
+  TemporaryCase file(
+      "[sleepers.twin]\nbase = \"concrete\"\nhalf_length = 0.84\nballast_stiffness = 30e6\nmaterial = \"hard\"\n"
+      "[materials.hard]\nyoungs_modulus = 40e9\npoissons_ratio = 0.2\ndensity = 2400\n" +
+      track_case("sleeper = \"twin\"\npositions = [1.2, -1, 0.1]\nother_positions = [2]\ninclination = "
+                 "-0.025\nposition = [10, 0, 0]"));
   const auto scene = read_case(file.path());
   CHECK_THAT(named(scene.parts, "track_sleeper_1").position[0], WithinAbs(9, 1e-12));
   CHECK(named(scene.parts, "track_sleeper_3").material == "hard");
@@ -103,18 +105,24 @@ TEST_CASE("sleepers stand where the case puts them, of the kinds that it names",
 }
 
 TEST_CASE("names that a track makes can be used, and may not be taken", "[case]") {
-  const std::string load = "[loads.weight]\ntype = \"nodal_force\"\ntarget = \"track_rail.end\"\nforce = [0, 0, -1]\n"
-                           "[node_sets.seat]\npart = \"track_sleeper_2\"\nsurface = \"z_max\"\nbox = [[-9, -0.1, -9], [9, 0.1, 9]]\n";
+  const std::string load =
+      "[loads.weight]\ntype = \"nodal_force\"\ntarget = \"track_rail.end\"\nforce = [0, 0, -1]\n"
+      "[node_sets.seat]\npart = \"track_sleeper_2\"\nsurface = \"z_max\"\nbox = [[-9, -0.1, -9], [9, 0.1, 9]]\n";
   TemporaryCase good(load + track_case(""));
   CHECK(mistakes_of(good.path()).empty());
-  TemporaryCase taken("[parts.track_sleeper_2]\nmesh = \"track_concrete\"\nmaterial = \"track_concrete\"\n" + track_case(""));
-  CHECK(mistakes_of(taken.path()).find("[tracks.track]: makes [parts.track_sleeper_2], which is there already (line 1); rename one") != std::string::npos);
+  TemporaryCase taken("[parts.track_sleeper_2]\nmesh = \"track_concrete\"\nmaterial = \"track_concrete\"\n" +
+                      track_case(""));
+  CHECK(mistakes_of(taken.path())
+            .find("[tracks.track]: makes [parts.track_sleeper_2], which is there already (line 1); rename one") !=
+        std::string::npos);
   TemporaryCase lost(track_case("first_sleeper = 20"));
   CHECK(mistakes_of(lost.path()).find("[tracks.track]: has no sleeper under its rail") != std::string::npos);
 }
 
-TEST_CASE("a joint is two fishplates on both rails, and bolts between points with heads spread over the plates", "[case]") {
-  const std::string joint = "gap_position = 0.06\nzone_end = 0.2\nfishplates = true\nposition = [10, 1, 2]\ninclination = 0\n";
+TEST_CASE("a joint is two fishplates on both rails, and bolts between points with heads spread over the plates",
+          "[case]") {
+  const std::string joint =
+      "gap_position = 0.06\nzone_end = 0.2\nfishplates = true\nposition = [10, 1, 2]\ninclination = 0\n";
   TemporaryCase file(track_case(joint + "bolt_positions = [-0.1, 0.15]\nfishplate_clearance = 0.001\n"));
   const auto scene = read_case(file.path());
   const auto& right = named(scene.meshes, "track_fishplate_right").fishplate;
@@ -134,7 +142,8 @@ TEST_CASE("a joint is two fishplates on both rails, and bolts between points wit
   CHECK(bolt.from == "track_bolt_2_left");
   CHECK(*bolt.pretension == 12.5e3);
   CHECK(bolt.radius == 0.012);
-  const auto &a = named(scene.points, "track_bolt_2_left").position, &b = named(scene.points, "track_bolt_2_right").position;
+  const auto &a = named(scene.points, "track_bolt_2_left").position,
+             &b = named(scene.points, "track_bolt_2_right").position;
   CHECK_THAT(a[0], WithinAbs(10.21, 1e-12));
   CHECK_THAT(a[2], WithinAbs(2.07, 1e-12));
   CHECK_THAT(0.5 * (a[1] + b[1]), WithinAbs(1, 1e-12));
@@ -166,14 +175,16 @@ TEST_CASE("a joint's mistakes are told with what would do", "[case]") {
   says(mistakes(joint + "bolt_positions = [0.01, 0.2]"), "bolt_positions: has 0.01, must be 0.015 to 0.276 m away");
   says(mistakes(joint + "fishplate_length = 8"), "fishplate_length: is 8, so that the plates reach from");
   says(mistakes(joint + "path_size = 0.003"), "path_size: has no effect without path_start");
-  TemporaryCase box("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\ngap_start = 0\n" + track_case(""));
+  TemporaryCase box("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\ngap_start = 0\n" +
+                    track_case(""));
   says(mistakes_of(box.path()), "gap_end: is missing");
   TemporaryCase other("[meshes.b]\ntype = \"box\"\n[meshes.p]\ntype = \"fishplate\"\nrail = \"b\"\n" + track_case(""));
   says(mistakes_of(other.path()), "[meshes.p] rail: 'b' is no mesh of type \"rail\"");
 }
 
 TEST_CASE("a mirrored track has the same parts, mirrored, and the same connectors and constraints", "[case]") {
-  TemporaryCase plain(track_case("position = [0, 0.756, 0]\n")), mirrored(track_case("position = [0, -0.756, 0]\nmirror = true\n"));
+  TemporaryCase plain(track_case("position = [0, 0.756, 0]\n")),
+      mirrored(track_case("position = [0, -0.756, 0]\nmirror = true\n"));
   const auto left = read_case(plain.path()), right = read_case(mirrored.path());
   REQUIRE(left.parts.size() == right.parts.size());
   for (std::size_t k = 0; k < left.parts.size(); ++k) {
@@ -184,7 +195,8 @@ TEST_CASE("a mirrored track has the same parts, mirrored, and the same connector
     CHECK(right.parts[k].mesh == left.parts[k].mesh);
   }
   // The mirrored sleeper's y_min is the side that looks to the centre of the track, at y = 0.
-  for (std::size_t k = 0; k < left.constraints.size(); ++k) CHECK(right.constraints[k].target == left.constraints[k].target);
+  for (std::size_t k = 0; k < left.constraints.size(); ++k)
+    CHECK(right.constraints[k].target == left.constraints[k].target);
   for (std::size_t k = 0; k < left.connectors.size(); ++k) {
     CHECK(right.connectors[k].stiffness == left.connectors[k].stiffness);
     CHECK(right.connectors[k].area == left.connectors[k].area);
@@ -192,7 +204,8 @@ TEST_CASE("a mirrored track has the same parts, mirrored, and the same connector
 }
 
 TEST_CASE("a solid pad is tied to foot and sleeper; springs beside it have what its shear lacks", "[case]") {
-  TemporaryCase file("[sleepers.concrete]\npad = \"solid\"\n" + track_case("position = [10, 0, 0]\ngap_position = 0.06\nzone_end = 0.2\nfirst_sleeper = -3"));
+  TemporaryCase file("[sleepers.concrete]\npad = \"solid\"\n" +
+                     track_case("position = [10, 0, 0]\ngap_position = 0.06\nzone_end = 0.2\nfirst_sleeper = -3"));
   const auto scene = read_case(file.path());
   const auto& pad = named(scene.parts, "track_pad_6");
   CHECK(pad.position == scene::Vec3{10, 0, 0});
@@ -220,7 +233,9 @@ TEST_CASE("a solid pad is tied to foot and sleeper; springs beside it have what 
 }
 
 TEST_CASE("a solid pad of a modulus of its own has clips only where they are given", "[case]") {
-  const std::string pad = "[sleepers.concrete]\npad = \"solid\"\npad_modulus = 5e7\npad_poissons_ratio = 0.45\npad_density = 1200\npad_layers = 4\n";
+  const std::string pad =
+      "[sleepers.concrete]\npad = \"solid\"\npad_modulus = 5e7\npad_poissons_ratio = 0.45\npad_density = "
+      "1200\npad_layers = 4\n";
   TemporaryCase file(pad + track_case(""));
   const auto scene = read_case(file.path());
   CHECK(scene.connectors.size() == 10);  // ballast
@@ -247,7 +262,8 @@ TEST_CASE("the stiffness of a bonded layer between its limits", "[case]") {
 
 TEST_CASE("a whole track has whole sleepers, and the other rail mirrored at the centre plane", "[case]") {
   for (bool mirrored : {false, true}) {
-    TemporaryCase file(track_case(std::string("both_rails = true\nposition = [10, 2, 3]\n") + (mirrored ? "mirror = true\n" : "")));
+    TemporaryCase file(
+        track_case(std::string("both_rails = true\nposition = [10, 2, 3]\n") + (mirrored ? "mirror = true\n" : "")));
     const auto scene = read_case(file.path());
     REQUIRE(scene.parts.size() == 12);
     const auto& far = named(scene.parts, "track_far_rail");
@@ -268,7 +284,8 @@ TEST_CASE("a whole track has whole sleepers, and the other rail mirrored at the 
     REQUIRE(scene.node_sets.size() == 10);
     CHECK_THAT((*scene.node_sets[1].box)[0][1], WithinAbs(2 + (mirrored ? 0.755 : -0.755), 1e-5));
   }
-  TemporaryCase free("[sleepers.concrete]\nballast_lateral_stiffness = 2e7\npad = \"solid\"\n" + track_case("both_rails = true"));
+  TemporaryCase free("[sleepers.concrete]\nballast_lateral_stiffness = 2e7\npad = \"solid\"\n" +
+                     track_case("both_rails = true"));
   const auto scene = read_case(free.path());
   CHECK(scene.constraints.size() == 10);  // beds
   CHECK(named(scene.connectors, "track_ballast_1").stiffness == scene::Vec3{0, 4e7, 90e6});

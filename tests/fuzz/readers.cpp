@@ -85,10 +85,11 @@ void feed_tables(std::string_view bytes) {
   } catch (const InputError& error) {
     check_message(error.what(), path);
   }
-  static const std::string user = folder().write("table.toml",
-                                                 "[materials.m]\nyoungs_modulus = 1\npoissons_ratio = 0\ndensity = 1\n[meshes.m]\n"
-                                                 "type = \"box\"\n[parts.m]\nmesh = \"m\"\nmaterial = \"m\"\n[time]\nend = 1\n"
-                                                 "[curves.c]\ntype = \"table\"\nfile = \"table.csv\"\n");
+  static const std::string user =
+      folder().write("table.toml",
+                     "[materials.m]\nyoungs_modulus = 1\npoissons_ratio = 0\ndensity = 1\n[meshes.m]\n"
+                     "type = \"box\"\n[parts.m]\nmesh = \"m\"\nmaterial = \"m\"\n[time]\nend = 1\n"
+                     "[curves.c]\ntype = \"table\"\nfile = \"table.csv\"\n");
   try {
     read_case(user);
   } catch (const InputError&) {

@@ -4,8 +4,9 @@
 #include <string_view>
 #include <vector>
 
-// The readers of users' files as functions of bytes, for libFuzzer (libfuzzer/) and for test_readers.cpp, which feeds them what
-// libFuzzer has found. A file that is refused with an InputError, or read, is fine; every other exception goes on to the caller.
+// The readers of users' files as functions of bytes, for libFuzzer (libfuzzer/) and for test_readers.cpp, which feeds
+// them what libFuzzer has found. A file that is refused with an InputError, or read, is fine; every other exception
+// goes on to the caller.
 namespace railwave::fuzz {
 
 struct Reader {

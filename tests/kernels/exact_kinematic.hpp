@@ -7,9 +7,9 @@
 
 namespace railwave {
 
-/// Mixed hardening at finite strain in extended precision, by spectral decompositions: exact logarithm of the trial b_e,
-/// return along s - b, exponential back. Keeps the inverse plastic metric, and the back stress in axes turned back by the
-/// rotation of F. Shares nothing with the kernel but the constants.
+/// Mixed hardening at finite strain in extended precision, by spectral decompositions: exact logarithm of the trial
+/// b_e, return along s - b, exponential back. Keeps the inverse plastic metric, and the back stress in axes turned back
+/// by the rotation of F. Shares nothing with the kernel but the constants.
 struct ExactKinematic {
   using Real = long double;
   using Tensor = Eigen::Matrix<Real, 3, 3>;

@@ -10,8 +10,8 @@ namespace railwave {
 
 using Matrix = Eigen::Matrix3d;
 
-/// Finite strain, by spectral decomposition: exact logarithms of the trial b_e, return in principal stresses, exponentials
-/// back; keeps the inverse plastic metric.
+/// Finite strain, by spectral decomposition: exact logarithms of the trial b_e, return in principal stresses,
+/// exponentials back; keeps the inverse plastic metric.
 struct SpectralPlasticity {
   BilinearConstants constants;
   Matrix inverse_metric = Matrix::Identity();  ///< (F_p^T F_p)^-1
@@ -38,8 +38,8 @@ struct SpectralPlasticity {
   }
 };
 
-/// Small strain, rate equations of flow with linear hardening integrated by Runge-Kutta's fourth order between two strains
-/// along a straight line. `stress` is the deviator.
+/// Small strain, rate equations of flow with linear hardening integrated by Runge-Kutta's fourth order between two
+/// strains along a straight line. `stress` is the deviator.
 struct RatePlasticity {
   BilinearConstants constants;
   Matrix stress = Matrix::Zero();

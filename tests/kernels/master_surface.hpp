@@ -13,7 +13,8 @@ using Point = std::array<double, 3>;
 using Quad = std::array<int, 4>;
 
 /// A master surface of its own, every node a master node, at rest.
-inline ContactSearch search_on(const std::vector<Point>& nodes, const std::vector<Quad>& quads, double widest_mouth = 0) {
+inline ContactSearch search_on(const std::vector<Point>& nodes, const std::vector<Quad>& quads,
+                               double widest_mouth = 0) {
   std::vector<int> first(nodes.size() + 1, 0), around, identity;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     identity.push_back(static_cast<int>(n));

@@ -14,7 +14,7 @@ namespace {
 /// One element from the origin along an oblique axis, far from its place and shape at the start.
 struct Element {
   BeamArrays beams;
-  Array<double* [3]> position{"position", 2}, contribution{"contribution", 2};
+  Array<double*[3]> position { "position", 2 }, contribution{"contribution", 2};
 
   Element() {
     beams.count = 1;
@@ -107,7 +107,8 @@ TEST_CASE("a beam, with a pretension held or not, leaves no resultant force and 
   }
 }
 
-TEST_CASE("a beam's springs answer small motions as its forces do, where it is free of stress and wherever it has turned") {
+TEST_CASE(
+    "a beam's springs answer small motions as its forces do, where it is free of stress and wherever it has turned") {
   if constexpr (on_device) SKIP("works on host arrays");
   Element element;
   element.beams.stretch(0) = 0;
@@ -118,7 +119,8 @@ TEST_CASE("a beam's springs answer small motions as its forces do, where it is f
     const Vector3 x = n == 0 ? Vector3{{0, 0, 0}} : turned(turn_about(angle), 0.8 * along);
     for (int i = 0; i < 3; ++i) element.position(n, i) = 3 + x[i];
   }
-  const BeamTangent tangent{element.beams, element.position, false, Array<double* [8][4][3]>("share", 1), Array<double* [8]>("stiffness", 1)};
+  const BeamTangent tangent{element.beams, element.position, false, Array<double* [8][4][3]>("share", 1),
+                            Array<double* [8]>("stiffness", 1)};
   tangent(0);
   for (int s : {6, 7}) CHECK_THAT(tangent.stiffness(0, s), WithinAbs(0, 1e-12));
   const auto forces = [&](int row, int i) {
@@ -128,8 +130,10 @@ TEST_CASE("a beam's springs answer small motions as its forces do, where it is f
   const auto move = [&](int row, int i, double h) {
     Vector3 by{{0, 0, 0}};
     by[i] = h;
-    if (row < 2) element.position(row, i) += h;
-    else element.turn(row - 2, by);
+    if (row < 2)
+      element.position(row, i) += h;
+    else
+      element.turn(row - 2, by);
   };
   const double h = 1e-5;
   for (int column = 0; column < 4; ++column)
@@ -137,7 +141,8 @@ TEST_CASE("a beam's springs answer small motions as its forces do, where it is f
       for (int row = 0; row < 4; ++row)
         for (int i = 0; i < 3; ++i) {
           double stiffness = 0;
-          for (int s = 0; s < 8; ++s) stiffness += tangent.stiffness(0, s) * tangent.share(0, s, row, i) * tangent.share(0, s, column, j);
+          for (int s = 0; s < 8; ++s)
+            stiffness += tangent.stiffness(0, s) * tangent.share(0, s, row, i) * tangent.share(0, s, column, j);
           move(column, j, h);
           const double ahead = forces(row, i);
           move(column, j, -2 * h);
@@ -150,7 +155,8 @@ TEST_CASE("a beam's springs answer small motions as its forces do, where it is f
 TEST_CASE("turns follow each other as rotation matrices do") {
   const Quaternion a = turn_about({{0.3, -1, 2}}), b = turn_about({{-2, 0.5, 0.1}});
   const Vector3 x{{1, 2, -3}};
-  const Vector3 one_by_one = turned(a, turned(b, x)), at_once = turned(a * b, x), back = turned(reversed(a), turned(a, x));
+  const Vector3 one_by_one = turned(a, turned(b, x)), at_once = turned(a * b, x),
+                back = turned(reversed(a), turned(a, x));
   for (int i = 0; i < 3; ++i) {
     CHECK_THAT(at_once[i], WithinAbs(one_by_one[i], 1e-14));
     CHECK_THAT(back[i], WithinAbs(x[i], 1e-14));

@@ -52,8 +52,10 @@ struct FollowPath {
       almansi_strain<S>(H, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
-      if (plastic) material.template stress<S>(patch, batch, H, e, tau);
-      else Elastic::stress<S>(patch.constants.elastic, batch, H, e, tau);
+      if (plastic)
+        material.template stress<S>(patch, batch, H, e, tau);
+      else
+        Elastic::stress<S>(patch.constants.elastic, batch, H, e, tau);
       for (int c = 0; c < 6; ++c) store<S>(stress.data() + (6l * k + c) * tile_width<S>, tau[c]);
     }
   }
@@ -64,7 +66,8 @@ double lane_share(int lane, int lanes, double least) { return 1 - (1 - least) * 
 
 /// Kirchhoff stresses along a path of deformation gradients.
 template <class S = double>
-std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& path, bool plastic = true, double least_share = 1) {
+std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& path, bool plastic = true,
+                           double least_share = 1) {
   Array<double* [3][3]> gradient("path", path.size());
   const auto host = Kokkos::create_mirror_view(gradient);
   for (std::size_t k = 0; k < path.size(); ++k) {
@@ -76,13 +79,15 @@ std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& pa
   const Array<S*> stress("stress", 6 * tile_width<S> * path.size());
   const Array<S*> share("share", tile_width<S>);
   const auto shares = Kokkos::create_mirror_view(share);
-  for (int lane = 0; lane < tile_width<S>; ++lane) shares(lane) = static_cast<S>(lane_share(lane, tile_width<S>, least_share));
+  for (int lane = 0; lane < tile_width<S>; ++lane)
+    shares(lane) = static_cast<S>(lane_share(lane, tile_width<S>, least_share));
   Kokkos::deep_copy(share, shares);
   Bilinear::OfPatch<S> patch;
   patch.constants = element.constants;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(element.turn(i, j));
-  Kokkos::parallel_for("follow_path", Range(0, 1), FollowPath<S>{{{}, element.history}, patch, plastic, gradient, share, stress});
+  Kokkos::parallel_for("follow_path", Range(0, 1),
+                       FollowPath<S>{{{}, element.history}, patch, plastic, gradient, share, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());
@@ -113,9 +118,7 @@ Matrix turn(double angle, const Eigen::Vector3d& axis) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
 
-double mises(const Matrix& tau) {
-  return std::sqrt(1.5) * (tau - Matrix::Identity() * tau.trace() / 3).norm();
-}
+double mises(const Matrix& tau) { return std::sqrt(1.5) * (tau - Matrix::Identity() * tau.trace() / 3).norm(); }
 
 using Motion = std::function<Matrix(double)>;
 
@@ -125,7 +128,9 @@ std::vector<Matrix> sampled(const Motion& motion, int steps) {
   return path;
 }
 
-Matrix stretch(double a, double b, double c) { return Eigen::Vector3d(std::exp(a), std::exp(b), std::exp(c)).asDiagonal(); }
+Matrix stretch(double a, double b, double c) {
+  return Eigen::Vector3d(std::exp(a), std::exp(b), std::exp(c)).asDiagonal();
+}
 
 Matrix shear(double angle) {
   Matrix F = Matrix::Identity();
@@ -139,8 +144,8 @@ Matrix winding(double t) {
   return shear(0.03 * std::sin(phase)) * stretch(a, b, 0.002 * t - a - b);
 }
 
-/// The kernel's series in the elastic strain e, overshoot of a step included, leaves out 4/3 e^2 of the stress and 4 e^2 of
-/// the flow.
+/// The kernel's series in the elastic strain e, overshoot of a step included, leaves out 4/3 e^2 of the stress and 4
+/// e^2 of the flow.
 double series_error(double elastic_strain) { return 6 * elastic_strain * elastic_strain; }
 
 /// Checks stress and equivalent plastic strain along a path against the spectral reference.
@@ -192,7 +197,8 @@ TEST_CASE("under uniaxial stress the material follows its two slopes, forth and 
     const Matrix expected = Eigen::Vector3d(exact[k], 0, 0).asDiagonal();
     worst = std::max(worst, (stress[k] - expected).norm() / yield_stress);
   }
-  const double flow_stress = yield_stress + constants.hardening * equivalent, share = series_error(flow_stress / youngs_modulus);
+  const double flow_stress = yield_stress + constants.hardening * equivalent,
+               share = series_error(flow_stress / youngs_modulus);
   CHECK(worst < share * flow_stress / yield_stress);
   CHECK_THAT(history_of(bilinear)[6], WithinRel(equivalent, share));
   // The slope beyond yield is the tangent modulus.
@@ -210,7 +216,8 @@ TEST_CASE("pure shear strain far beyond yield follows the exact law, without har
       const double strain = 2 / std::sqrt(3.0) * 0.5 * k / steps, mu = constants.elastic.mu;
       const double plastic = std::max(0.0, (3 * mu * strain - yield_stress) / (3 * mu + constants.hardening));
       const double exact = 3 * mu * (strain - plastic);
-      worst = std::max(worst, std::fabs(mises(stress[k - 1]) / exact - 1) / series_error(strain - plastic + 0.6 / steps));
+      worst =
+          std::max(worst, std::fabs(mises(stress[k - 1]) / exact - 1) / series_error(strain - plastic + 0.6 / steps));
     }
     CHECK(worst < 1);
     CHECK_THAT(plastic_volume(bilinear), WithinAbs(1, 1e-12));
@@ -271,13 +278,18 @@ TEST_CASE("a turning body has the same stress, turned") {
 }
 
 TEST_CASE("below yield the stress is the elastic material's") {
-  const auto path = sampled([](double t) { return Matrix(turn(3 * t, {1, 1, 2}) * shear(0.002 * t) * stretch(0.001 * t, 0, 0)); }, 500);
+  const auto path = sampled(
+      [](double t) {
+        return Matrix(turn(3 * t, {1, 1, 2}) * shear(0.002 * t) * stretch(0.001 * t, 0, 0));
+      },
+      500);
   const BilinearConstants constants = steel(5e9);
   const Element bilinear = material(constants);
   const auto plastic = follow(bilinear, path), elastic = follow(bilinear, path, false);
   // Bit by bit but where a compiler fuses multiplications and additions differently in the two.
   double worst = 0;
-  for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (plastic[k] - elastic[k]).norm() / elastic[k].norm());
+  for (std::size_t k = 0; k < path.size(); ++k)
+    worst = std::max(worst, (plastic[k] - elastic[k]).norm() / elastic[k].norm());
   CHECK(worst < 1e-15);
   CHECK(mises(plastic.back()) < yield_stress);
   CHECK(history_of(bilinear) == std::vector<double>(7, 0.0));
@@ -288,7 +300,8 @@ TEST_CASE("a hundred thousand yielding steps end where a few end") {
   const Motion straight = [](double t) { return stretch(0.3 * t, -0.2 * t, -0.1 * t); };
   // The direction is fixed, so the law can be written down: the strain's own measure less the elastic part.
   const Eigen::Vector3d strain(0.3, -0.2, -0.1);
-  const double elastic = yield_stress / (3 * constants.elastic.mu), exact = std::sqrt(2.0 / 3.0) * strain.norm() - elastic;
+  const double elastic = yield_stress / (3 * constants.elastic.mu),
+               exact = std::sqrt(2.0 / 3.0) * strain.norm() - elastic;
   const Matrix exact_stress = (std::sqrt(2.0 / 3.0) * yield_stress / strain.norm() * strain).asDiagonal();
   for (const int steps : {1000, 100000}) {
     const Element bilinear = material(constants);
@@ -317,7 +330,8 @@ TEST_CASE("a hundred thousand steps around a loop do not ratchet the pressure") 
   const Element bilinear = material(steel(0));
   const Motion loop = [](double t) {
     const double phase = 2 * M_PI * 100 * t;
-    return Matrix(turn(20 * t, {0, 1, 0}) * shear(0.01 * std::sin(phase)) * stretch(0.004 * std::cos(phase), -0.004 * std::cos(phase), 0));
+    return Matrix(turn(20 * t, {0, 1, 0}) * shear(0.01 * std::sin(phase)) *
+                  stretch(0.004 * std::cos(phase), -0.004 * std::cos(phase), 0));
   };
   const auto path = sampled(loop, 100000);
   const auto stress = follow(bilinear, path);
@@ -399,7 +413,8 @@ TEST_CASE("each lane flows by itself") {
   for (int lane = 0; lane < lane_count<double>; ++lane) {
     const double share = lane_share(lane, lanes, 0);
     std::vector<Matrix> alone_path;
-    for (const Matrix& F : path) alone_path.push_back((Matrix::Identity() - share * (Matrix::Identity() - F.inverse())).inverse());
+    for (const Matrix& F : path)
+      alone_path.push_back((Matrix::Identity() - share * (Matrix::Identity() - F.inverse())).inverse());
     const Element alone = material(constants);
     follow<double>(alone, alone_path);
     const auto host = Kokkos::create_mirror_view(batch.history);
@@ -408,6 +423,7 @@ TEST_CASE("each lane flows by itself") {
       INFO("lane " << lane << ", value " << c);
       CHECK_THAT(host(c * lanes + lane), WithinAbs(history_of(alone)[c], 1e-14));
     }
-    if (share * 0.02 / std::sqrt(3.0) < 0.9 * yield_stress / (3 * constants.elastic.mu)) CHECK(history_of(alone)[6] == 0);
+    if (share * 0.02 / std::sqrt(3.0) < 0.9 * yield_stress / (3 * constants.elastic.mu))
+      CHECK(history_of(alone)[6] == 0);
   }
 }

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <algorithm>
 #include <random>
 
 #include "kernels/contact_normals.hpp"
@@ -16,7 +16,8 @@ ContactSearch ring(int facets, double angle) {
   std::vector<Point> nodes;
   std::vector<Quad> quads;
   for (int i = 0; i <= facets; ++i)
-    for (double y : {-0.1, 0.0, 0.1}) nodes.push_back({std::sin((i - 0.5 * facets) * angle), y, std::cos((i - 0.5 * facets) * angle)});
+    for (double y : {-0.1, 0.0, 0.1})
+      nodes.push_back({std::sin((i - 0.5 * facets) * angle), y, std::cos((i - 0.5 * facets) * angle)});
   for (int i = 0; i < facets; ++i)
     for (int j = 0; j < 2; ++j) quads.push_back({3 * i + j, 3 * i + 3 + j, 3 * i + 4 + j, 3 * i + 1 + j});
   return search_on(nodes, quads);
@@ -39,7 +40,8 @@ struct Look {
 
 std::vector<Both> look(const ContactSearch& search, const std::vector<Point>& places) {
   const Array<Both*> found("found", places.size());
-  Kokkos::parallel_for("look", Range(0, static_cast<int>(places.size())), Look{search, to_device("places", places), found});
+  Kokkos::parallel_for("look", Range(0, static_cast<int>(places.size())),
+                       Look{search, to_device("places", places), found});
   const auto host = to_host(found);
   return {host.data(), host.data() + places.size()};
 }
@@ -70,7 +72,8 @@ TEST_CASE("smooth normals make a circle of facets, and the forces lie in one lin
     largest_turn = std::max(largest_turn, norm(p.normal - radial));
     largest_aside = std::max(largest_aside, norm(p.offset - dot(p.offset, p.normal) * p.normal));
   }
-  INFO("gap off by " << largest_gap << ", of the facets by " << facet_gap << ", normal by " << largest_turn << ", offset aside by " << largest_aside);
+  INFO("gap off by " << largest_gap << ", of the facets by " << facet_gap << ", normal by " << largest_turn
+                     << ", offset aside by " << largest_aside);
   CHECK(facet_gap > 0.9 * sagitta);
   CHECK(largest_gap < 2e-3 * sagitta);
   CHECK(largest_turn < 1e-4);
@@ -112,7 +115,9 @@ struct WorkOfShares {
   KOKKOS_INLINE_FUNCTION void corners(const Vector3 (&share)[4]) const {
     for (int k = 0; k < 4; ++k) *sum += dot(share[k], row(moved, segment.node[k]));
   }
-  KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const { *sum += dot(share, row(moved, plus) - row(moved, minus)); }
+  KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const {
+    *sum += dot(share, row(moved, plus) - row(moved, minus));
+  }
 };
 
 struct Shared {
@@ -130,15 +135,18 @@ struct Share {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const Projection& p = found(i).smooth;
     Shared shared{0, SmoothNormals::carried(search, p.segment, p.place, moved)};
-    SmoothNormals::reaction(search, p.segment, p.place, along_normal ? p.normal : force, WorkOfShares{search.contact.surface(p.segment), moved, &shared.work});
+    SmoothNormals::reaction(search, p.segment, p.place, along_normal ? p.normal : force,
+                            WorkOfShares{search.contact.surface(p.segment), moved, &shared.work});
     result(i) = shared;
   }
 };
 
-std::vector<Shared> share(const ContactSearch& search, const std::vector<Both>& found, const std::vector<Point>& moved, const Vector3* force) {
+std::vector<Shared> share(const ContactSearch& search, const std::vector<Both>& found, const std::vector<Point>& moved,
+                          const Vector3* force) {
   const Array<Shared*> result("shared", found.size());
   Kokkos::parallel_for("share", Range(0, static_cast<int>(found.size())),
-                       Share{search, to_device("found", found), force ? *force : Vector3{}, force == nullptr, to_device("moved", moved), result});
+                       Share{search, to_device("found", found), force ? *force : Vector3{}, force == nullptr,
+                             to_device("moved", moved), result});
   const auto host = to_host(result);
   return {host.data(), host.data() + found.size()};
 }
@@ -166,7 +174,8 @@ struct Hills {
 
 }  // namespace
 
-TEST_CASE("on curved segments a contact's forces are the gradient of its gap, and balance in sum and in moment", "[contact]") {
+TEST_CASE("on curved segments a contact's forces are the gradient of its gap, and balance in sum and in moment",
+          "[contact]") {
   for (unsigned seed = 1; seed <= 4; ++seed) {
     const Hills hills(seed);
     std::mt19937 random(100 + seed);
@@ -193,8 +202,10 @@ TEST_CASE("on curved segments a contact's forces are the gradient of its gap, an
     int compared = 0;
     for (std::size_t i = 0; i < slaves.size(); ++i) {
       const Projection& p = found[i].smooth;
-      // Between segments the normal jumps by what hills of so few facets leave: not where the place changes its segment, nor at its sides.
-      if (ahead[i].smooth.segment != p.segment || behind[i].smooth.segment != p.segment || p.place.outside() > -1e-3) continue;
+      // Between segments the normal jumps by what hills of so few facets leave: not where the place changes its
+      // segment, nor at its sides.
+      if (ahead[i].smooth.segment != p.segment || behind[i].smooth.segment != p.segment || p.place.outside() > -1e-3)
+        continue;
       const Vector3 move{{moves[i][0], moves[i][1], moves[i][2]}};
       const double slope = (ahead[i].smooth.gap - behind[i].smooth.gap) / (2 * step);
       largest = std::max(largest, std::fabs(slope - (dot(p.normal, move) - shared[i].work)));
@@ -202,7 +213,8 @@ TEST_CASE("on curved segments a contact's forces are the gradient of its gap, an
       double alone = 0;
       const Quad& corner = hills.quads[p.segment];
       for (int k = 0; k < 4; ++k)
-        for (int c = 0; c < 3; ++c) alone += segment_shape(k, p.place.xi, p.place.eta) * p.normal[c] * nodes_move[corner[k]][c];
+        for (int c = 0; c < 3; ++c)
+          alone += segment_shape(k, p.place.xi, p.place.eta) * p.normal[c] * nodes_move[corner[k]][c];
       least_neighbours = std::max(least_neighbours, std::fabs(alone - shared[i].work));
       ++compared;
     }

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <algorithm>
 #include <map>
 #include <random>
 
@@ -79,7 +79,8 @@ std::vector<Answer> ask(const ContactSearch& search, const std::vector<Question>
 
 /// A point of a bilinear quadrilateral.
 Point surface_point(const std::vector<Point>& nodes, const Quad& quad, double xi, double eta) {
-  const double shape[4] = {(1 - xi) * (1 - eta) / 4, (1 + xi) * (1 - eta) / 4, (1 + xi) * (1 + eta) / 4, (1 - xi) * (1 + eta) / 4};
+  const double shape[4] = {(1 - xi) * (1 - eta) / 4, (1 + xi) * (1 - eta) / 4, (1 + xi) * (1 + eta) / 4,
+                           (1 - xi) * (1 + eta) / 4};
   Point x{};
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) x[i] += shape[k] * nodes[quad[k]][i];
@@ -173,7 +174,8 @@ TEST_CASE("the contact point on a warped segment is the nearest one") {
 TEST_CASE("a slave over a disordered plane is found on the segment under it, over edges and corners too") {
   std::vector<Point> nodes;
   std::vector<Quad> quads;
-  grid(6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
+  grid(
+      6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
   const ContactSearch search = search_on(nodes, quads);
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> place(0.02, 0.98), coordinate(-1, 1);
@@ -209,10 +211,12 @@ TEST_CASE("a slave over a disordered plane is found on the segment under it, ove
   CHECK(wrong_place == 0);
 }
 
-TEST_CASE("a slave that crosses from segment to segment of a disordered plane keeps its penetration and its point moves on") {
+TEST_CASE(
+    "a slave that crosses from segment to segment of a disordered plane keeps its penetration and its point moves on") {
   std::vector<Point> nodes;
   std::vector<Quad> quads;
-  grid(6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
+  grid(
+      6, 0.3, [](double, double) { return 0.0; }, nodes, quads);
   const ContactSearch search = search_on(nodes, quads);
   const int steps = 1000;
   const double step[2] = {0.94 / steps, 0.85 / steps};
@@ -227,7 +231,8 @@ TEST_CASE("a slave that crosses from segment to segment of a disordered plane ke
     worst_gap = std::max({worst_gap, std::fabs(a.gap + 0.01), std::fabs(a.normal[2] - 1)});
     if (k == 0) continue;
     crossings += a.segment != answers[k - 1].segment;
-    for (int i = 0; i < 2; ++i) worst_move = std::max(worst_move, std::fabs(a.point[i] - answers[k - 1].point[i] - step[i]));
+    for (int i = 0; i < 2; ++i)
+      worst_move = std::max(worst_move, std::fabs(a.point[i] - answers[k - 1].point[i] - step[i]));
   }
   CHECK(crossings >= 6);
   CHECK(worst_gap < 1e-14);
@@ -237,7 +242,8 @@ TEST_CASE("a slave that crosses from segment to segment of a disordered plane ke
 TEST_CASE("beside the surface nothing is found") {
   std::vector<Point> nodes;
   std::vector<Quad> quads;
-  grid(4, 0.2, [](double, double) { return 0.0; }, nodes, quads);
+  grid(
+      4, 0.2, [](double, double) { return 0.0; }, nodes, quads);
   std::vector<Question> questions;
   for (double along : {-0.2, 0.1, 0.5, 0.77, 1.3})
     for (double beside : {-0.05, -0.3, 1.05, 1.4}) {
@@ -261,7 +267,8 @@ TEST_CASE("over a ridge and in a valley a shallow penetration is found, with the
       // Every fourth one right over the fold, where it belongs to both sides or to none.
       const double x = k % 4 == 0 ? 0.0 : k % 4 == 1 ? 1e-3 * across(generator) : across(generator);
       const double d = (k % 2 == 0 ? -1 : 1) * depth(generator);
-      questions.push_back({{x, along(generator), -slope * std::fabs(x) + d}, static_cast<int>(generator() % quads.size())});
+      questions.push_back(
+          {{x, along(generator), -slope * std::fabs(x) + d}, static_cast<int>(generator() % quads.size())});
       vertical.push_back(d);
     }
     const auto answers = ask(search, questions);
@@ -285,10 +292,12 @@ TEST_CASE("over a ridge and in a valley a shallow penetration is found, with the
 TEST_CASE("beside the surface's end only what is shallow belongs to it") {
   std::vector<Point> nodes;
   std::vector<Quad> quads;
-  grid(4, 0.0, [](double, double) { return 0.0; }, nodes, quads);
+  grid(
+      4, 0.0, [](double, double) { return 0.0; }, nodes, quads);
   const ContactSearch search = search_on(nodes, quads);
   // A quarter wide, so 0.35 from corner to corner; a hundredth outside.
-  const auto answers = ask(search, {{{-0.0025, 0.4, -0.001}}, {{-0.0025, 0.4, -0.1}}, {{0.6, 1.0025, -0.001}}, {{0.6, 1.0025, -0.2}}});
+  const auto answers =
+      ask(search, {{{-0.0025, 0.4, -0.001}}, {{-0.0025, 0.4, -0.1}}, {{0.6, 1.0025, -0.001}}, {{0.6, 1.0025, -0.2}}});
   CHECK(answers[0].segment >= 0);
   CHECK(answers[1].segment == -1);
   CHECK(answers[2].segment >= 0);
@@ -318,7 +327,8 @@ TEST_CASE("near a cube's edges and corner what has entered is as deep as it is u
   std::vector<double> expected;
   for (int k = 0; k < 2000; ++k) {
     const double d = depth(generator);
-    Point below{3 * d + away(generator) * (k % 2 == 0 ? 1 : 0.05), 3 * d + away(generator) * (k % 3 == 0 ? 1 : 0.05), 0};
+    Point below{3 * d + away(generator) * (k % 2 == 0 ? 1 : 0.05), 3 * d + away(generator) * (k % 3 == 0 ? 1 : 0.05),
+                0};
     below[2] = d;
     std::rotate(below.begin(), below.begin() + k % 3, below.end());
     questions.push_back({{3 - below[0], 3 - below[1], 3 - below[2]}, static_cast<int>(generator() % quads.size())});
@@ -326,11 +336,14 @@ TEST_CASE("near a cube's edges and corner what has entered is as deep as it is u
   }
   const auto answers = ask(search, questions);
   int wrong = 0;
-  for (std::size_t k = 0; k < answers.size(); ++k) wrong += answers[k].segment < 0 || !(std::fabs(answers[k].gap - expected[k]) < 1e-12);
+  for (std::size_t k = 0; k < answers.size(); ++k)
+    wrong += answers[k].segment < 0 || !(std::fabs(answers[k].gap - expected[k]) < 1e-12);
   CHECK(wrong == 0);
 }
 
-TEST_CASE("on a wavy surface graded one to fifteen both ways, with slender and warped segments, each is found from anywhere") {
+TEST_CASE(
+    "on a wavy surface graded one to fifteen both ways, with slender and warped segments, each is found from "
+    "anywhere") {
   constexpr int count = 14;
   std::vector<double> line{0};
   for (int i = 0; i < count; ++i) line.push_back(line.back() + 0.05 * std::pow(15.0, i / (count - 1.0)));
@@ -362,7 +375,8 @@ TEST_CASE("on a wavy surface graded one to fifteen both ways, with slender and w
     const double a[3] = {px[0] - p[0], px[1] - p[1], px[2] - p[2]}, b[3] = {pe[0] - p[0], pe[1] - p[1], pe[2] - p[2]};
     Point n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
     const double size = std::hypot(n[0], n[1], n[2]);
-    questions.push_back({{p[0] + d * n[0] / size, p[1] + d * n[1] / size, p[2] + d * n[2] / size}, static_cast<int>(generator() % quads.size())});
+    questions.push_back({{p[0] + d * n[0] / size, p[1] + d * n[1] / size, p[2] + d * n[2] / size},
+                         static_cast<int>(generator() % quads.size())});
     over.push_back(q);
     expected.push_back(d);
   }

@@ -15,7 +15,9 @@ struct Place {
 };
 Real dot3(const Place& a, const Place& b) { return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2]; }
 Place minus(const Place& a, const Place& b) { return {{a.x[0] - b.x[0], a.x[1] - b.x[1], a.x[2] - b.x[2]}}; }
-Place plus(const Place& a, Real f, const Place& b) { return {{a.x[0] + f * b.x[0], a.x[1] + f * b.x[1], a.x[2] + f * b.x[2]}}; }
+Place plus(const Place& a, Real f, const Place& b) {
+  return {{a.x[0] + f * b.x[0], a.x[1] + f * b.x[1], a.x[2] + f * b.x[2]}};
+}
 Place extended(const Point& p) { return {{p[0], p[1], p[2]}}; }
 
 /// A closed body of hexahedra: cells of a grid of 4 x 4 x 4 of which some are carved out, turned at random.
@@ -46,7 +48,8 @@ bool sound(const Body& body) {
     for (int j = 0; j <= 4; ++j)
       for (int k = 0; k <= 4; ++k) {
         bool cell[2][2][2];
-        for (int a = 0; a < 8; ++a) cell[a & 1][a >> 1 & 1][a >> 2] = body.has(i - 1 + (a & 1), j - 1 + (a >> 1 & 1), k - 1 + (a >> 2));
+        for (int a = 0; a < 8; ++a)
+          cell[a & 1][a >> 1 & 1][a >> 2] = body.has(i - 1 + (a & 1), j - 1 + (a >> 1 & 1), k - 1 + (a >> 2));
         // Two cells that meet at a corner or an edge alone.
         for (int a = 0; a < 8; ++a)
           for (int b = a + 1; b < 8; ++b) {
@@ -82,9 +85,10 @@ Body body(std::mt19937& random, bool flat) {
     size += c * c;
   }
   for (double& c : q) c /= std::sqrt(size);
-  const double turn[3][3] = {{1 - 2 * (q[2] * q[2] + q[3] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]), 2 * (q[1] * q[3] + q[0] * q[2])},
-                             {2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]), 2 * (q[2] * q[3] - q[0] * q[1])},
-                             {2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])}};
+  const double turn[3][3] = {
+      {1 - 2 * (q[2] * q[2] + q[3] * q[3]), 2 * (q[1] * q[2] - q[0] * q[3]), 2 * (q[1] * q[3] + q[0] * q[2])},
+      {2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[1] * q[1] + q[3] * q[3]), 2 * (q[2] * q[3] - q[0] * q[1])},
+      {2 * (q[1] * q[3] - q[0] * q[2]), 2 * (q[2] * q[3] + q[0] * q[1]), 1 - 2 * (q[1] * q[1] + q[2] * q[2])}};
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) result.turn[r][c] = turn[r][c];
   int number[5][5][5];
@@ -95,7 +99,8 @@ Body body(std::mt19937& random, bool flat) {
     int& n = number[i][j][k];
     if (n >= 0) return n;
     n = static_cast<int>(result.nodes.size());
-    const double x[3] = {i + (flat ? 0 : shift(random)), j + (flat ? 0 : shift(random)), k + (flat ? 0 : shift(random))};
+    const double x[3] = {i + (flat ? 0 : shift(random)), j + (flat ? 0 : shift(random)),
+                         k + (flat ? 0 : shift(random))};
     Point p{};
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) p[r] += turn[r][c] * x[c];
@@ -106,18 +111,28 @@ Body body(std::mt19937& random, bool flat) {
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 4; ++k) {
         if (!result.kept[i][j][k]) continue;
-        if (!result.has(i - 1, j, k)) result.quads.push_back({node(i, j, k), node(i, j, k + 1), node(i, j + 1, k + 1), node(i, j + 1, k)});
-        if (!result.has(i + 1, j, k)) result.quads.push_back({node(i + 1, j, k), node(i + 1, j + 1, k), node(i + 1, j + 1, k + 1), node(i + 1, j, k + 1)});
-        if (!result.has(i, j - 1, k)) result.quads.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j, k + 1), node(i, j, k + 1)});
-        if (!result.has(i, j + 1, k)) result.quads.push_back({node(i, j + 1, k), node(i, j + 1, k + 1), node(i + 1, j + 1, k + 1), node(i + 1, j + 1, k)});
-        if (!result.has(i, j, k - 1)) result.quads.push_back({node(i, j, k), node(i, j + 1, k), node(i + 1, j + 1, k), node(i + 1, j, k)});
-        if (!result.has(i, j, k + 1)) result.quads.push_back({node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+        if (!result.has(i - 1, j, k))
+          result.quads.push_back({node(i, j, k), node(i, j, k + 1), node(i, j + 1, k + 1), node(i, j + 1, k)});
+        if (!result.has(i + 1, j, k))
+          result.quads.push_back(
+              {node(i + 1, j, k), node(i + 1, j + 1, k), node(i + 1, j + 1, k + 1), node(i + 1, j, k + 1)});
+        if (!result.has(i, j - 1, k))
+          result.quads.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j, k + 1), node(i, j, k + 1)});
+        if (!result.has(i, j + 1, k))
+          result.quads.push_back(
+              {node(i, j + 1, k), node(i, j + 1, k + 1), node(i + 1, j + 1, k + 1), node(i + 1, j + 1, k)});
+        if (!result.has(i, j, k - 1))
+          result.quads.push_back({node(i, j, k), node(i, j + 1, k), node(i + 1, j + 1, k), node(i + 1, j, k)});
+        if (!result.has(i, j, k + 1))
+          result.quads.push_back(
+              {node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
       }
   return result;
 }
 
 Place on_quad(const Place (&corner)[4], Real xi, Real eta) {
-  const Real shape[4] = {(1 - xi) * (1 - eta) / 4, (1 + xi) * (1 - eta) / 4, (1 + xi) * (1 + eta) / 4, (1 - xi) * (1 + eta) / 4};
+  const Real shape[4] = {(1 - xi) * (1 - eta) / 4, (1 + xi) * (1 - eta) / 4, (1 + xi) * (1 + eta) / 4,
+                         (1 - xi) * (1 + eta) / 4};
   Place x{};
   for (int k = 0; k < 4; ++k) x = plus(x, shape[k], corner[k]);
   return x;
@@ -149,7 +164,8 @@ Real distance_from(const std::vector<Point>& nodes, const Quad& quad, const Poin
         a.x[c] = h * ((1 - eta) * (corner[1].x[c] - corner[0].x[c]) + (1 + eta) * (corner[2].x[c] - corner[3].x[c]));
         b.x[c] = h * ((1 - xi) * (corner[3].x[c] - corner[0].x[c]) + (1 + xi) * (corner[2].x[c] - corner[1].x[c]));
       }
-      const Real aa = dot3(a, a), ab = dot3(a, b), bb = dot3(b, b), p = dot3(a, r), q = dot3(b, r), det = aa * bb - ab * ab;
+      const Real aa = dot3(a, a), ab = dot3(a, b), bb = dot3(b, b), p = dot3(a, r), q = dot3(b, r),
+                 det = aa * bb - ab * ab;
       const Real da = -(bb * p - ab * q) / det, db = -(aa * q - ab * p) / det;
       xi = std::max(Real(-2), std::min(Real(2), xi + da));
       eta = std::max(Real(-2), std::min(Real(2), eta + db));
@@ -173,9 +189,11 @@ struct Drop {
   }
 };
 
-std::vector<Projection> drop(const ContactSearch& search, const std::vector<Point>& places, const std::vector<int>& start) {
+std::vector<Projection> drop(const ContactSearch& search, const std::vector<Point>& places,
+                             const std::vector<int>& start) {
   const Array<Projection*> found("found", places.size());
-  Kokkos::parallel_for("drop", Range(0, static_cast<int>(places.size())), Drop{search, to_device("places", places), to_device("start", start), found});
+  Kokkos::parallel_for("drop", Range(0, static_cast<int>(places.size())),
+                       Drop{search, to_device("places", places), to_device("start", start), found});
   const auto host = to_host(found);
   return {host.data(), host.data() + places.size()};
 }
@@ -190,27 +208,34 @@ struct Follow {
     const Projection was = before(2 * i);
     turned(i) = 0;
     if (!(was.gap < 0)) return;
-    const Projection now = ContactTrack::where(search, row(slave, 2 * i + 1), was.segment, was.place, true, near_several_sheets);
+    const Projection now =
+        ContactTrack::where(search, row(slave, 2 * i + 1), was.segment, was.place, true, near_several_sheets);
     const Vector3 change = now.gap < 0 ? now.gap * now.normal - was.gap * was.normal : -was.gap * was.normal;
     turned(i) = norm(change);
   }
 };
 
-/// m, by which each spring is stretched otherwise after a move of its node from the even place to the odd one behind it.
-std::vector<double> stretched(const ContactSearch& search, const std::vector<Point>& places, const std::vector<Projection>& found) {
+/// m, by which each spring is stretched otherwise after a move of its node from the even place to the odd one behind
+/// it.
+std::vector<double> stretched(const ContactSearch& search, const std::vector<Point>& places,
+                              const std::vector<Projection>& found) {
   const Array<double*> turned("turned", places.size() / 2);
   const Array<Projection*> before("before", found.size());
   const auto host = Kokkos::create_mirror_view(before);
   for (std::size_t i = 0; i < found.size(); ++i) host(i) = found[i];
   Kokkos::deep_copy(before, host);
-  Kokkos::parallel_for("follow", Range(0, static_cast<int>(places.size() / 2)), Follow{search, to_device("places", places), before, turned});
+  Kokkos::parallel_for("follow", Range(0, static_cast<int>(places.size() / 2)),
+                       Follow{search, to_device("places", places), before, turned});
   const auto result = to_host(turned);
   return {result.data(), result.data() + places.size() / 2};
 }
 
 }  // namespace
 
-TEST_CASE("ten thousand nodes dropped on random closed bodies meet the nearest segment, and their gaps and forces move by no more than they do", "[contact]") {
+TEST_CASE(
+    "ten thousand nodes dropped on random closed bodies meet the nearest segment, and their gaps and forces move by no "
+    "more than they do",
+    "[contact]") {
   std::mt19937 random(2026);
   std::uniform_real_distribution<double> within(-1, 1), unit(0, 1);
   constexpr int bodies = 100, of_each = 100;
@@ -227,7 +252,8 @@ TEST_CASE("ten thousand nodes dropped on random closed bodies meet the nearest s
       Place corner[4];
       for (int c = 0; c < 4; ++c) corner[c] = extended(made.nodes[quad[c]]);
       // A third on sides, a ninth at corners, and off them by a nanometre to a tenth of a cell.
-      const double xi = k % 3 == 0 ? 1 : within(random), eta = k % 9 == 0 ? -1 : within(random), off = 0.1 * std::pow(10.0, -8 * unit(random));
+      const double xi = k % 3 == 0 ? 1 : within(random), eta = k % 9 == 0 ? -1 : within(random),
+                   off = 0.1 * std::pow(10.0, -8 * unit(random));
       const Place on = on_quad(corner, xi, eta);
       Point p{};
       for (int c = 0; c < 3; ++c) p[c] = static_cast<double>(on.x[c]) + off * within(random);
@@ -265,7 +291,8 @@ TEST_CASE("ten thousand nodes dropped on random closed bodies meet the nearest s
       depends_on_start += found[i].segment != again[i].segment || found[i].gap != again[i].gap;
     }
   }
-  INFO("of " << asked << "; worst jump " << worst_jump << "; of " << pressing << " springs, worst change " << worst_stretch);
+  INFO("of " << asked << "; worst jump " << worst_jump << "; of " << pressing << " springs, worst change "
+             << worst_stretch);
   CHECK(asked == 10000);
   CHECK(far_segment == 0);
   CHECK(wrong_distance == 0);

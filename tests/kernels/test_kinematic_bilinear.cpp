@@ -19,10 +19,13 @@ constexpr double betas[] = {0, 0.3, 0.5, 1};
 
 BilinearConstants steel(double yield_stress, double tangent_modulus) {
   const double mu = youngs_modulus / (2 * (1 + poissons_ratio));
-  return {{2 * mu * poissons_ratio / (1 - 2 * poissons_ratio), mu}, yield_stress, hardening_modulus(youngs_modulus, tangent_modulus)};
+  return {{2 * mu * poissons_ratio / (1 - 2 * poissons_ratio), mu},
+          yield_stress,
+          hardening_modulus(youngs_modulus, tangent_modulus)};
 }
 
-/// So soft that elastic strains stay near 1e-6: the kernel's series of the logarithm leaves out some 1e-12 of the stress there.
+/// So soft that elastic strains stay near 1e-6: the kernel's series of the logarithm leaves out some 1e-12 of the
+/// stress there.
 constexpr double soft_yield = 0.1e6;
 BilinearConstants soft() { return steel(soft_yield, 21e9); }
 
@@ -61,7 +64,9 @@ struct Element {
 };
 
 /// H of stretches exp(strain) along the axes, without losing digits of small ones.
-Matrix3 stretch(double a, double b, double c) { return Eigen::Vector3d(-std::expm1(-a), -std::expm1(-b), -std::expm1(-c)).asDiagonal(); }
+Matrix3 stretch(double a, double b, double c) {
+  return Eigen::Vector3d(-std::expm1(-a), -std::expm1(-b), -std::expm1(-c)).asDiagonal();
+}
 
 /// H of x += angle y.
 Matrix3 shear(double angle) {
@@ -73,7 +78,9 @@ Matrix3 shear(double angle) {
 /// H of first `inner`, then `outer`: I - G_inner G_outer.
 Matrix3 after(const Matrix3& outer, const Matrix3& inner) { return outer + inner - inner * outer; }
 
-Matrix3 rotation(double angle, const Eigen::Vector3d& axis) { return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix(); }
+Matrix3 rotation(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
 
 double mises(const Matrix3& tau) { return std::sqrt(1.5) * (tau - Matrix3::Identity() * tau.trace() / 3).norm(); }
 
@@ -117,7 +124,8 @@ Deviation deviation(const BilinearConstants& constants, double beta, const std::
 
 void check_exact(double beta, const std::vector<Matrix3>& path) {
   const Deviation worst = deviation(soft(), beta, path);
-  INFO("beta " << beta << ": stress " << worst.stress << ", plastic strain " << worst.equivalent << ", work " << worst.work);
+  INFO("beta " << beta << ": stress " << worst.stress << ", plastic strain " << worst.equivalent << ", work "
+               << worst.work);
   CHECK(worst.stress < 1e-10);
   CHECK(worst.equivalent < 1e-10);
   CHECK(worst.work < 1e-10);
@@ -129,7 +137,8 @@ struct Uniaxial {
   double beta, plastic = 0, equivalent = 0;
 
   double stress(double strain) {
-    const double back = (1 - beta) * constants.hardening * plastic, limit = constants.yield_stress + beta * constants.hardening * equivalent;
+    const double back = (1 - beta) * constants.hardening * plastic,
+                 limit = constants.yield_stress + beta * constants.hardening * equivalent;
     const double trial = youngs_modulus * (strain - plastic) - back;
     if (std::fabs(trial) > limit) {
       const double increment = (std::fabs(trial) - limit) / (youngs_modulus + constants.hardening);
@@ -143,7 +152,9 @@ struct Uniaxial {
 
 }  // namespace
 
-TEST_CASE("uniaxial stress, pulled, pushed and cycled, is the one-dimensional return map's to 1e-10, Bauschinger effect included") {
+TEST_CASE(
+    "uniaxial stress, pulled, pushed and cycled, is the one-dimensional return map's to 1e-10, Bauschinger effect "
+    "included") {
   for (const double beta : betas) {
     Uniaxial exact{soft(), beta};
     std::vector<Matrix3> path;
@@ -156,24 +167,29 @@ TEST_CASE("uniaxial stress, pulled, pushed and cycled, is the one-dimensional re
         const double strain = turns[leg] + (turns[leg + 1] - turns[leg]) * k / 400;
         expected.push_back(exact.stress(strain));
         path.push_back(stretch(strain, exact.lateral(strain), exact.lateral(strain)));
-        if (exact.equivalent > before && reversed.size() == static_cast<std::size_t>(leg)) reversed.push_back(path.size() - 1);
+        if (exact.equivalent > before && reversed.size() == static_cast<std::size_t>(leg))
+          reversed.push_back(path.size() - 1);
       }
     }
     const Element element(soft(), beta);
     const auto stress = element.follow(path);
     double worst = 0;
     for (std::size_t k = 0; k < path.size(); ++k)
-      worst = std::max(worst, (stress[k] - Matrix3(Eigen::Vector3d(expected[k], 0, 0).asDiagonal())).norm() / soft_yield);
+      worst =
+          std::max(worst, (stress[k] - Matrix3(Eigen::Vector3d(expected[k], 0, 0).asDiagonal())).norm() / soft_yield);
     INFO("beta " << beta << ", worst stress of yield " << worst);
     CHECK(worst < 1e-10);
     CHECK_THAT(element.equivalent(), WithinRel(exact.equivalent, 1e-10));
-    // Bauschinger: from the first peak the material unloads by 2 sigma_y, and by what was won isotropically, before it flows.
+    // Bauschinger: from the first peak the material unloads by 2 sigma_y, and by what was won isotropically, before it
+    // flows.
     const double peak = stress[399](0, 0), won = peak - soft_yield, back_at = stress[reversed[1]](0, 0);
     CHECK_THAT((peak - back_at) / (2 * (soft_yield + beta * won)), WithinAbs(1, 1e-2));
     // Kinematic hardening closes its loop from the first cycle on; isotropic goes on hardening.
     const double second_peak = stress[3 * 400 - 1](0, 0), third_peak = stress[5 * 400 - 1](0, 0);
-    if (beta == 0) CHECK_THAT(third_peak, WithinRel(second_peak, 1e-10));
-    else CHECK(third_peak > second_peak * 1.02);
+    if (beta == 0)
+      CHECK_THAT(third_peak, WithinRel(second_peak, 1e-10));
+    else
+      CHECK(third_peak > second_peak * 1.02);
   }
 }
 
@@ -192,7 +208,8 @@ TEST_CASE("at the strains of steel the error is that of the elastic strain's ser
   for (const double beta : betas) {
     const BilinearConstants constants = steel(500e6, 21e9);
     const Deviation worst = deviation(constants, beta, sampled(winding(0.01), 8000));
-    INFO("beta " << beta << ": stress " << worst.stress << ", plastic strain " << worst.equivalent << ", work " << worst.work);
+    INFO("beta " << beta << ": stress " << worst.stress << ", plastic strain " << worst.equivalent << ", work "
+                 << worst.work);
     // The series leaves out 4/3 e^2 of the stress and 4 e^2 of the flow, which comes back as stress where it hardens.
     const double elastic = worst.largest * constants.yield_stress / (3 * constants.elastic.mu) + 0.01 / 3;
     CHECK(worst.stress < 6 * elastic * elastic * 2 * worst.largest);
@@ -211,7 +228,8 @@ TEST_CASE("without a kinematic share the stress is Bilinear's") {
   patch.constants = constants;
   const auto mixed = element.follow(path), isotropic = follow_path<double>(plain, patch, path);
   double worst = 0;
-  for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (mixed[k] - isotropic[k]).norm() / constants.yield_stress);
+  for (std::size_t k = 0; k < path.size(); ++k)
+    worst = std::max(worst, (mixed[k] - isotropic[k]).norm() / constants.yield_stress);
   CHECK(worst < 1e-11);
 }
 
@@ -224,7 +242,8 @@ TEST_CASE("a body that turns while it flows has the same stress, turned") {
     const auto stress = still.follow(path);
     std::vector<Matrix3> turned_path;
     for (int k = 0; k < steps; ++k)
-      turned_path.push_back(Matrix3::Identity() - (Matrix3::Identity() - path[k]) * turn((k + 1.0) / steps).transpose());
+      turned_path.push_back(Matrix3::Identity() -
+                            (Matrix3::Identity() - path[k]) * turn((k + 1.0) / steps).transpose());
     const auto turned = turning.follow(turned_path);
     double worst = 0;
     for (int k = 0; k < steps; ++k) {

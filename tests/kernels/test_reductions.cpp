@@ -33,7 +33,8 @@ Largest<2> largest_of(const std::vector<double>& numbers) {
   Largest<2> found;
   ReductionSpace space;
   Reductions looks(space);
-  looks.largest(Signed{to_device("numbers", numbers)}, static_cast<int>(numbers.size()), [&](const Largest<2>& of) { found = of; });
+  looks.largest(Signed{to_device("numbers", numbers)}, static_cast<int>(numbers.size()),
+                [&](const Largest<2>& of) { found = of; });
   looks.fetch();
   return found;
 }
@@ -51,7 +52,8 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
     for (int i = 0; i < counts[c]; ++i) list.push_back(std::sin(1.0 + i) / 3);
     numbers.push_back(to_device("numbers", list));
     queue.sum(Powers{numbers[c]}, counts[c], [&sums, c](const double* sum) { std::copy(sum, sum + 2, &sums[2 * c]); });
-    queue.largest(Signed{numbers[c]}, counts[c], [&largest, c](const Largest<2>& of) { largest[c] = of.place[0] < 0 ? 0 : of.value[0]; });
+    queue.largest(Signed{numbers[c]}, counts[c],
+                  [&largest, c](const Largest<2>& of) { largest[c] = of.place[0] < 0 ? 0 : of.value[0]; });
   }
   queue.fetch();
   for (std::size_t c = 0; c < counts.size(); ++c) {

@@ -3,10 +3,10 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
+#include "complaint.hpp"
 #include "mesh/crown.hpp"
 #include "mesh/crowned_block.hpp"
 #include "mesh/quality.hpp"
-#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -33,7 +33,8 @@ double mean_fall(const scene::CrownedBlockMesh& b) {
   for (int i = 0; i < 2 * cells; ++i)
     for (int j = 0; j < 2 * cells; ++j) {
       const auto at = [&](int k) { return (k / 2 + 0.5 + (k % 2 == 0 ? -0.5 : 0.5) / std::sqrt(3.0)) / cells; };
-      sum += crown_fall(b.radius_along, b.radius_across, b.origin[0] + b.size[0] * at(i), b.origin[1] + b.size[1] * at(j));
+      sum +=
+          crown_fall(b.radius_along, b.radius_across, b.origin[0] + b.size[0] * at(i), b.origin[1] + b.size[1] * at(j));
     }
   return sum / (4.0 * cells * cells);
 }
@@ -64,10 +65,14 @@ TEST_CASE("A crowned block's top is a sphere, a cylinder, a turned arc or a plan
     for (int n : mesh.node_sets.at("top")) {
       const auto [x, y, z] = mesh.nodes[n];
       highest = std::max(highest, z);
-      if (along == 0 && across == 0) CHECK_THAT(z, WithinAbs(h, 1e-15));
-      else if (across == 0) CHECK_THAT(std::hypot(x, z + along), WithinAbs(along, 1e-14));
-      else if (along == 0) CHECK_THAT(std::hypot(y, z + across), WithinAbs(across, 1e-14));
-      else CHECK_THAT(std::hypot(std::hypot(x, z + along) - (along - across), y), WithinAbs(across, 1e-14));  // a torus
+      if (along == 0 && across == 0)
+        CHECK_THAT(z, WithinAbs(h, 1e-15));
+      else if (across == 0)
+        CHECK_THAT(std::hypot(x, z + along), WithinAbs(along, 1e-14));
+      else if (along == 0)
+        CHECK_THAT(std::hypot(y, z + across), WithinAbs(across, 1e-14));
+      else
+        CHECK_THAT(std::hypot(std::hypot(x, z + along) - (along - across), y), WithinAbs(across, 1e-14));  // a torus
     }
     CHECK_THAT(highest, WithinAbs(h, 1e-15));
     for (int n : mesh.node_sets.at("bottom")) CHECK(mesh.nodes[n][2] == -0.06);
@@ -131,6 +136,8 @@ TEST_CASE("Parameters of a crowned block that do not fit are named with what is 
   CHECK_THAT(complaint([](auto& b) { b.radius_across = 0.03; }),
              ContainsSubstring("[meshes.block] (line 4): radius_across = 0.03; allowed: 0 (straight) or more than"));
   CHECK_THAT(complaint([](auto& b) { b.zone_end = -0.02; }), ContainsSubstring("more than zone_start"));
-  CHECK_THAT(complaint([](auto& b) { b.zone_start = 0.05, b.zone_end = 0.06; }), ContainsSubstring("zone that meets the block"));
-  CHECK_THAT(complaint([](auto& b) { b.size[2] = 0.002, b.origin[2] = 0; }), ContainsSubstring("twice what the crown falls"));
+  CHECK_THAT(complaint([](auto& b) { b.zone_start = 0.05, b.zone_end = 0.06; }),
+             ContainsSubstring("zone that meets the block"));
+  CHECK_THAT(complaint([](auto& b) { b.size[2] = 0.002, b.origin[2] = 0; }),
+             ContainsSubstring("twice what the crown falls"));
 }

@@ -44,7 +44,8 @@ TEST_CASE("A cylinder is a sound solid whatever its divisions, exact at every no
     CHECK(found.euler == 2);
     CHECK(found.unused_nodes == 0);
     CHECK(mesh.node_sets.at("skin").size() == static_cast<std::size_t>(4 * core * 21));
-    for (int n : mesh.node_sets.at("skin")) CHECK_THAT(std::hypot(mesh.nodes[n][0], mesh.nodes[n][1]), WithinAbs(0.01, 1e-16));
+    for (int n : mesh.node_sets.at("skin"))
+      CHECK_THAT(std::hypot(mesh.nodes[n][0], mesh.nodes[n][1]), WithinAbs(0.01, 1e-16));
     for (int n : mesh.node_sets.at("z_min")) CHECK(mesh.nodes[n][2] == 0);
     for (int n : mesh.node_sets.at("z_max")) CHECK(mesh.nodes[n][2] == 0.05);
   }
@@ -72,7 +73,8 @@ TEST_CASE("A cylinder's faces look outwards: skin away from the axis, ends along
         p[i] = mesh.nodes[c[2]][i] - mesh.nodes[c[0]][i];
         q[i] = mesh.nodes[c[3]][i] - mesh.nodes[c[1]][i];
       }
-      const Vec3 normal{0.5 * (p[1] * q[2] - p[2] * q[1]), 0.5 * (p[2] * q[0] - p[0] * q[2]), 0.5 * (p[0] * q[1] - p[1] * q[0])};
+      const Vec3 normal{0.5 * (p[1] * q[2] - p[2] * q[1]), 0.5 * (p[2] * q[0] - p[0] * q[2]),
+                        0.5 * (p[0] * q[1] - p[1] * q[0])};
       sum += axis == 2 ? normal[2] : (normal[0] * middle[0] + normal[1] * middle[1]) / std::hypot(middle[0], middle[1]);
     }
     return sum;
@@ -86,7 +88,9 @@ TEST_CASE("A cylinder's layers grow from the first to end_ratio times it") {
   scene::MeshSource source = cylinder();
   source.cylinder.end_ratio = 3;
   const Mesh mesh = cylinder_mesh(source);
-  const auto height = [&](std::size_t e) { return mesh.nodes[mesh.elements[e][4]][2] - mesh.nodes[mesh.elements[e][0]][2]; };
+  const auto height = [&](std::size_t e) {
+    return mesh.nodes[mesh.elements[e][4]][2] - mesh.nodes[mesh.elements[e][0]][2];
+  };
   CHECK_THAT(height(mesh.elements.size() - 1) / height(0), WithinRel(3.0, 1e-10));
 }
 
@@ -99,5 +103,6 @@ TEST_CASE("Parameters of a cylinder that do not fit are named with what is allow
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& c) { c.core_share = 0.95; }),
              ContainsSubstring("[meshes.bar] (line 4): core_share = 0.95; allowed: 0.2 to 0.8"));
-  CHECK_THAT(complaint([](auto& c) { c.ring_divisions = 0; }), ContainsSubstring("ring_divisions = 0; allowed: at least 1"));
+  CHECK_THAT(complaint([](auto& c) { c.ring_divisions = 0; }),
+             ContainsSubstring("ring_divisions = 0; allowed: at least 1"));
 }

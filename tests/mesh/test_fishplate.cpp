@@ -96,7 +96,8 @@ TEST_CASE("a fishplate lies on the facets of its rail, on either side") {
         for (const Face& face : plate.surfaces.at(surface))
           for (int n : plate.face_nodes(face)) {
             if (plate.nodes[n][0] > -0.1 && plate.nodes[n][0] < 0.1)
-              farthest = std::max(farthest, distance_to_rail(rail, left ? "fishing_left" : "fishing_right", plate.nodes[n]));
+              farthest =
+                  std::max(farthest, distance_to_rail(rail, left ? "fishing_left" : "fishing_right", plate.nodes[n]));
           }
       CHECK(farthest < 1e-9);
       for (const Face& face : plate.surfaces.at("fishing"))
@@ -112,7 +113,8 @@ TEST_CASE("a fishplate lies on the facets of its rail, on either side") {
       CHECK((left ? -1 : 1) * sum_of_areas(plate, "inner")[1] < 0);
       for (int i = 0; i < 3; ++i) {
         double sum = 0;
-        for (const char* surface : {"upper", "inner", "lower", "outer", "start_face", "end_face"}) sum += sum_of_areas(plate, surface)[i];
+        for (const char* surface : {"upper", "inner", "lower", "outer", "start_face", "end_face"})
+          sum += sum_of_areas(plate, surface)[i];
         CHECK_THAT(sum, WithinAbs(0, 1e-12));
       }
       const Vec3 start = sum_of_areas(plate, "start_face");
@@ -141,7 +143,8 @@ TEST_CASE("a plate's web clearance, thickness and element size are those asked f
   CHECK_THAT(inner - web, WithinAbs(0.001, 1e-5));  // the rail's two sides differ by as little
   CHECK_THAT(outer - inner, WithinAbs(0.018, 1e-9));
   CHECK(plate.surfaces.count("fishing_2") == 0);
-  CHECK(plate.surfaces.at("fishing").size() == plate.surfaces.at("upper").size() + plate.surfaces.at("inner").size() + plate.surfaces.at("lower").size());
+  CHECK(plate.surfaces.at("fishing").size() ==
+        plate.surfaces.at("upper").size() + plate.surfaces.at("inner").size() + plate.surfaces.at("lower").size());
   CHECK(plate.elements.size() % 60 == 0);
 }
 
@@ -170,8 +173,9 @@ TEST_CASE("fishplates that do not fit are told with what is allowed") {
     change(source.fishplate);
     return complaint_of(fishplate_mesh, source);
   };
-  CHECK_THAT(complaint([](auto& p) { p.thickness = 0.06; }), ContainsSubstring("[meshes.plate] (line 7): thickness = 0.06; allowed: 0.0") &&
-                                                                 ContainsSubstring("so that the plate lies on head and foot of 54E1"));
+  CHECK_THAT(complaint([](auto& p) { p.thickness = 0.06; }),
+             ContainsSubstring("[meshes.plate] (line 7): thickness = 0.06; allowed: 0.0") &&
+                 ContainsSubstring("so that the plate lies on head and foot of 54E1"));
   CHECK_THAT(complaint([](auto& p) { p.end = -1; }), ContainsSubstring("end = -1; allowed: more than start"));
   CHECK_THAT(complaint([](auto& p) { p.gap_end = 0.5; }), ContainsSubstring("gap_end = 0.5; allowed: less than end"));
   CHECK_THAT(complaint([](auto& p) { p.rail_mesh.zone_size = 0.5; }), ContainsSubstring("[meshes.rail]"));
@@ -200,8 +204,10 @@ TEST_CASE("a rail's fishing surfaces are the sides of its chambers") {
         CHECK(y > 0.007);
         low = std::min(low, z);
         high = std::max(high, z);
-        if (y > 0.02) CHECK(area[2] * (z - 0.07) < 0);  // under the head it looks down, on the foot up
-        else if (std::abs(z - 0.07) < 0.02) CHECK(outwards * area[1] > 0.99 * std::sqrt(area[1] * area[1] + area[2] * area[2]));
+        if (y > 0.02)
+          CHECK(area[2] * (z - 0.07) < 0);  // under the head it looks down, on the foot up
+        else if (std::abs(z - 0.07) < 0.02)
+          CHECK(outwards * area[1] > 0.99 * std::sqrt(area[1] * area[1] + area[2] * area[2]));
       }
       CHECK(low < 0.02);
       CHECK(high > 0.115);

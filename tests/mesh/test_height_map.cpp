@@ -51,12 +51,16 @@ scene::MeshSource rail_with(const std::string& map) {
 }
 
 /// A dip of 0.4 mm over 40 mm, as wide as the head.
-double dip(double x) { return std::fabs(x - 0.05) < 0.02 ? -4e-4 * std::pow(std::cos(M_PI * (x - 0.05) / 0.04), 2) : 0; }
+double dip(double x) {
+  return std::fabs(x - 0.05) < 0.02 ? -4e-4 * std::pow(std::cos(M_PI * (x - 0.05) / 0.04), 2) : 0;
+}
 
 std::string dip_file(double factor) {
   std::string text = "x, y, dz\n";
   for (int i = 0; i <= 40; ++i)
-    for (double y : {0.04, -0.04}) text += std::to_string(0.03 + 1e-3 * i) + "," + std::to_string(y) + "," + std::to_string(factor * dip(0.03 + 1e-3 * i)) + "\n";
+    for (double y : {0.04, -0.04})
+      text += std::to_string(0.03 + 1e-3 * i) + "," + std::to_string(y) + "," +
+              std::to_string(factor * dip(0.03 + 1e-3 * i)) + "\n";
   return text;
 }
 
@@ -70,25 +74,33 @@ TEST_CASE("A height map is interpolated bilinearly, and is nothing beyond its gr
     for (double y : {0.0, 1.1, 2.0}) CHECK_THAT(map.at(x, y), WithinAbs(1e-3 * (1 + 2 * x + 3 * y + 4 * x * y), 1e-15));
   CHECK(map.at(-0.01, 1) == 0);
   CHECK(map.at(0.5, 2.01) == 0);
-  const MapFile other("\xef\xbb\xbf# measured\r\nx [m]; y [m]; dz [m]\r\n1;2;17e-3\r\n0;0;1e-3\r\n1;0;3e-3\r\n0;2;7e-3\r\n");
+  const MapFile other(
+      "\xef\xbb\xbf# measured\r\nx [m]; y [m]; dz [m]\r\n1;2;17e-3\r\n0;0;1e-3\r\n1;0;3e-3\r\n0;2;7e-3\r\n");
   CHECK(HeightMap(other.path()).at(0.3, 1.1) == map.at(0.3, 1.1));
 }
 
 TEST_CASE("What is wrong with a height map is told with its line") {
-  CHECK_THAT(refusal("x,y,z\n0,0,0\n"), ContainsSubstring(":1: the first line is 'x,y,z', must name the columns: x,y,dz"));
+  CHECK_THAT(refusal("x,y,z\n0,0,0\n"),
+             ContainsSubstring(":1: the first line is 'x,y,z', must name the columns: x,y,dz"));
   CHECK_THAT(refusal("x,y,dz\n0,0\n"), ContainsSubstring(":2: has 2 values, must have three: x,y,dz"));
-  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,nan\n"), ContainsSubstring(":3: column 3 (dz in m): 'nan' is no finite number"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,nan\n"),
+             ContainsSubstring(":3: column 3 (dz in m): 'nan' is no finite number"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,0,1\n"), ContainsSubstring(":3: gives the place x = 0, y = 0 a second time"));
-  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,0\n1,1,0\n"), ContainsSubstring("has a hole: no line gives the place x = 1, y = 0"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,0\n1,1,0\n"),
+             ContainsSubstring("has a hole: no line gives the place x = 1, y = 0"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0\n0,1,0\n"), ContainsSubstring("has 1 different x and 2 different y"));
   CHECK_THAT(refusal(""), ContainsSubstring("the first line is ''"));
-  CHECK_THAT(refusal("x;y;dz\n0;0;0,001\n"), ContainsSubstring(":2: column 3 (dz in m): '0,001' has a comma in it: a decimal comma? then write 0.001"));
+  CHECK_THAT(refusal("x;y;dz\n0;0;0,001\n"),
+             ContainsSubstring(":2: column 3 (dz in m): '0,001' has a comma in it: a decimal comma? then write 0.001"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0,001\n"), ContainsSubstring(":2: has 4 values, must have three: x,y,dz"));
-  CHECK_THAT(refusal("x,y,dz\n0,0,0.1 mm\n"), ContainsSubstring(":2: column 3 (dz in m): '0.1 mm' has something behind the number"));
-  CHECK_THAT(refusal("x,y,dz [mm]\n0,0,0.1\n"), ContainsSubstring(":1: column 3 (dz in m) is called 'dz [mm]', but is read in m"));
+  CHECK_THAT(refusal("x,y,dz\n0,0,0.1 mm\n"),
+             ContainsSubstring(":2: column 3 (dz in m): '0.1 mm' has something behind the number"));
+  CHECK_THAT(refusal("x,y,dz [mm]\n0,0,0.1\n"),
+             ContainsSubstring(":1: column 3 (dz in m) is called 'dz [mm]', but is read in m"));
   CHECK_THAT(refusal("y,x,dz\n0,0,0.1\n"), ContainsSubstring("must name the columns: x,y,dz"));
   CHECK_THAT(refusal("x,y,dz\n0,0,0,\n"), ContainsSubstring(":2: '0,0,0,' ends with a separator"));
-  CHECK_THAT(refusal("x,y,dz\n0;0;0\n0,1,0\n"), ContainsSubstring(":3: its columns are separated by commas, those of line 2 by semicolons"));
+  CHECK_THAT(refusal("x,y,dz\n0;0;0\n0,1,0\n"),
+             ContainsSubstring(":3: its columns are separated by commas, those of line 2 by semicolons"));
   CHECK_THAT(refusal("x,y,dz\n0,0,1e400\n"), ContainsSubstring("'1e400' is too large"));
 }
 
@@ -122,7 +134,8 @@ TEST_CASE("A rail's running surface takes the measured heights, and the rail bel
 
 TEST_CASE("A height map that inverts elements is refused with the place") {
   const MapFile file(dip_file(40));
-  CHECK_THAT(complaint_of(rail_mesh, rail_with(file.path())), ContainsSubstring("[meshes.rail] (line 17): height_map: inverts the element at ("));
+  CHECK_THAT(complaint_of(rail_mesh, rail_with(file.path())),
+             ContainsSubstring("[meshes.rail] (line 17): height_map: inverts the element at ("));
 }
 
 TEST_CASE("A rail has its foot and both ends as surfaces") {

@@ -73,5 +73,7 @@ TEST_CASE("a line of cells without number is refused before it is laid") {
 TEST_CASE("a mesh larger than the memory is refused with both figures") {
   CHECK_NOTHROW(expect_mesh_room(1e5, 1e5));
   // Few nodes for as many elements as no machine holds.
-  CHECK_THROWS_WITH(expect_mesh_room(1e15, 2e9), ContainsSubstring("makes 1e+15 elements, which need about 250 PB of memory, but this machine has "));
+  CHECK_THROWS_WITH(
+      expect_mesh_room(1e15, 2e9),
+      ContainsSubstring("makes 1e+15 elements, which need about 250 PB of memory, but this machine has "));
 }

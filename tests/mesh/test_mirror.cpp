@@ -44,7 +44,8 @@ void check_mirrored(const Mesh& mesh) {
   CHECK_THAT(after.jacobian_ratio.value, WithinRel(before.jacobian_ratio.value, 1e-9));
   CHECK_THAT(after.step.value, WithinRel(before.step.value, 1e-9));
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    CHECK((image.nodes[n][0] == mesh.nodes[n][0] && image.nodes[n][1] == -mesh.nodes[n][1] && image.nodes[n][2] == mesh.nodes[n][2]));
+    CHECK((image.nodes[n][0] == mesh.nodes[n][0] && image.nodes[n][1] == -mesh.nodes[n][1] &&
+           image.nodes[n][2] == mesh.nodes[n][2]));
   CHECK(image.node_sets == mesh.node_sets);
   for (const auto& [name, faces] : mesh.surfaces) {
     INFO(name);
@@ -67,10 +68,10 @@ void check_mirrored(const Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("A mirrored wheel has the wheel's volume, Jacobians and steps; its faces look outwards, and mirrored twice it is itself") {
+TEST_CASE(
+    "A mirrored wheel has the wheel's volume, Jacobians and steps; its faces look outwards, and mirrored twice it is "
+    "itself") {
   check_mirrored(wheel_mesh(source_of(scene::MeshType::wheel)));
 }
 
-TEST_CASE("A mirrored rail leans the other way") {
-  check_mirrored(rail_mesh(source_of(scene::MeshType::rail)));
-}
+TEST_CASE("A mirrored rail leans the other way") { check_mirrored(rail_mesh(source_of(scene::MeshType::rail))); }

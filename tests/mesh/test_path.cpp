@@ -69,10 +69,12 @@ TEST_CASE("a rail's head is fine along the path to its zone, and no farther") {
   CHECK(mesh.element_sets.at("zone").size() == 15u * 3u * 50u);
 
   source.rail.path_start = 0.05;
-  CHECK_THAT(complaint_of(rail_mesh, source), ContainsSubstring("[meshes.rail] (line 5): path_start = 0.05; allowed: -2 m to zone_start = 0 m"));
+  CHECK_THAT(complaint_of(rail_mesh, source),
+             ContainsSubstring("[meshes.rail] (line 5): path_start = 0.05; allowed: -2 m to zone_start = 0 m"));
   source.rail.path_start = -0.8;
   source.rail.path_size = 0.05;
-  CHECK_THAT(complaint_of(rail_mesh, source), ContainsSubstring("path_size = 0.05; allowed: zone_size = 0.002 to coarse_size"));
+  CHECK_THAT(complaint_of(rail_mesh, source),
+             ContainsSubstring("path_size = 0.05; allowed: zone_size = 0.002 to coarse_size"));
 }
 
 TEST_CASE("a path that ends with the rail leaves no sliver there") {
@@ -110,7 +112,8 @@ TEST_CASE("a wheel's tread is fine along the arc that it rolls towards its zone"
   CHECK(whole.longest > 0.015);
 
   source.wheel.path_length = 0.5;
-  CHECK_THAT(complaint_of(wheel_mesh, source), ContainsSubstring("[meshes.wheel] (line 9): the path's end = 0.47; allowed: the zone's end = 1"));
+  CHECK_THAT(complaint_of(wheel_mesh, source),
+             ContainsSubstring("[meshes.wheel] (line 9): the path's end = 0.47; allowed: the zone's end = 1"));
   source.wheel.path_start = -1.5;
   source.wheel.path_length = 2.6;
   CHECK_THAT(complaint_of(wheel_mesh, source), ContainsSubstring("path_start = -1.5; allowed: -0.49"));

@@ -37,7 +37,8 @@ double distance_to(const Curve& curve, Point2 p) {
   double low = std::max(0.0, at - curve.length / 2000), high = std::min(curve.length, at + curve.length / 2000);
   for (int i = 0; i < 60; ++i) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (norm(curve.at(a) - p) < norm(curve.at(b) - p) ? high : low) = norm(curve.at(a) - p) < norm(curve.at(b) - p) ? b : a;
+    (norm(curve.at(a) - p) < norm(curve.at(b) - p) ? high : low) =
+        norm(curve.at(a) - p) < norm(curve.at(b) - p) ? b : a;
   }
   return std::min(best, norm(curve.at((low + high) / 2) - p));
 }
@@ -68,7 +69,8 @@ TEST_CASE("S1002 is continuous with a continuous slope at its sections' joints")
 TEST_CASE("Rail outlines pass through the points of their tables") {
   for (const std::string section : {"54E1", "60E1"}) {
     const RailOutline outline = rail_outline(section);
-    const Curve whole = joined({outline.head, outline.underside, outline.web, outline.foot_top, outline.toe, outline.base});
+    const Curve whole =
+        joined({outline.head, outline.underside, outline.web, outline.foot_top, outline.toe, outline.base});
     double worst = 0;
     const auto rows = table("rail_" + section + "_outline.csv");
     for (std::size_t i = 0; i < rows.size(); i += 7)
@@ -84,7 +86,8 @@ TEST_CASE("Rail outlines pass through the points of their tables") {
 TEST_CASE("Curves run at unit speed and end where they should") {
   const Curve profile = s1002_curve(0.46, 0.06);
   const RailOutline outline = rail_outline("54E1");
-  for (const Curve& curve : {profile, outline.head, reversed(outline.web), arc({1, 0}, {0, 1}, 1), arc({0, 1}, {1, 0}, -1)}) {
+  for (const Curve& curve :
+       {profile, outline.head, reversed(outline.web), arc({1, 0}, {0, 1}, 1), arc({0, 1}, {1, 0}, -1)}) {
     double length = 0;
     Point2 before = curve.begin();
     for (int i = 1; i <= 4000; ++i) {

@@ -3,11 +3,11 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
+#include "complaint.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
 #include "mesh/section_properties.hpp"
-#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -58,8 +58,10 @@ TEST_CASE("The rail of the main case is a sound mesh within its budget") {
 TEST_CASE("The meshed section has the rail's area and second moments") {
   scene::MeshSource source = rail_source();
   source.rail.inclination = 0;
-  const struct { const char* name; double area, vertical, lateral; } nominal[] = {
-      {"54E1", 69.77e-4, 2337.9e-8, 419.2e-8}, {"60E1", 76.70e-4, 3038.3e-8, 512.3e-8}};
+  const struct {
+    const char* name;
+    double area, vertical, lateral;
+  } nominal[] = {{"54E1", 69.77e-4, 2337.9e-8, 419.2e-8}, {"60E1", 76.70e-4, 3038.3e-8, 512.3e-8}};
   for (const auto& rail : nominal) {
     source.rail.section = rail.name;
     const Mesh mesh = rail_mesh(source);
@@ -166,12 +168,14 @@ TEST_CASE("Rail parameters that do not fit are named with what is allowed") {
     change(source.rail);
     return complaint_of(rail_mesh, source);
   };
-  CHECK_THAT(complaint([](auto& r) { r.section = "49E5"; }), ContainsSubstring("[meshes.rail] (line 17): section = 49E5; allowed"));
+  CHECK_THAT(complaint([](auto& r) { r.section = "49E5"; }),
+             ContainsSubstring("[meshes.rail] (line 17): section = 49E5; allowed"));
   CHECK_THAT(complaint([](auto& r) { r.end = -1; }), ContainsSubstring("more than start = -0.3 m"));
   CHECK_THAT(complaint([](auto& r) { r.zone_end = 0.5; }), ContainsSubstring("end = 0.42 m or less"));
   CHECK_THAT(complaint([](auto& r) { r.zone_size = 0; }), ContainsSubstring("0.0001 to 0.01 m"));
   CHECK_THAT(complaint([](auto& r) { r.zone_centre = 0.06; }), ContainsSubstring("zone_centre"));
-  CHECK_THAT(complaint([](auto& r) { r.zone_centre = 0.02, r.zone_width = 0.08; }), ContainsSubstring("reduce zone_width"));
+  CHECK_THAT(complaint([](auto& r) { r.zone_centre = 0.02, r.zone_width = 0.08; }),
+             ContainsSubstring("reduce zone_width"));
   CHECK_THAT(complaint([](auto& r) { r.zone_layers = 15; }), ContainsSubstring("zone_layers"));
   CHECK_THAT(complaint([](auto& r) { r.growth = 1, r.core_size = 0.001; }),
              ContainsSubstring("growth = 1") && ContainsSubstring("core_size = 0.001"));

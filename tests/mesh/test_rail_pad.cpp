@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
-#include <algorithm>
 #include <cmath>
 
 #include "case/solid_pad.hpp"
@@ -66,7 +66,8 @@ TEST_CASE("a rail pad has the foot's lines, is as wide as the foot, and as thick
           for (int i = 0; i < 8; ++i) corners[i] = mesh.nodes[element[i]];
           volume += hexahedron_volume(corners);
         }
-        const auto &top = mesh.node_sets.at("z_max"), &bottom = mesh.node_sets.at("z_min"), &foot = rail.node_sets.at("foot");
+        const auto &top = mesh.node_sets.at("z_max"), &bottom = mesh.node_sets.at("z_min"),
+                   &foot = rail.node_sets.at("foot");
         REQUIRE(top.size() == bottom.size());
         for (std::size_t k = 0; k < top.size(); ++k) {
           CHECK_THAT(distance(mesh.nodes[top[k]], mesh.nodes[bottom[k]]), WithinAbs(pad.thickness, 1e-12));
@@ -102,7 +103,8 @@ TEST_CASE("a rail pad keeps the foot's lines where they are parted") {
 TEST_CASE("a rail pad that is not under its rail is told") {
   scene::MeshSource source = pad_source();
   source.rail_pad.start = -0.4;
-  CHECK_THAT(complaint_of(rail_pad_mesh, source), ContainsSubstring("[meshes.pad] (line 7): start = -0.4; allowed: -0.3 m, the rail's start, or more"));
+  CHECK_THAT(complaint_of(rail_pad_mesh, source),
+             ContainsSubstring("[meshes.pad] (line 7): start = -0.4; allowed: -0.3 m, the rail's start, or more"));
   source.rail_pad.start = 0.1;
   CHECK_THAT(complaint_of(rail_pad_mesh, source), ContainsSubstring("end = 0.08; allowed: more than start = 0.1 m"));
 }

@@ -3,9 +3,9 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
+#include "complaint.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/roller.hpp"
-#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -49,10 +49,13 @@ TEST_CASE("A roller's tread is a cylinder, or a sphere where its crown has its o
       check_sound(mesh, ring ? 0 : 2);
       for (int n : mesh.node_sets.at("tread")) {
         const auto [x, y, z] = mesh.nodes[n];
-        if (crown == 0) CHECK_THAT(std::hypot(x, z), WithinAbs(0.46, 1e-14));
-        else CHECK_THAT(std::hypot(std::hypot(x, z) - (0.46 - crown), y), WithinAbs(crown, 1e-14));
+        if (crown == 0)
+          CHECK_THAT(std::hypot(x, z), WithinAbs(0.46, 1e-14));
+        else
+          CHECK_THAT(std::hypot(std::hypot(x, z) - (0.46 - crown), y), WithinAbs(crown, 1e-14));
       }
-      for (int n : mesh.node_sets.at("bore")) CHECK_THAT(std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]), WithinAbs(0.40, 1e-14));
+      for (int n : mesh.node_sets.at("bore"))
+        CHECK_THAT(std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]), WithinAbs(0.40, 1e-14));
       CHECK(mesh.node_sets.count("arc_min") == (ring ? 0u : 1u));
     }
 }
@@ -76,7 +79,8 @@ TEST_CASE("A roller's zone lies about the lowest point, positive arcs towards +x
     const Vec3 &a = mesh.nodes[c[0]], &b = mesh.nodes[c[1]], &d = mesh.nodes[c[3]];
     CHECK((b[0] - a[0]) * (d[1] - a[1]) - (b[1] - a[1]) * (d[0] - a[0]) < 0);
     const auto arc = [&](int n) { return 0.46 * std::atan2(mesh.nodes[n][0], -mesh.nodes[n][2]); };
-    const double first = std::min({arc(c[0]), arc(c[1]), arc(c[2])}), last = std::max({arc(c[0]), arc(c[1]), arc(c[2])});
+    const double first = std::min({arc(c[0]), arc(c[1]), arc(c[2])}),
+                 last = std::max({arc(c[0]), arc(c[1]), arc(c[2])});
     double side = 0;
     for (int n : c) side = std::max(side, std::fabs(mesh.nodes[n][1]));
     if (first < -0.005 - 1e-9 || last > 0.03 + 1e-9 || side > 0.0099) continue;
@@ -97,5 +101,6 @@ TEST_CASE("Parameters of a roller that do not fit are named with what is allowed
              ContainsSubstring("[meshes.roller] (line 6): bore_radius = 0.5; allowed: above 0 and below radius"));
   CHECK_THAT(complaint([](auto& r) { r.arc_end = 3; }), ContainsSubstring("a whole roller is ring = true"));
   CHECK_THAT(complaint([](auto& r) { r.crown_radius = 0.02; }), ContainsSubstring("crown_radius"));
-  CHECK_THAT(complaint([](auto& r) { r.zone_start = 0.07, r.zone_end = 0.08; }), ContainsSubstring("zone that meets the sector"));
+  CHECK_THAT(complaint([](auto& r) { r.zone_start = 0.07, r.zone_end = 0.08; }),
+             ContainsSubstring("zone that meets the sector"));
 }

@@ -42,7 +42,8 @@ double area_of(const Mesh& mesh, const std::vector<Face>& faces) {
   for (const Face& face : faces) {
     const auto n = mesh.face_nodes(face);
     Vec3 p, q;
-    for (int i = 0; i < 3; ++i) p[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i], q[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
+    for (int i = 0; i < 3; ++i)
+      p[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i], q[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
     sum += 0.5 * std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
   }
   return sum;
@@ -144,7 +145,9 @@ TEST_CASE("what a seam became is said: nodes, faces, length and depth beside tho
   CHECK(opened.faces == 8);
   CHECK_THAT(opened.length, WithinRel(0.02, 1e-12));
   CHECK_THAT(opened.depth, WithinRel(0.01, 1e-12));
-  CHECK(describe(crack, opened) == "[seams.crack] (line 4) opens 6 nodes of mesh block between 8 pairs of element faces: 0.02 m long (0.023 m asked for), 0.01 m deep (0.012 m asked for)");
+  CHECK(describe(crack, opened) ==
+        "[seams.crack] (line 4) opens 6 nodes of mesh block between 8 pairs of element faces: 0.02 m long (0.023 m "
+        "asked for), 0.01 m deep (0.012 m asked for)");
 }
 
 TEST_CASE("two elements long and one deep is the least that opens, one node") {
@@ -180,15 +183,24 @@ TEST_CASE("seams that cannot be are told why") {
     }
     return "";
   };
-  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)), ContainsSubstring("case.toml:3: [seams.crack]: no layer of element faces across x"));
-  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)), ContainsSubstring("at least two elements (0.01 m) long and one (0.005 m) deep"));
-  CHECK_THAT(complaint(seam({0.005, 0.02, 0.02}, 0.02, 0.01, 1)), ContainsSubstring("place the seam farther from the end"));
-  CHECK_THAT(complaint(seam({0.06, 0.0225, 0.02}, 0.006, 0.01, 0)), ContainsSubstring("[seams.crack]: opens no node: of its 2 element faces all nodes lie on its front"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)),
+             ContainsSubstring("case.toml:3: [seams.crack]: no layer of element faces across x"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 0.02, 0.001, 0)),
+             ContainsSubstring("at least two elements (0.01 m) long and one (0.005 m) deep"));
+  CHECK_THAT(complaint(seam({0.005, 0.02, 0.02}, 0.02, 0.01, 1)),
+             ContainsSubstring("place the seam farther from the end"));
+  CHECK_THAT(complaint(seam({0.06, 0.0225, 0.02}, 0.006, 0.01, 0)),
+             ContainsSubstring("[seams.crack]: opens no node: of its 2 element faces all nodes lie on its front"));
   CHECK_THAT(complaint(seam({0.06, 0.02, 0.014}, 0.02, 0.002, 0)),
-             ContainsSubstring("[seams.crack] place: [0.06, 0.02, 0.014] is 0.006 m below the mesh's upper surface, from which the depth is measured; the nearest place on it is [0.06, 0.02, 0.02]"));
-  CHECK_THAT(complaint(seam({0.06, 0.02, 0.026}, 0.02, 0.01, 0)), ContainsSubstring("is 0.006 m above the mesh's upper surface"));
-  CHECK_THAT(complaint(seam({0.06, 0.05, 0.01}, 0.04, 0.01, 0)), ContainsSubstring("lies beside the mesh: its upper surface is nowhere over or under it; the nearest place on it is [0.06, 0.04, 0.02]"));
-  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 1, 1, 0)), ContainsSubstring("cuts the body in two: it became 0.04 m long and 0.02 m deep"));
+             ContainsSubstring("[seams.crack] place: [0.06, 0.02, 0.014] is 0.006 m below the mesh's upper surface, "
+                               "from which the depth is measured; the nearest place on it is [0.06, 0.02, 0.02]"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.026}, 0.02, 0.01, 0)),
+             ContainsSubstring("is 0.006 m above the mesh's upper surface"));
+  CHECK_THAT(complaint(seam({0.06, 0.05, 0.01}, 0.04, 0.01, 0)),
+             ContainsSubstring("lies beside the mesh: its upper surface is nowhere over or under it; the nearest place "
+                               "on it is [0.06, 0.04, 0.02]"));
+  CHECK_THAT(complaint(seam({0.06, 0.02, 0.02}, 1, 1, 0)),
+             ContainsSubstring("cuts the body in two: it became 0.04 m long and 0.02 m deep"));
   Mesh mesh = box({24, 8, 4});
   open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh);
   CHECK_THROWS_AS(open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh), InputError);

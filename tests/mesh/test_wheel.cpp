@@ -3,10 +3,10 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
+#include "complaint.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wheel.hpp"
-#include "complaint.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -111,7 +111,8 @@ TEST_CASE("The wheel's zone lies about the lowest point, rolled towards +x, in t
       const Vec3& p = mesh.nodes[n];
       const double arc = 0.46 * std::atan2(p[0], -p[2]);
       first = std::min(first, arc), last = std::max(last, arc);
-      if (std::abs(radius_of(p) - 0.46 - s1002_height(p[1])) < 1e-9) low = std::min(low, p[1]), high = std::max(high, p[1]);
+      if (std::abs(radius_of(p) - 0.46 - s1002_height(p[1])) < 1e-9)
+        low = std::min(low, p[1]), high = std::max(high, p[1]);
     }
   CHECK_THAT(first, WithinAbs(-0.02, 1e-9));
   CHECK_THAT(last, WithinAbs(0.14, 1e-9));
@@ -164,7 +165,8 @@ TEST_CASE("Wheels of other sizes and zones are sound") {
       {"smaller", with([](auto& w) { w.radius = 0.42, w.rim_inner_radius = 0.36, w.web_outer_radius = 0.33; })},
       {"larger", with([](auto& w) { w.radius = 0.5; })},
       {"long zone", with([](auto& w) { w.zone_size = 0.004, w.zone_length = 1.3; })},
-      {"all round", with([](auto& w) { w.zone_size = 0.008, w.section_size = 0.009, w.zone_layers = 1, w.zone_length = 2.89; })},
+      {"all round",
+       with([](auto& w) { w.zone_size = 0.008, w.section_size = 0.009, w.zone_layers = 1, w.zone_length = 2.89; })},
       {"elsewhere", with([](auto& w) { w.zone_start = 0.3, w.zone_length = 0.1; })},
       {"flange root", with([](auto& w) { w.zone_centre = -0.038, w.zone_width = 0.02; })},
       {"narrow band", with([](auto& w) { w.zone_width = 0.01; })},
@@ -185,11 +187,13 @@ TEST_CASE("Wheel parameters that do not fit are named with what is allowed") {
     change(source.wheel);
     return complaint_of(wheel_mesh, source);
   };
-  CHECK_THAT(complaint([](auto& w) { w.profile = "S1003"; }), ContainsSubstring("[meshes.wheel] (line 9): profile = S1003; allowed"));
+  CHECK_THAT(complaint([](auto& w) { w.profile = "S1003"; }),
+             ContainsSubstring("[meshes.wheel] (line 9): profile = S1003; allowed"));
   CHECK_THAT(complaint([](auto& w) { w.bore_radius = 0.2; }), ContainsSubstring("hub_radius"));
   CHECK_THAT(complaint([](auto& w) { w.radius = 0.4; }), ContainsSubstring("radius = 0.4; allowed: rim_inner_radius"));
   CHECK_THAT(complaint([](auto& w) { w.zone_length = 4; }), ContainsSubstring("circumference, 2.8903 m"));
-  CHECK_THAT(complaint([](auto& w) { w.zone_centre = 0.055; }), ContainsSubstring("does not lie on the running surface"));
+  CHECK_THAT(complaint([](auto& w) { w.zone_centre = 0.055; }),
+             ContainsSubstring("does not lie on the running surface"));
   CHECK_THAT(complaint([](auto& w) { w.web_outer_thickness = 0.2; }), ContainsSubstring("web_outer_thickness"));
   CHECK_THAT(complaint([](auto& w) { w.zone_size = -1, w.growth = 3; }),
              ContainsSubstring("zone_size = -1") && ContainsSubstring("growth = 3"));

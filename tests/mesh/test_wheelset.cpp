@@ -78,7 +78,8 @@ TEST_CASE("Half a wheelset is a wheel whose bore an axle fills, one sound solid 
   const double around = static_cast<double>(wheel_stations(source.wheelset).levels.back().size());
   CAPTURE(around, mesh.elements.size(), mesh.element_sets.at("axle").size());
   // The axle's skin has as many chords as the bore; where the zone crowds them the others are wider.
-  CHECK_THAT(mesh_quality(mesh, 1).volume - mesh_quality(wheel_mesh(wheel), 1).volume, WithinRel(axle_volume(source.wheelset), 0.01));
+  CHECK_THAT(mesh_quality(mesh, 1).volume - mesh_quality(wheel_mesh(wheel), 1).volume,
+             WithinRel(axle_volume(source.wheelset), 0.01));
   CHECK(mesh.element_sets.at("wheel").size() + mesh.element_sets.at("axle").size() == mesh.elements.size());
 }
 
@@ -147,9 +148,12 @@ TEST_CASE("Parameters of a wheelset that do not fit are named with what is allow
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& w) { w.axle[1][0] = 0.7; }),
-             ContainsSubstring("[meshes.wheelset] (line 7): axle = [0.7, 0.08]; allowed: a y outside the hub, which goes from 0.6575 to 0.8375 m"));
+             ContainsSubstring("[meshes.wheelset] (line 7): axle = [0.7, 0.08]; allowed: a y outside the hub, which "
+                               "goes from 0.6575 to 0.8375 m"));
   CHECK_THAT(complaint([](auto& w) { w.axle[0][0] = 0.1; }), ContainsSubstring("allowed: a first pair at y = 0"));
-  CHECK_THAT(complaint([](auto& w) { w.axle.pop_back(), w.axle.pop_back(); }), ContainsSubstring("a last pair beyond the hub's end, y = 0.8375 m"));
-  CHECK_THAT(complaint([](auto& w) { w.flange_back_distance = 0.05; }), ContainsSubstring("flange_back_distance = 0.05"));
+  CHECK_THAT(complaint([](auto& w) { w.axle.pop_back(), w.axle.pop_back(); }),
+             ContainsSubstring("a last pair beyond the hub's end, y = 0.8375 m"));
+  CHECK_THAT(complaint([](auto& w) { w.flange_back_distance = 0.05; }),
+             ContainsSubstring("flange_back_distance = 0.05"));
   CHECK_THAT(complaint([](auto& w) { w.bore_radius = 0.2; }), ContainsSubstring("hub_radius"));
 }

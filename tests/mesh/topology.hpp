@@ -17,10 +17,10 @@ namespace railwave {
 /// What the faces of a mesh say about it: a conforming solid has no face in more than two elements, and its outside is
 /// one closed surface with each edge in two faces. A crack or a hanging node changes components or Euler number.
 struct Topology {
-  int crowded_faces = 0;     ///< in more than two elements
-  int open_edges = 0;        ///< of the outside, not in exactly two of its faces
-  int components = 0;        ///< of the outside
-  int euler = 0;             ///< of the outside: 2 for a ball, 0 for a ring
+  int crowded_faces = 0;  ///< in more than two elements
+  int open_edges = 0;     ///< of the outside, not in exactly two of its faces
+  int components = 0;     ///< of the outside
+  int euler = 0;          ///< of the outside: 2 for a ball, 0 for a ring
   int unused_nodes = 0;
   double largest_size_ratio = 0;  ///< of V / A_max across faces
 };
@@ -81,7 +81,8 @@ inline std::pair<double, double> edge_range(const Mesh& mesh, const std::vector<
     for (const auto& side : hexahedron_face_corners)
       for (int i = 0; i < 4; ++i) {
         const Vec3 &a = mesh.nodes[mesh.elements[e][side[i]]], &b = mesh.nodes[mesh.elements[e][side[(i + 1) % 4]]];
-        const double length = std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+        const double length =
+            std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
         range.first = std::min(range.first, length);
         range.second = std::max(range.second, length);
       }

@@ -16,8 +16,7 @@ using namespace railwave;
 // text.
 TEST_CASE("each broken mesh file is refused with its message") {
   std::vector<std::filesystem::path> paths;
-  for (const auto& entry :
-       std::filesystem::directory_iterator(source_folder + "/tests/mesh_files/bad"))
+  for (const auto& entry : std::filesystem::directory_iterator(source_folder + "/tests/mesh_files/bad"))
     if (const auto ending = entry.path().extension(); ending == ".inp" || ending == ".msh")
       paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());

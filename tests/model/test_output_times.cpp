@@ -13,7 +13,9 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 /// Steps between two outputs, as the time loop takes them.
-long every(const StepPlan& plan, double interval, long round = 1) { return std::max(1L, std::lround(interval / (static_cast<double>(round) * plan.size))) * round; }
+long every(const StepPlan& plan, double interval, long round = 1) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(round) * plan.size))) * round;
+}
 
 }  // namespace
 

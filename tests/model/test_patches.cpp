@@ -71,7 +71,8 @@ TEST_CASE("patches hold each element once and keep to their limits") {
 TEST_CASE("grown patches are fuller than halved ones where rows of elements bend") {
   const Assembly assembly = wheel();
   const int count = static_cast<int>(assembly.elements.size());
-  const auto grown = divide(assembly, &grow_patches, 0, count), halved = divide(assembly, &halve_into_patches, 0, count);
+  const auto grown = divide(assembly, &grow_patches, 0, count),
+             halved = divide(assembly, &halve_into_patches, 0, count);
   INFO(grown.first.size() << " and " << halved.first.size() << " patches of " << count << " elements");
   CHECK(grown.first.size() < 0.85 * halved.first.size());
   CHECK(count > 0.9 * patch_size * grown.first.size());

@@ -42,7 +42,9 @@ scene::ElementSet by_position(const scene::Vec3& position, double radius = 0, co
   return set;
 }
 
-std::vector<int> picked(const scene::ElementSet& set) { return assemble(scene_with(set)).element_sets.at("block.picked"); }
+std::vector<int> picked(const scene::ElementSet& set) {
+  return assemble(scene_with(set)).element_sets.at("block.picked");
+}
 
 }  // namespace
 
@@ -62,7 +64,7 @@ TEST_CASE("an element set by position has the element in which that lies, and wi
   REQUIRE(placed.size() == 1);
   CHECK_THAT(placed[0].distance, WithinAbs(std::sqrt(0.04 + 0.16 + 0.16), 1e-12));
   CHECK(placed[0].warning.empty());
-  CHECK(picked(by_position({12.5, 1.5, 1.5}, 1.0)).size() == 1 + 5);   // six neighbours, one of them beyond y_max
+  CHECK(picked(by_position({12.5, 1.5, 1.5}, 1.0)).size() == 1 + 5);  // six neighbours, one of them beyond y_max
   CHECK(picked(by_position({12.5, 1.5, 1.5}, 1.0, "y_max")).size() == 1 + 4);
 }
 
@@ -77,22 +79,28 @@ TEST_CASE("a place outside the part has the nearest element, and a warning that 
   const Assembly assembly = assemble(scene);
   CHECK(element_centre(assembly, assembly.element_sets.at("block.picked").at(0)) == Vec3{12.5, 0.5, 2.5});
   CHECK_THAT(placed_element_sets(scene, assembly).at(0).warning,
-             ContainsSubstring("block.picked (line 7) is asked for at [12.5, 0.5, 7] m, which lies in no element of the part") &&
+             ContainsSubstring(
+                 "block.picked (line 7) is asked for at [12.5, 0.5, 7] m, which lies in no element of the part") &&
                  ContainsSubstring("4.5 m away at [12.5, 0.5, 2.5] m"));
   // Just off a face, as a place on a curved surface is off its facets.
-  CHECK(placed_element_sets(scene_with(by_position({12.5, 0.5, 3.01})), assemble(scene_with(by_position({12.5, 0.5, 3.01})))).at(0).warning.empty());
+  CHECK(placed_element_sets(scene_with(by_position({12.5, 0.5, 3.01})),
+                            assemble(scene_with(by_position({12.5, 0.5, 3.01}))))
+            .at(0)
+            .warning.empty());
 }
 
 TEST_CASE("an element set without elements names the nearest, and a name that is taken is refused") {
   CHECK_THAT(verify::complaint_of_building(scene_with(by_box({{{10.6, 0.6, 5}, {10.7, 0.7, 6}}}))),
-             ContainsSubstring("block:7: [element_sets.picked] box: no element of 'block' has its centre in it; the nearest has it at [10.5, 0.5, 2.5] m, 2.504 m away"));
+             ContainsSubstring("block:7: [element_sets.picked] box: no element of 'block' has its centre in it; the "
+                               "nearest has it at [10.5, 0.5, 2.5] m, 2.504 m away"));
   scene::Scene taken = scene_with(by_box({{{0, 0, 0}, {99, 9, 9}}}));
   taken.element_sets[0].name = "z_max";
   CHECK_THAT(verify::complaint_of_building(taken), ContainsSubstring("the part 'block' has a set 'z_max' already"));
   scene::Scene twice = scene_with(by_box({{{0, 0, 0}, {99, 9, 9}}}));
   twice.element_sets.push_back(twice.element_sets[0]);
   CHECK_THAT(verify::complaint_of_building(twice), ContainsSubstring("the part 'block' has a set 'picked' already"));
-  CHECK_THAT(verify::complaint_of_building(scene_with(by_box({{{0, 0, 0}, {99, 9, 9}}}, "top"))), ContainsSubstring("there is no set 'block.top'"));
+  CHECK_THAT(verify::complaint_of_building(scene_with(by_box({{{0, 0, 0}, {99, 9, 9}}}, "top"))),
+             ContainsSubstring("there is no set 'block.top'"));
 }
 
 TEST_CASE("natural coordinates tell inside from outside in a warped element") {
@@ -102,9 +110,12 @@ TEST_CASE("natural coordinates tell inside from outside in a warped element") {
     const double x = s[0], y = s[1], z = s[2];
     corners[k] = {x + 0.2 * y * z, y - 0.15 * x * z, 2 * z + 0.3 * x * y};
   }
-  const auto map = [&](double x, double y, double z) { return Vec3{x + 0.2 * y * z, y - 0.15 * x * z, 2 * z + 0.3 * x * y}; };
+  const auto map = [&](double x, double y, double z) {
+    return Vec3{x + 0.2 * y * z, y - 0.15 * x * z, 2 * z + 0.3 * x * y};
+  };
   for (const double place : {0.0, 0.3, 0.999, 1.001, 1.4}) {
-    CHECK_THAT(largest_natural_coordinate(corners, map(place, -0.5 * place, 0.2)), WithinAbs(std::fmax(place, 0.2), 1e-9));
+    CHECK_THAT(largest_natural_coordinate(corners, map(place, -0.5 * place, 0.2)),
+               WithinAbs(std::fmax(place, 0.2), 1e-9));
     CHECK_THAT(largest_natural_coordinate(corners, map(0.1, 0.4, -place)), WithinAbs(std::fmax(place, 0.4), 1e-9));
   }
   const Vec3 far_away{1e6, 0, 0};
@@ -123,5 +134,6 @@ TEST_CASE("history sets are what their names and probes ask for") {
   scene.materials[0].yield_stress = 1e9;
   CHECK(resolve_history_sets(scene, assemble(scene))[1].plastic_strain);
   scene.output.history_sets = {"block.pickt"};
-  CHECK_THAT(verify::complaint_of_building(scene), ContainsSubstring("there is no set 'block.pickt'; did you mean 'block.picked'?"));
+  CHECK_THAT(verify::complaint_of_building(scene),
+             ContainsSubstring("there is no set 'block.pickt'; did you mean 'block.picked'?"));
 }

@@ -37,7 +37,8 @@ std::string complaint(const scene::Scene& scene) {
 TEST_CASE("a node set by place has the nodes in its box, sides included, where the part stands") {
   const Assembly assembly = assemble(scene_with("", {{{11, 0, 0}, {13, 1, 1}}}));
   CHECK(assembly.node_sets.at("block.picked").size() == 3 * 2 * 2);
-  for (int n : assembly.node_sets.at("block.picked")) CHECK((assembly.nodes[n][0] >= 11 && assembly.nodes[n][0] <= 13 && assembly.nodes[n][1] <= 1));
+  for (int n : assembly.node_sets.at("block.picked"))
+    CHECK((assembly.nodes[n][0] >= 11 && assembly.nodes[n][0] <= 13 && assembly.nodes[n][1] <= 1));
   CHECK(assembly.surfaces.count("block.picked") == 0);
 }
 
@@ -50,7 +51,8 @@ TEST_CASE("of a surface a set by place has its nodes and whole faces only") {
 
 TEST_CASE("a set by place without nodes tells the nearest one, and a name that is taken") {
   CHECK_THAT(complaint(scene_with("z_max", {{{11.2, 0.5, 1}, {11.4, 0.6, 2}}})),
-             ContainsSubstring("block:7: [node_sets.picked] box: no node of 'block.z_max' is in it; the nearest is at [11, 1, 1] m, 0.4472 m away"));
+             ContainsSubstring("block:7: [node_sets.picked] box: no node of 'block.z_max' is in it; the nearest is at "
+                               "[11, 1, 1] m, 0.4472 m away"));
   scene::Scene taken = scene_with("", {{{0, 0, 0}, {99, 9, 9}}});
   taken.node_sets[0].name = "z_min";
   CHECK_THAT(complaint(taken), ContainsSubstring("the part 'block' has a set 'z_min' already"));
@@ -80,8 +82,10 @@ TEST_CASE("a position farther from the nearest node than an element is warned of
   scene::Scene scene = scene_with("", {});
   scene.node_sets[0].box.reset();
   scene.node_sets[0].position = scene::Vec3{12, 1, 2.5};
-  CHECK_THAT(placed_sets(scene, assemble(scene))[0].warning,
-             ContainsSubstring("block.picked (line 7) is asked for at [12, 1, 2.5] m, but the nearest node is 1.5 m away, at [12, 1, 1] m"));
+  CHECK_THAT(
+      placed_sets(scene, assemble(scene))[0].warning,
+      ContainsSubstring(
+          "block.picked (line 7) is asked for at [12, 1, 2.5] m, but the nearest node is 1.5 m away, at [12, 1, 1] m"));
   scene.node_sets[0].radius = 0.6;
   CHECK(placed_sets(scene, assemble(scene))[0].warning.empty());
 }

@@ -29,7 +29,8 @@ TEST_CASE("nodes in single precision are refused where some take longer steps th
 }
 
 TEST_CASE("a scene without subcycling may have any precision, and the summary says which") {
-  for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     scene::Scene scene = block();
     scene.solver.precision = precision;
     Model model;

@@ -1,12 +1,10 @@
-/* Stands between a program and the system (LD_PRELOAD) and makes the disk fail, or kills the program, at a chosen call. Calls that change
- * something under FAULTY_FOLDER are counted, from 1.
- *   FAULTY_COUNT=FILE        their number is written there at the end
- *   FAULTY_LIST=FILE         each is listed there
- *   FAULTY_KILL=N            the program is killed at the N-th; FAULTY_TORN=1: when half of what it writes is written
- *   FAULTY_FAIL=N            the N-th and all after it are refused, but for removing and shortening
- *   FAULTY_ERRNO=E           so; else no space is left
- *   FAULTY_ONLY=TEXT         count those only on files whose names hold TEXT
- *   FAULTY_CLOCK=S           the clock on the wall is S seconds off at every other look at it */
+/* Stands between a program and the system (LD_PRELOAD) and makes the disk fail, or kills the program, at a chosen call.
+ * Calls that change something under FAULTY_FOLDER are counted, from 1. FAULTY_COUNT=FILE        their number is written
+ * there at the end FAULTY_LIST=FILE         each is listed there FAULTY_KILL=N            the program is killed at the
+ * N-th; FAULTY_TORN=1: when half of what it writes is written FAULTY_FAIL=N            the N-th and all after it are
+ * refused, but for removing and shortening FAULTY_ERRNO=E           so; else no space is left FAULTY_ONLY=TEXT count
+ * those only on files whose names hold TEXT FAULTY_CLOCK=S           the clock on the wall is S seconds off at every
+ * other look at it */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -84,7 +82,8 @@ static void die(void) {
   pause();
 }
 
-static ssize_t put(ssize_t (*real)(int, const void*, size_t, off_t), int file, const void* bytes, size_t size, off_t offset, const char* what) {
+static ssize_t put(ssize_t (*real)(int, const void*, size_t, off_t), int file, const void* bytes, size_t size,
+                   off_t offset, const char* what) {
   char path[4096];
   const int fate = counted(what, path_of(file, path), 1, 1);
   if (fate == 2) return -1;
@@ -94,8 +93,12 @@ static ssize_t put(ssize_t (*real)(int, const void*, size_t, off_t), int file, c
   return -1;
 }
 
-ssize_t pwrite(int file, const void* bytes, size_t size, off_t offset) { return put(REAL(pwrite), file, bytes, size, offset, "pwrite"); }
-ssize_t pwrite64(int file, const void* bytes, size_t size, off_t offset) { return put(REAL(pwrite64), file, bytes, size, offset, "pwrite"); }
+ssize_t pwrite(int file, const void* bytes, size_t size, off_t offset) {
+  return put(REAL(pwrite), file, bytes, size, offset, "pwrite");
+}
+ssize_t pwrite64(int file, const void* bytes, size_t size, off_t offset) {
+  return put(REAL(pwrite64), file, bytes, size, offset, "pwrite");
+}
 
 ssize_t write(int file, const void* bytes, size_t size) {
   char path[4096];
@@ -134,16 +137,16 @@ static int begin(int (*real)(const char*, int, ...), const char* path, int how, 
   return real(path, how, mode);
 }
 
-#define OPEN(name)                                       \
-  int name(const char* path, int how, ...) {             \
-    mode_t mode = 0;                                     \
-    if (how & (O_CREAT | __O_TMPFILE)) {                 \
-      va_list more;                                      \
-      va_start(more, how);                               \
-      mode = va_arg(more, mode_t);                       \
-      va_end(more);                                      \
-    }                                                    \
-    return begin(REAL(name), path, how, mode);           \
+#define OPEN(name)                             \
+  int name(const char* path, int how, ...) {   \
+    mode_t mode = 0;                           \
+    if (how & (O_CREAT | __O_TMPFILE)) {       \
+      va_list more;                            \
+      va_start(more, how);                     \
+      mode = va_arg(more, mode_t);             \
+      va_end(more);                            \
+    }                                          \
+    return begin(REAL(name), path, how, mode); \
   }
 OPEN(open)
 OPEN(open64)

@@ -1,9 +1,9 @@
-/* Stands between a program and the system (LD_PRELOAD) and gives it only so much memory, byte for byte, whatever the processor, the
- * threads and the C library make of a limit of address space. What is taken by malloc and by mmap counts.
- *   LITTLE_MEMORY=BYTES   so much in all
- *   LITTLE_MEMORY_AT=N    at the N-th time that anything but HDF5 asks, all is taken but LITTLE_MEMORY_LEFT bytes (none by default)
- *   LITTLE_MEMORY_TELL=FILE  written there at the end: how often anything but HDF5 asked, the most that was taken, and the most that HDF5
- *                         took on top of what it had when its thread looked last whether there is room (a mapping of 8 MiB or more) */
+/* Stands between a program and the system (LD_PRELOAD) and gives it only so much memory, byte for byte, whatever the
+ * processor, the threads and the C library make of a limit of address space. What is taken by malloc and by mmap
+ * counts. LITTLE_MEMORY=BYTES   so much in all LITTLE_MEMORY_AT=N    at the N-th time that anything but HDF5 asks, all
+ * is taken but LITTLE_MEMORY_LEFT bytes (none by default) LITTLE_MEMORY_TELL=FILE  written there at the end: how often
+ * anything but HDF5 asked, the most that was taken, and the most that HDF5 took on top of what it had when its thread
+ * looked last whether there is room (a mapping of 8 MiB or more) */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -33,7 +33,9 @@ static struct { atomic_uintptr_t begin, end; } libraries[4]; /* HDF5 and what co
 static int of_hdf5(struct dl_phdr_info* info, size_t size, void* count) {
   (void)size;
   int* next = count;
-  if (*next == 4 || !(strstr(info->dlpi_name, "libhdf5") || strstr(info->dlpi_name, "libz.so") || strstr(info->dlpi_name, "libsz.so"))) return 0;
+  if (*next == 4 || !(strstr(info->dlpi_name, "libhdf5") || strstr(info->dlpi_name, "libz.so") ||
+                      strstr(info->dlpi_name, "libsz.so")))
+    return 0;
   for (int i = 0; i < info->dlpi_phnum; ++i)
     if (info->dlpi_phdr[i].p_type == PT_LOAD && (info->dlpi_phdr[i].p_flags & PF_X)) {
       libraries[*next].begin = info->dlpi_addr + info->dlpi_phdr[i].p_vaddr;
@@ -114,9 +116,13 @@ void free(void* place) {
   __libc_free(place);
 }
 
-static void* aligned(size_t alignment, size_t size, int hdf5) { return refused(size, hdf5) ? NULL : given(__libc_memalign(alignment, size), hdf5); }
+static void* aligned(size_t alignment, size_t size, int hdf5) {
+  return refused(size, hdf5) ? NULL : given(__libc_memalign(alignment, size), hdf5);
+}
 void* memalign(size_t alignment, size_t size) { return aligned(alignment, size, is_hdf5(__builtin_return_address(0))); }
-void* aligned_alloc(size_t alignment, size_t size) { return aligned(alignment, size, is_hdf5(__builtin_return_address(0))); }
+void* aligned_alloc(size_t alignment, size_t size) {
+  return aligned(alignment, size, is_hdf5(__builtin_return_address(0)));
+}
 int posix_memalign(void** place, size_t alignment, size_t size) {
   void* found = aligned(alignment, size, is_hdf5(__builtin_return_address(0)));
   if (!found) return ENOMEM;
@@ -124,7 +130,10 @@ int posix_memalign(void** place, size_t alignment, size_t size) {
   return 0;
 }
 
-static struct { atomic_uintptr_t place; size_t size; } mapped[64];
+static struct {
+  atomic_uintptr_t place;
+  size_t size;
+} mapped[64];
 
 void* mmap(void* where, size_t size, int protection, int flags, int file, off_t offset) {
   const int counts = (flags & MAP_ANONYMOUS) != 0;
@@ -141,7 +150,9 @@ void* mmap(void* where, size_t size, int protection, int flags, int file, off_t 
   }
   return place;
 }
-void* mmap64(void* where, size_t size, int protection, int flags, int file, off_t offset) { return mmap(where, size, protection, flags, file, offset); }
+void* mmap64(void* where, size_t size, int protection, int flags, int file, off_t offset) {
+  return mmap(where, size, protection, flags, file, offset);
+}
 
 int munmap(void* place, size_t size) {
   for (int i = 0; i < 64; ++i) {

@@ -26,15 +26,18 @@ inline Assembly block() {
         const int element = static_cast<int>(assembly.elements.size());
         if (k == 0) assembly.element_sets["block.lower"].push_back(element);
         if (k == n[2] - 1) assembly.surfaces["block.top"].push_back({element, 1});
-        assembly.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k), node(i, j, k + 1),
-                                     node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+        assembly.elements.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                                     node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                                     node(i, j + 1, k + 1)});
       }
   assembly.node_sets["block.corner"] = {0};
-  assembly.parts.push_back({"block", 0, static_cast<int>(assembly.nodes.size()), 0, static_cast<int>(assembly.elements.size()), 0});
+  assembly.parts.push_back(
+      {"block", 0, static_cast<int>(assembly.nodes.size()), 0, static_cast<int>(assembly.elements.size()), 0});
   return assembly;
 }
 
-/// Fields that follow from node number, element number and time by the formulas below, which test_results_file.py knows too.
+/// Fields that follow from node number, element number and time by the formulas below, which test_results_file.py knows
+/// too.
 class Source : public FieldSource {
  public:
   explicit Source(double time) : time_(time) {}
@@ -101,7 +104,8 @@ inline HistorySample sample(long step) {
   HistorySample result;
   result.step = step;
   result.time = 1e-6 * step;
-  result.energy = {1000.0 + step, 20.0 + step, 1e-3 * step, 2.0 + step, 0.5 * step, 3.0, 0.25 * step, 0.125 * step, 1.5 * step, 1e-2 * step};
+  result.energy = {1000.0 + step, 20.0 + step, 1e-3 * step,  2.0 + step, 0.5 * step,
+                   3.0,           0.25 * step, 0.125 * step, 1.5 * step, 1e-2 * step};
   const HertzContact hertz = Source::hertz(result.time);
   ContactTotals totals;
   totals.normal_force = {0, 0, hertz.normal_force()};
@@ -118,7 +122,8 @@ inline HistorySample sample(long step) {
 
 constexpr long steps = 400, steps_between_fields = 100;
 
-/// Feeds a writer as the time loop would: a history sample at every step, fields at every hundredth, up to and with `last`.
+/// Feeds a writer as the time loop would: a history sample at every step, fields at every hundredth, up to and with
+/// `last`.
 template <class Writer>
 void feed(Writer& writer, long last) {
   for (long step = 0; step <= last; ++step) {

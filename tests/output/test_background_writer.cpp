@@ -22,7 +22,8 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Every dataset below a group, by its path.
-void collect(const hdf5::Group& group, const std::string& path, std::map<std::string, std::pair<hdf5::Shape, std::vector<double>>>& found) {
+void collect(const hdf5::Group& group, const std::string& path,
+             std::map<std::string, std::pair<hdf5::Shape, std::vector<double>>>& found) {
   for (const std::string& name : group.names()) {
     bool is_group = true;
     try {
@@ -183,7 +184,8 @@ TEST_CASE("a background writer without data leaves the older results") {
   { const BackgroundWriter writer(path, made_up::description()); }
   CHECK(text_of(path) == "older results");
   CHECK_FALSE(fs::exists(path + ".new"));
-  CHECK_THROWS_WITH(BackgroundWriter(folder / "none/run.h5", made_up::description()), ContainsSubstring("there is no folder"));
+  CHECK_THROWS_WITH(BackgroundWriter(folder / "none/run.h5", made_up::description()),
+                    ContainsSubstring("there is no folder"));
 }
 
 TEST_CASE("what the disk refuses comes to the run in the same words") {
@@ -199,7 +201,8 @@ TEST_CASE("what the disk refuses comes to the run in the same words") {
     const auto from = text.find("time = ");
     return from == std::string::npos ? text : text.erase(from, text.find('\n', from) - from);
   };
-  CHECK_THAT(expected, ContainsSubstring(folder / "run.") && ContainsSubstring("File too large") && ContainsSubstring("ulimit -f"));
+  CHECK_THAT(expected, ContainsSubstring(folder / "run.") && ContainsSubstring("File too large") &&
+                           ContainsSubstring("ulimit -f"));
   CHECK(but_for_the_time(complaint) == but_for_the_time(expected));
   CHECK(text_of(folder / "printed").empty());  // HDF5 itself keeps quiet in both threads
 }
@@ -231,13 +234,15 @@ TEST_CASE("an output is fetched before the call returns, each field once") {
     CHECK(source.of_elements == 2);
   }
   writer.end(made_up::summary());
-  CHECK(hdf5::File::open(path).root().group("fields").group("block").dataset("stress").shape() == hdf5::Shape{5, 24, 6});
+  CHECK(hdf5::File::open(path).root().group("fields").group("block").dataset("stress").shape() ==
+        hdf5::Shape{5, 24, 6});
 }
 
 TEST_CASE("a snapshot has what was selected, and says so of the rest") {
   const RunDescription run = made_up::description();
   const made_up::Source source(2e-4);
-  const auto selection = std::make_shared<const FieldSelection>(select_fields({run.sets[1]}, {"velocity", "stress"}, 0, source));
+  const auto selection =
+      std::make_shared<const FieldSelection>(select_fields({run.sets[1]}, {"velocity", "stress"}, 0, source));
   const FieldSnapshot snapshot(source, selection);
   const std::vector<int> some{7, 0, 7, 11};
   CHECK(snapshot.stress(some).values == source.stress(some).values);

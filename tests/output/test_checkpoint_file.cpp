@@ -43,7 +43,8 @@ void damage(const std::string& path, std::size_t place) {
 /// Where a double lies in a file.
 std::size_t place_of(const std::string& path, double value) {
   std::ifstream in(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}}, sought(reinterpret_cast<const char*>(&value), sizeof value);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}},
+      sought(reinterpret_cast<const char*>(&value), sizeof value);
   return bytes.find(sought);
 }
 
@@ -98,7 +99,8 @@ TEST_CASE("a damaged state is refused and the one before it taken") {
 TEST_CASE("a state of another case or run is refused") {
   const Folder folder;
   CheckpointFile(folder.file(), "key").write(state_at(6), "run");
-  const CheckpointFile::Found of_case = CheckpointFile(folder.file(), "other").find("run"), of_run = CheckpointFile(folder.file(), "key").find("other");
+  const CheckpointFile::Found of_case = CheckpointFile(folder.file(), "other").find("run"),
+                              of_run = CheckpointFile(folder.file(), "key").find("other");
   CHECK_FALSE(of_case.state);
   CHECK_THAT(of_case.troubles.at(0), ContainsSubstring("of another case"));
   CHECK_FALSE(of_run.state);
@@ -109,7 +111,8 @@ TEST_CASE("what a kill leaves of the next state harms nothing") {
   const Folder folder;
   const CheckpointFile file(folder.file(), "key");
   file.write(state_at(6), "run");
-  std::filesystem::copy(folder.file(), folder.file() + ".new");  // one of the same kind: not whole, or without a name yet
+  std::filesystem::copy(folder.file(),
+                        folder.file() + ".new");  // one of the same kind: not whole, or without a name yet
   std::filesystem::resize_file(folder.file() + ".new", std::filesystem::file_size(folder.file()) - 100);
   CHECK(file.find("run").state->step == 6);
   // Between the two renamings only the one before has its name.
@@ -127,8 +130,10 @@ TEST_CASE("what is not of a checkpoint's kind is neither replaced nor removed") 
   for (const char* ending : {"", ".previous", ".new"}) {
     INFO("a text " << folder.file() << ending);
     std::ofstream(folder.file() + ending) << "notes";
-    if (std::string(ending) == ".new") CHECK_NOTHROW(file.write(state_at(6), "run"));
-    else CHECK_THROWS_WITH(file.write(state_at(6), "run"), ContainsSubstring("is there already"));
+    if (std::string(ending) == ".new")
+      CHECK_NOTHROW(file.write(state_at(6), "run"));
+    else
+      CHECK_THROWS_WITH(file.write(state_at(6), "run"), ContainsSubstring("is there already"));
     file.remove();
     std::string text;
     std::getline(std::ifstream(folder.file() + ending), text);
@@ -173,7 +178,8 @@ TEST_CASE("no damage is taken for a state") {
     INFO("bit at " << place);
     CHECK(refused(bytes));
   }
-  std::vector<std::size_t> lengths{0, 1, 7, 8, 23, 24, 25, 96, sound.size() - 1, sound.size() - 8, sound.size() - 24, sound.size() - 25};
+  std::vector<std::size_t> lengths{
+      0, 1, 7, 8, 23, 24, 25, 96, sound.size() - 1, sound.size() - 8, sound.size() - 24, sound.size() - 25};
   for (std::size_t length = 2; length < sound.size(); length = length * 3 / 2 + 1) lengths.push_back(length);
   for (const std::size_t length : lengths) {
     INFO("cut to " << length);

@@ -68,7 +68,8 @@ TEST_CASE("a line at most every interval, with rate and time left") {
   CHECK_THAT(shown.lines.at(0), ContainsSubstring("step") && ContainsSubstring("left") && ContainsSubstring("balance"));
   CHECK_THAT(shown.lines.at(2), ContainsSubstring("0.00000"));
   CHECK_THAT(shown.lines.at(3), ContainsSubstring("0.00500") && ContainsSubstring("5.0") && ContainsSubstring("1.0") &&
-                                    ContainsSubstring("1 min 35 s") && ContainsSubstring("60.000") && ContainsSubstring("25.000"));
+                                    ContainsSubstring("1 min 35 s") && ContainsSubstring("60.000") &&
+                                    ContainsSubstring("25.000"));
   CHECK_THAT(shown.lines.at(4), ContainsSubstring("1 min 30 s"));
   CHECK(shown.lines.at(5).empty());
 }
@@ -99,7 +100,9 @@ TEST_CASE("the summary tells the worst that the watch saw and what its looks too
   summary.watched = "speed 28 (500)";
   summary.watch_seconds = 0.5;
   summary.wall_seconds = 100;
-  CHECK_THAT(show(1, summary).text, ContainsSubstring("\n  watch, worst values (limits): speed 28 (500)\n    its looks took 0.5 s, 0.5 % of the run\n"));
+  CHECK_THAT(show(1, summary).text,
+             ContainsSubstring(
+                 "\n  watch, worst values (limits): speed 28 (500)\n    its looks took 0.5 s, 0.5 % of the run\n"));
   summary.watched.clear();
   CHECK_THAT(show(1, summary).text, !ContainsSubstring("watch"));
 }
@@ -111,7 +114,8 @@ TEST_CASE("with subcycling the rate counts the updates that were made, and the s
   summary.subcycling = {"750000 elements every 4 steps", "2.5 times fewer element updates"};
   const Shown shown = show(10, summary, planned);
   CHECK_THAT(shown.lines.at(3), ContainsSubstring(" 0.4 "));
-  CHECK_THAT(shown.text, ContainsSubstring("  subcycling: 750000 elements every 4 steps\n  subcycling: 2.5 times fewer"));
+  CHECK_THAT(shown.text,
+             ContainsSubstring("  subcycling: 750000 elements every 4 steps\n  subcycling: 2.5 times fewer"));
 }
 
 TEST_CASE("a run that did not complete says why, and how far it came") {

@@ -1,4 +1,5 @@
-// The results file: what it holds, that an older one survives a failing start, and that a killed run leaves a readable file.
+// The results file: what it holds, that an older one survives a failing start, and that a killed run leaves a readable
+// file.
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -45,8 +46,8 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-// Hidden: makes the file that the Python tests read. RAILWAVE_SAMPLE names it; RAILWAVE_SAMPLE_KILL_AFTER is a step after
-// which the program kills itself.
+// Hidden: makes the file that the Python tests read. RAILWAVE_SAMPLE names it; RAILWAVE_SAMPLE_KILL_AFTER is a step
+// after which the program kills itself.
 TEST_CASE("write the made-up run", "[.write-sample]") {
   const char* path = std::getenv("RAILWAVE_SAMPLE");
   REQUIRE(path);
@@ -92,7 +93,8 @@ TEST_CASE("every history sample and field is read back") {
   CHECK(top.dataset("stress").shape() == hdf5::Shape{5, 12, 6});
   const OutputSet set = made_up::description().sets[2];
   CHECK(top.dataset("nodes").read<int>() == set.nodes);
-  CHECK(same(top.dataset("velocity").read_row<double>(3), made_up::Source(1e-6 * 300).nodes(NodeField::velocity, set.nodes).values));
+  CHECK(same(top.dataset("velocity").read_row<double>(3),
+             made_up::Source(1e-6 * 300).nodes(NodeField::velocity, set.nodes).values));
   CHECK(same(top.dataset("stress").read_row<double>(4), made_up::Source(1e-6 * 400).stress(set.elements).values));
   CHECK_THROWS_WITH(top.dataset("stress").read_row<double>(5), ContainsSubstring("/fields/block.top/stress"));
 
@@ -110,7 +112,8 @@ TEST_CASE("a surface's facets lie on the elements under them, and are turned out
   for (std::size_t f = 0; f < set.elements.size(); ++f) {
     CHECK(set.elements[f] >= 12);
     const auto point = [&](int corner) { return set.coordinates.data() + 3 * set.corners[4 * f + corner]; };
-    const double up = (point(1)[0] - point(0)[0]) * (point(3)[1] - point(0)[1]) - (point(1)[1] - point(0)[1]) * (point(3)[0] - point(0)[0]);
+    const double up = (point(1)[0] - point(0)[0]) * (point(3)[1] - point(0)[1]) -
+                      (point(1)[1] - point(0)[1]) * (point(3)[0] - point(0)[0]);
     CHECK(up > 0);
     CHECK(point(0)[2] == 0.01);
   }
@@ -124,7 +127,8 @@ TEST_CASE("output sets that do not exist are named, all of them") {
     resolve_output_sets(scene, made_up::block());
     FAIL("no error");
   } catch (const InputError& error) {
-    CHECK_THAT(error.what(), ContainsSubstring("case.toml: output.field_sets: there is no part, element set or surface 'block.topp'; did you mean 'block.top'?"));
+    CHECK_THAT(error.what(), ContainsSubstring("case.toml: output.field_sets: there is no part, element set or surface "
+                                               "'block.topp'; did you mean 'block.top'?"));
     CHECK_THAT(error.what(), ContainsSubstring("'block.corner' is a set of nodes"));
   }
 }
@@ -167,7 +171,9 @@ TEST_CASE("a file of somebody else that comes while a run begins stays") {
     put(path, "notes");
     put(xdmf, "<Xdmf of another program/>");
     writer.history(made_up::sample(0));
-    CHECK_THROWS_WITH(writer.fields(made_up::Source(0), 0, 0), ContainsSubstring("is there already") && ContainsSubstring("what was written is in " + path + ".new"));
+    CHECK_THROWS_WITH(
+        writer.fields(made_up::Source(0), 0, 0),
+        ContainsSubstring("is there already") && ContainsSubstring("what was written is in " + path + ".new"));
   }
   CHECK(text_of(path) == "notes");
   CHECK(text_of(xdmf) == "<Xdmf of another program/>");
@@ -218,7 +224,8 @@ TEST_CASE("a killed run leaves what it had written") {
   const hdf5::Group root = file.root();
   CHECK(root.number_attribute("completed") == 0);
   CHECK_THAT(root.text_attribute("reason"), ContainsSubstring("killed"));
-  CHECK(root.group("history").dataset("time").shape() == hdf5::Shape{201});  // all until the last flush, with the fields at 200
+  CHECK(root.group("history").dataset("time").shape() ==
+        hdf5::Shape{201});  // all until the last flush, with the fields at 200
   CHECK(root.group("fields").group("block").dataset("displacement").shape()[0] == 3);
   CHECK(root.group("contact").group("tread").dataset("time").read<double>().back() == 1e-6 * 200);
   const std::string xdmf = text_of(folder / "run.xdmf");

@@ -43,14 +43,16 @@ fixed = ["x", "y", "z"]
 slave = "upper.z_min"
 master = "lower.z_max"
 friction = 0.3
-algorithm = ")" + algorithm + R"("
+algorithm = ")" +
+         algorithm + R"("
 [gravity]
 acceleration = [0, 0, -1e5]
 [initial_motion.slide]
 parts = ["upper"]
 velocity = [1, 0, 0]
 [settle]
-method = ")" + method + R"("
+method = ")" +
+         method + R"("
 tolerance = 1e-4
 [time]
 end = 2e-5
@@ -145,7 +147,8 @@ force = [0, 0, -2000]
 [gravity]
 acceleration = [0, 0, -1000]
 [settle]
-method = ")" + method + R"("
+method = ")" +
+         method + R"("
 tolerance = 1e-5
 max_steps = 100000
 [time]
@@ -178,7 +181,9 @@ bool bitwise_equal(const Recorder& a, const Recorder& b) {
   for (std::size_t k = 0; k < a.samples.size(); ++k) {
     if (std::memcmp(&a.samples[k].energy, &b.samples[k].energy, sizeof(EnergyAccount)) != 0) return false;
     for (std::size_t c = 0; c < a.samples[k].beams.size(); ++c)
-      if (a.samples[k].beams[c].force != b.samples[k].beams[c].force || a.samples[k].beams[c].moment != b.samples[k].beams[c].moment) return false;
+      if (a.samples[k].beams[c].force != b.samples[k].beams[c].force ||
+          a.samples[k].beams[c].moment != b.samples[k].beams[c].moment)
+        return false;
     for (std::size_t c = 0; c < a.samples[k].contacts.size(); ++c) {
       const ContactTotals &one = a.samples[k].contacts[c], &other = b.samples[k].contacts[c];
       if (one.normal_force != other.normal_force || one.tangential_force != other.tangential_force ||
@@ -216,12 +221,15 @@ TEST_CASE("a run from the kept state is bitwise the run that settled itself") {
     }
 }
 
-TEST_CASE("the kept state covers bolts, ties, ends, springs and contact: a run from it is bitwise the one that settled itself") {
+TEST_CASE(
+    "the kept state covers bolts, ties, ends, springs and contact: a run from it is bitwise the one that settled "
+    "itself") {
   for (const char* method : {"newton", "relaxation"}) {
     INFO(method);
     const test::TemporaryCase file(assembly(method));
     const Recorder first = run_case(file), second = run_case(file);
-    INFO(first.report.steps << " evaluations in " << first.report.iterations << " steps, unbalance " << first.report.unbalance << "; " << first.report.adrift);
+    INFO(first.report.steps << " evaluations in " << first.report.iterations << " steps, unbalance "
+                            << first.report.unbalance << "; " << first.report.adrift);
     WARN(method << ": " << first.report.steps << " evaluations in " << first.report.iterations << " steps");
     REQUIRE(first.report.settled);
     CHECK(second.report.taken_from == kept_file(file).string());
@@ -240,10 +248,12 @@ TEST_CASE("the kept state covers bolts, ties, ends, springs and contact: a run f
 TEST_CASE("the kept state holds for other times and velocities, for no other loads, meshes or precision") {
   const test::TemporaryCase file(two_blocks("penalty", "newton"));
   run_case(file);
-  CHECK(run_case(file, {"time.end=1e-5", "title=other", "initial_motion.slide.velocity=[2, 0, 0]", "output.history_interval=1e-6"}).report.taken_from !=
-        "");
-  for (const char* change : {"gravity.acceleration=[0, 0, -1.1e5]", "solver.precision=mixed", "meshes.upper.divisions=[5, 6, 2]",
-                             "contacts.touch.friction=0.2", "settle.tolerance=2e-4"}) {
+  CHECK(run_case(file, {"time.end=1e-5", "title=other", "initial_motion.slide.velocity=[2, 0, 0]",
+                        "output.history_interval=1e-6"})
+            .report.taken_from != "");
+  for (const char* change :
+       {"gravity.acceleration=[0, 0, -1.1e5]", "solver.precision=mixed", "meshes.upper.divisions=[5, 6, 2]",
+        "contacts.touch.friction=0.2", "settle.tolerance=2e-4"}) {
     INFO(change);
     CHECK(run_case(file, {change}).report.taken_from.empty());
   }
@@ -271,13 +281,18 @@ TEST_CASE("a damaged state is told and settled anew") {
     const Recorder again = run_case(file);
     // A text is somebody's own: it stays.
     REQUIRE(again.report.remarks.size() == (kind == 1 ? 2 : 1));
-    if (kind == 1) CHECK_THAT(again.report.remarks[1], ContainsSubstring("could not be kept") && ContainsSubstring("is there already"));
-    CHECK_THAT(again.report.remarks[0], ContainsSubstring(kept.string()) && ContainsSubstring("cannot be used") && ContainsSubstring("settles anew"));
+    if (kind == 1)
+      CHECK_THAT(again.report.remarks[1],
+                 ContainsSubstring("could not be kept") && ContainsSubstring("is there already"));
+    CHECK_THAT(again.report.remarks[0], ContainsSubstring(kept.string()) && ContainsSubstring("cannot be used") &&
+                                            ContainsSubstring("settles anew"));
     if (kind == 2) CHECK_THAT(again.report.remarks[0], ContainsSubstring("checksum"));
     CHECK(again.report.taken_from.empty());
     CHECK(bitwise_equal(first, again));
-    if (kind == 1) CHECK(test::text_of(kept) == damaged);
-    else CHECK(test::text_of(kept).size() == sound.size());  // and the file is sound again
+    if (kind == 1)
+      CHECK(test::text_of(kept) == damaged);
+    else
+      CHECK(test::text_of(kept).size() == sound.size());  // and the file is sound again
   }
 }
 
@@ -296,7 +311,8 @@ TEST_CASE("settling that was stopped goes on from its last state") {
     {
       Model model;
       build_model(scene, model);
-      const SettleReport report = come_to_rest(model, &settled, [&](const SettleReport& so_far) { return so_far.steps < whole / 2; });
+      const SettleReport report =
+          come_to_rest(model, &settled, [&](const SettleReport& so_far) { return so_far.steps < whole / 2; });
       CHECK_FALSE(report.settled);
       done = report.steps;
     }

@@ -1,4 +1,5 @@
-// A thread that does tasks in order: it works beside its owner, holds no more than its room, and loses neither task nor error.
+// A thread that does tasks in order: it works beside its owner, holds no more than its room, and loses neither task nor
+// error.
 
 #include <algorithm>
 #include <atomic>
@@ -12,8 +13,8 @@
 
 #include "output/task_thread.hpp"
 
-using railwave::TaskThread;
 using Catch::Matchers::Message;
+using railwave::TaskThread;
 
 namespace {
 

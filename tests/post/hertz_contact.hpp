@@ -8,13 +8,13 @@
 
 namespace railwave {
 
-/// A made-up elliptic contact whose every number is known: Hertzian pressure p0 sqrt(1 - x2/a2 - y2/b2), and the shear of
-/// Vermeulen and Johnson along x: mu p less the same, shrunk by `stick` in length and height, at the leading edge.
+/// A made-up elliptic contact whose every number is known: Hertzian pressure p0 sqrt(1 - x2/a2 - y2/b2), and the shear
+/// of Vermeulen and Johnson along x: mu p less the same, shrunk by `stick` in length and height, at the leading edge.
 struct HertzContact {
-  double a = 6.5e-3, b = 5e-3;    ///< semi-axes along x and y, m
-  double p0 = 1e9;                ///< Pa
+  double a = 6.5e-3, b = 5e-3;  ///< semi-axes along x and y, m
+  double p0 = 1e9;              ///< Pa
   double friction = 0.4;
-  double stick = 0.6;             ///< size of the stick ellipse over that of the patch
+  double stick = 0.6;  ///< size of the stick ellipse over that of the patch
   double centre_x = 0, centre_y = 0;
 
   static double dome(double x, double y) {
@@ -26,7 +26,8 @@ struct HertzContact {
     return dome((x - centre_x - (1 - stick) * a) / (stick * a), (y - centre_y) / (stick * b)) > 0;
   }
   double shear(double x, double y) const {
-    return friction * (pressure(x, y) - stick * p0 * dome((x - centre_x - (1 - stick) * a) / (stick * a), (y - centre_y) / (stick * b)));
+    return friction * (pressure(x, y) -
+                       stick * p0 * dome((x - centre_x - (1 - stick) * a) / (stick * a), (y - centre_y) / (stick * b)));
   }
   double normal_force() const { return 2.0 / 3.0 * M_PI * a * b * p0; }
   double creep_force() const { return friction * normal_force() * (1 - stick * stick * stick); }
@@ -86,8 +87,11 @@ inline ContactState hertz_contact_state(const HertzContact& hertz, const HertzGr
         for (const double value : {0.0, 0.0, sign * normal}) side->normal_force.push_back(value);
         for (const double value : {sign * tangential, 0.0, 0.0}) side->tangential_force.push_back(value);
       }
-      state.gap.push_back(normal > 0 ? -1e-6 : std::hypot(x - hertz.centre_x, y - hertz.centre_y) > 1.5 * hertz.a ? std::nan("") : 1e-6);
-      for (const double value : {slips ? -0.2 : normal > 0 ? -0.001 : 0.0, 0.0, 0.0}) state.slip_velocity.push_back(value);
+      state.gap.push_back(normal > 0                                                           ? -1e-6
+                          : std::hypot(x - hertz.centre_x, y - hertz.centre_y) > 1.5 * hertz.a ? std::nan("")
+                                                                                               : 1e-6);
+      for (const double value : {slips ? -0.2 : normal > 0 ? -0.001 : 0.0, 0.0, 0.0})
+        state.slip_velocity.push_back(value);
       state.slipping.push_back(normal > 0 ? (slips ? 2 : 1) : 0);
     }
   }

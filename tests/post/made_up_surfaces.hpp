@@ -6,8 +6,8 @@
 
 namespace railwave {
 
-/// A surface of nx by ny nodes at place(i, j), that looks to +z (the rail) or to -z (the wheel), at rest and free of forces.
-/// Areas and normals are found as for a run's.
+/// A surface of nx by ny nodes at place(i, j), that looks to +z (the rail) or to -z (the wheel), at rest and free of
+/// forces. Areas and normals are found as for a run's.
 template <class Place>
 ContactSide made_up_side(int nx, int ny, bool looks_up, Place place) {
   ContactSide side;
@@ -24,9 +24,11 @@ ContactSide made_up_side(int nx, int ny, bool looks_up, Place place) {
     }
   const std::size_t count = side.nodes.size();
   side.area.assign(count, 0);
-  for (auto* vectors : {&side.velocity, &side.normal, &side.normal_force, &side.tangential_force}) vectors->assign(3 * count, 0);
+  for (auto* vectors : {&side.velocity, &side.normal, &side.normal_force, &side.tangential_force})
+    vectors->assign(3 * count, 0);
   for (const auto& f : side.facets) {
-    const Vector twice = (entry(side.position, f[2]) - entry(side.position, f[0])).cross(entry(side.position, f[3]) - entry(side.position, f[1]));
+    const Vector twice = (entry(side.position, f[2]) - entry(side.position, f[0]))
+                             .cross(entry(side.position, f[3]) - entry(side.position, f[1]));
     for (const int corner : f) {
       side.area[corner] += 0.125 * twice.norm();
       for (int c = 0; c < 3; ++c) side.normal[3 * corner + c] += twice[c];
@@ -75,7 +77,8 @@ inline ContactState made_up_state(ContactSide slave, ContactSide master, double 
   return state;
 }
 
-/// Cells that grow towards one side, on mesh lines that meet at 70 degrees and wave: no two facets alike, none a rectangle.
+/// Cells that grow towards one side, on mesh lines that meet at 70 degrees and wave: no two facets alike, none a
+/// rectangle.
 inline Vector skewed_place(int i, int j, double cell) {
   const double along = cell * i * (1 + 0.01 * i), across = cell * j * (1 + 0.015 * j);
   return {along + 0.34 * across + 0.15 * cell * std::sin(0.9 * j), 0.94 * across + 0.15 * cell * std::sin(0.7 * i), 0};

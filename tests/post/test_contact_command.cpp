@@ -1,10 +1,10 @@
 // railwave contact: its table, its CSV, and what it says of files that it cannot use.
 
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
-#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -46,8 +46,10 @@ struct Csv {
       std::string cell;
       while (std::getline(text, cell, ',')) cells.push_back(cell);
       if (line.back() == ',') cells.emplace_back();
-      if (columns.empty()) columns = cells;
-      else rows.push_back(cells);
+      if (columns.empty())
+        columns = cells;
+      else
+        rows.push_back(cells);
     }
   }
   const std::string& text(std::size_t row, const std::string& column) const {
@@ -169,7 +171,8 @@ TEST_CASE("nothing that a user computed gets lost") {
   for (auto file : {&ContactRequest::csv, &ContactRequest::nodes, &ContactRequest::cuts, &ContactRequest::hdf5}) {
     ContactRequest request = request_for(folder / "run.h5");
     request.*file = folder / "run.h5";
-    CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("is the results file, which this command reads"));
+    CHECK_THROWS_WITH(contact_command(request, out),
+                      ContainsSubstring("is the results file, which this command reads"));
   }
   ContactRequest request = request_for(folder / "run.h5");
   request.hdf5 = folder / "other.h5";
@@ -196,12 +199,20 @@ TEST_CASE("requests that cannot be met") {
     }
     return std::string("no complaint");
   };
-  CHECK_THAT(complaint([](ContactRequest& r) { r.ring = {3, 2}; }), ContainsSubstring("--ring 3,2") && ContainsSubstring("e.g."));
-  CHECK_THAT(complaint([](ContactRequest& r) { r.rolling_direction = {0, 0, 0}; }), ContainsSubstring("--rolling-direction"));
+  CHECK_THAT(complaint([](ContactRequest& r) {
+               r.ring = {3, 2};
+             }),
+             ContainsSubstring("--ring 3,2") && ContainsSubstring("e.g."));
+  CHECK_THAT(complaint([](ContactRequest& r) {
+               r.rolling_direction = {0, 0, 0};
+             }),
+             ContainsSubstring("--rolling-direction"));
   CHECK_THAT(complaint([](ContactRequest& r) { r.rolling_velocity = -3; }), ContainsSubstring("above 0"));
   CHECK_THAT(complaint([](ContactRequest& r) { r.from = 2, r.to = 1; }), ContainsSubstring("--from 2 is after --to 1"));
-  CHECK_THAT(complaint([](ContactRequest& r) { r.axle = "sprung_mas"; }), ContainsSubstring("did you mean 'sprung_mass'?"));
-  CHECK_THAT(complaint([](ContactRequest& r) { r.axle = "a", r.rolling_velocity = 1; }), ContainsSubstring("exclude each other"));
+  CHECK_THAT(complaint([](ContactRequest& r) { r.axle = "sprung_mas"; }),
+             ContainsSubstring("did you mean 'sprung_mass'?"));
+  CHECK_THAT(complaint([](ContactRequest& r) { r.axle = "a", r.rolling_velocity = 1; }),
+             ContainsSubstring("exclude each other"));
   CHECK_THAT(complaint([](ContactRequest& r) { r.from = 1; }), ContainsSubstring("no output time from 1 s"));
 }
 
@@ -273,5 +284,6 @@ TEST_CASE("a CSV that cannot be written is said, and leaves nothing behind") {
   std::ostringstream out;
   ContactRequest request = request_for(folder / "run.h5");
   request.csv = folder / "none/run.csv";
-  CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("none/run.csv") && ContainsSubstring("there is no folder of that name"));
+  CHECK_THROWS_WITH(contact_command(request, out),
+                    ContainsSubstring("none/run.csv") && ContainsSubstring("there is no folder of that name"));
 }

@@ -31,7 +31,8 @@ TEST_CASE("a Hertzian patch of 13 x 10 mm on 1 mm cells, wherever the nodes lie"
   const ContactSolution solution = contact_solution(state);
   REQUIRE(solution.patches.size() == 1);
   const ContactPatch& s = solution.patches[0];
-  CHECK_THAT(s.area, WithinRel(hertz.area(), 0.007));          // the polygon lies inside the ellipse: 0.45 % too small on average
+  CHECK_THAT(s.area,
+             WithinRel(hertz.area(), 0.007));  // the polygon lies inside the ellipse: 0.45 % too small on average
   CHECK_THAT(s.area_by_count, WithinRel(hertz.area(), 0.045));
   CHECK_THAT(s.peak_nodal_pressure, WithinRel(hertz.p0, 0.01));
   CHECK(s.peak_nodal_pressure <= hertz.p0);
@@ -42,13 +43,15 @@ TEST_CASE("a Hertzian patch of 13 x 10 mm on 1 mm cells, wherever the nodes lie"
   CHECK_THAT(s.traction_coefficient, WithinRel(s.creep_force / s.normal_force, 1e-12));
   CHECK_THAT(s.frame.centre[0], WithinAbs(hertz.centre_x, 0.1e-3));
   CHECK_THAT(s.frame.normal[2], WithinAbs(1, 1e-12));
-  CHECK_THAT(s.ellipse.semi_axis_along, WithinRel(hertz.a, 0.021));  // the rim between the last nodes and the edge is not seen
+  CHECK_THAT(s.ellipse.semi_axis_along,
+             WithinRel(hertz.a, 0.021));  // the rim between the last nodes and the edge is not seen
   CHECK_THAT(s.ellipse.semi_axis_across, WithinRel(hertz.b, 0.021));
 }
 
 TEST_CASE("consistent nodal forces carry the whole force") {
   const HertzContact hertz;
-  const ContactPatch s = contact_solution(hertz_contact_state(hertz, shifted_grid(0.3, 0.1), HertzForces::consistent)).whole;
+  const ContactPatch s =
+      contact_solution(hertz_contact_state(hertz, shifted_grid(0.3, 0.1), HertzForces::consistent)).whole;
   CHECK_THAT(s.normal_force, WithinRel(hertz.normal_force(), 1e-4));
   CHECK_THAT(s.creep_force, WithinRel(hertz.creep_force(), 1e-4));
   CHECK_THAT(s.traction_coefficient, WithinRel(hertz.creep_force() / hertz.normal_force(), 1e-4));
@@ -80,7 +83,8 @@ TEST_CASE("the tangent plane turns with the patch") {
   // The whole contact turned by 60 degrees about x, as on a flange.
   ContactState state = hertz_contact_state(HertzContact{}, {}, HertzForces::sampled);
   const double c = 0.5, s = std::sqrt(0.75);
-  for (auto* vectors : {&state.slave.position, &state.slave.normal, &state.slave.normal_force, &state.slave.tangential_force})
+  for (auto* vectors :
+       {&state.slave.position, &state.slave.normal, &state.slave.normal_force, &state.slave.tangential_force})
     for (std::size_t i = 0; i + 2 < vectors->size(); i += 3) {
       const double y = (*vectors)[i + 1], z = (*vectors)[i + 2];
       (*vectors)[i + 1] = c * y - s * z;
@@ -106,9 +110,12 @@ TEST_CASE("two patches of their own sizes and directions are told apart") {
     return s < 8e-3 ? Vector(x, s, 0) : Vector(x, 8e-3 + 0.5 * (s - 8e-3), std::sqrt(0.75) * (s - 8e-3));
   };
   ContactSide slave = made_up_side(45, 50, false, place), master = made_up_side(45, 50, true, place);
-  press(slave,
-        [&](const Vector& p) { return p[2] > 0 ? flange.pressure(p[0], 2 * (p[1] - 8e-3) - 4e-3) : tread.pressure(p[0], p[1]); },
-        [&](const Vector& p) { return p[2] > 0 ? Vector(0, 0, 1e8) : Vector(tread.shear(p[0], p[1]), 0, 0); });
+  press(
+      slave,
+      [&](const Vector& p) {
+        return p[2] > 0 ? flange.pressure(p[0], 2 * (p[1] - 8e-3) - 4e-3) : tread.pressure(p[0], p[1]);
+      },
+      [&](const Vector& p) { return p[2] > 0 ? Vector(0, 0, 1e8) : Vector(tread.shear(p[0], p[1]), 0, 0); });
   const ContactSolution solution = contact_solution(made_up_state(std::move(slave), std::move(master), tread.friction));
   REQUIRE(solution.patches.size() == 2);
   const ContactPatch &first = solution.patches[0], &second = solution.patches[1];
@@ -146,8 +153,10 @@ TEST_CASE("the zero line on a graded and skewed mesh") {
 }
 
 TEST_CASE("a single node in contact counts as half a cell each way") {
-  const ContactSide side = hertz_contact_state(HertzContact{}, HertzGrid{0, 0, 1e-3, 1e-3, 5, 5}, HertzForces::sampled).slave;
+  const ContactSide side =
+      hertz_contact_state(HertzContact{}, HertzGrid{0, 0, 1e-3, 1e-3, 5, 5}, HertzForces::sampled).slave;
   std::vector<double> pressure(25, 0.0);
   pressure[12] = 1e8;
-  CHECK_THAT(patch_area(side, FacetsAroundNodes(side), pressure), WithinRel(0.5e-6, 1e-12));  // the square that joins the four mid-points
+  CHECK_THAT(patch_area(side, FacetsAroundNodes(side), pressure),
+             WithinRel(0.5e-6, 1e-12));  // the square that joins the four mid-points
 }

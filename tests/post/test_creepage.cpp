@@ -17,19 +17,24 @@ namespace {
 
 constexpr double radius = 0.46, speed = 30;
 
-/// A wheel of 0.46 m over x = `travelled` that rolls along +x with `rotation` on a rail that yields with `rail`: only rigid motions.
+/// A wheel of 0.46 m over x = `travelled` that rolls along +x with `rotation` on a rail that yields with `rail`: only
+/// rigid motions.
 ContactState rolling(double travelled, const Vector& wheel_velocity, const Vector& rotation, const Vector& rail) {
   const Vector axle(travelled, 0, radius);
   ContactSide wheel = made_up_side(60, 40, false, [&](int i, int j) {
     const double angle = 1e-3 * (i - 29.7) / radius;
     return Vector(axle + Vector(radius * std::sin(angle), 1.1e-3 * (j - 19.6), -radius * std::cos(angle)));
   });
-  ContactSide track = made_up_side(70, 44, true, [&](int i, int j) { return Vector(travelled + 1e-3 * (i - 33.4), 1e-3 * (j - 21.2), 0); });
-  set_vectors(wheel, wheel.velocity, [&](const Vector& p) { return Vector(wheel_velocity + rotation.cross(p - axle)); });
+  ContactSide track = made_up_side(
+      70, 44, true, [&](int i, int j) { return Vector(travelled + 1e-3 * (i - 33.4), 1e-3 * (j - 21.2), 0); });
+  set_vectors(wheel, wheel.velocity,
+              [&](const Vector& p) { return Vector(wheel_velocity + rotation.cross(p - axle)); });
   set_vectors(track, track.velocity, [&](const Vector&) { return rail; });
   HertzContact hertz;
   hertz.centre_x = travelled;
-  press(wheel, [&](const Vector& p) { return hertz.pressure(p[0], p[1]); }, [](const Vector&) { return Vector(Vector::Zero()); });
+  press(
+      wheel, [&](const Vector& p) { return hertz.pressure(p[0], p[1]); },
+      [](const Vector&) { return Vector(Vector::Zero()); });
   return made_up_state(std::move(wheel), std::move(track), 0.4);
 }
 
@@ -54,16 +59,20 @@ TEST_CASE("creepages of a rigid wheel: slip of the wheel on the rail over the ro
   tables.set_patch_velocity(travel);
   for (std::size_t row = 0; row < tables.patches.row_count(); ++row) {
     const auto vector_of = [&](const std::string& name) {
-      return Vector(tables.patches.at(row, name + "_x"), tables.patches.at(row, name + "_y"), tables.patches.at(row, name + "_z"));
+      return Vector(tables.patches.at(row, name + "_x"), tables.patches.at(row, name + "_y"),
+                    tables.patches.at(row, name + "_z"));
     };
     const double rolling_velocity = tables.patches.at(row, "rolling_velocity");
     const Vector axle(6e-3 * (row / 2), 0, radius);
     const Vector slip = wheel_velocity + rotation.cross(vector_of("centre") - axle) - rail;
-    CHECK((slip - Vector(longitudinal * speed - rail[0], lateral * speed - rail[1], -rail[2])).norm() < 2e-2);  // centre: 0.1 mm high
+    CHECK((slip - Vector(longitudinal * speed - rail[0], lateral * speed - rail[1], -rail[2])).norm() <
+          2e-2);  // centre: 0.1 mm high
     // Both surfaces move a little: so much less passes through the patch.
     CHECK_THAT(rolling_velocity, WithinRel(speed - (0.5 * slip + rail).dot(vector_of("along")), 1e-9));
-    CHECK_THAT(tables.patches.at(row, "longitudinal_creepage") * rolling_velocity, WithinAbs(slip.dot(vector_of("along")), 1e-9));
-    CHECK_THAT(tables.patches.at(row, "lateral_creepage") * rolling_velocity, WithinAbs(slip.dot(vector_of("across")), 1e-9));
+    CHECK_THAT(tables.patches.at(row, "longitudinal_creepage") * rolling_velocity,
+               WithinAbs(slip.dot(vector_of("along")), 1e-9));
+    CHECK_THAT(tables.patches.at(row, "lateral_creepage") * rolling_velocity,
+               WithinAbs(slip.dot(vector_of("across")), 1e-9));
     CHECK_THAT(tables.patches.at(row, "spin_creepage") * rolling_velocity, WithinAbs(spin * speed, 1e-6));
     CHECK_THAT(tables.patches.at(row, "longitudinal_creepage_spread"), WithinAbs(0, 1e-10));
     CHECK_THAT(tables.patches.at(row, "spin_creepage_spread"), WithinAbs(0, 1e-8));
@@ -75,7 +84,8 @@ TEST_CASE("turned about the vertical the same contact has the same creepages") {
   const RigidSlip before = contact_solution(state).patches.at(0).rigid_slip;
   const Eigen::AngleAxisd turn(M_PI, Vector::UnitZ());
   for (ContactSide* side : {&state.slave, &state.master})
-    for (auto* vectors : {&side->position, &side->velocity, &side->normal, &side->normal_force, &side->tangential_force})
+    for (auto* vectors :
+         {&side->position, &side->velocity, &side->normal, &side->normal_force, &side->tangential_force})
       for (std::size_t i = 0; i < side->nodes.size(); ++i) {
         const Vector turned = turn * entry(*vectors, i);
         for (int c = 0; c < 3; ++c) (*vectors)[3 * i + c] = turned[c];
@@ -124,10 +134,12 @@ TEST_CASE("a least-squares motion: exact for a rigid body, residual otherwise, u
 
 TEST_CASE("the velocity of a patch from its travel") {
   std::vector<PatchInstant> instants;
-  for (int i = 0; i < 40; ++i) instants.push_back({1e-5 * i, i != 7, Vector(20 * 1e-5 * i + 1e-5 * std::sin(2.0 * i), 0, 0), 5e-4});
+  for (int i = 0; i < 40; ++i)
+    instants.push_back({1e-5 * i, i != 7, Vector(20 * 1e-5 * i + 1e-5 * std::sin(2.0 * i), 0, 0), 5e-4});
   const std::vector<Vector> velocity = patch_velocity(instants);
   CHECK(std::isnan(velocity[7][0]));
-  for (const int i : {3, 12, 20, 39}) CHECK_THAT(velocity[i][0], WithinAbs(20, 0.4));  // the centres shift by 1 % of the way
+  for (const int i : {3, 12, 20, 39})
+    CHECK_THAT(velocity[i][0], WithinAbs(20, 0.4));  // the centres shift by 1 % of the way
   for (PatchInstant& instant : instants) instant.centre = Vector(1e-4 * std::sin(1e5 * instant.time), 0, 0);
   for (const Vector& v : patch_velocity(instants)) CHECK(std::isnan(v[0]));
 }

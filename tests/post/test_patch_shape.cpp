@@ -21,11 +21,12 @@ ContactState turned_patch(const HertzContact& hertz, double turn) {
   const auto place = [&](int i, int j) { return Vector(skewed_place(i, j, 0.6e-3) - middle); };
   ContactSide slave = made_up_side(42, 38, false, place);
   const double c = std::cos(turn), s = std::sin(turn);
-  press(slave, [&](const Vector& p) { return hertz.pressure(c * p[0] + s * p[1], c * p[1] - s * p[0]); },
-        [&](const Vector& p) {
-          const double size = hertz.shear(c * p[0] + s * p[1], c * p[1] - s * p[0]);
-          return Vector(c * size, s * size, 0);
-        });
+  press(
+      slave, [&](const Vector& p) { return hertz.pressure(c * p[0] + s * p[1], c * p[1] - s * p[0]); },
+      [&](const Vector& p) {
+        const double size = hertz.shear(c * p[0] + s * p[1], c * p[1] - s * p[0]);
+        return Vector(c * size, s * size, 0);
+      });
   return made_up_state(std::move(slave), made_up_side(42, 38, true, place), hertz.friction);
 }
 
@@ -76,15 +77,19 @@ TEST_CASE("a patch wider than long keeps its longitudinal semi-axis first") {
 
 TEST_CASE("cuts through the centre carry linear fields exactly") {
   ContactState state = turned_patch(HertzContact{}, 0);
-  press(state.slave, [](const Vector& p) { return 1e8 * (2 + 20 * p[0] - 30 * p[1]); }, [](const Vector& p) { return Vector(1e9 * p[0], 1e7, 0); });
-  set_vectors(state.slave, state.slave.velocity, [](const Vector& p) { return Vector(10 * p[1], 20 * p[0], 30 * p[0]); });
+  press(
+      state.slave, [](const Vector& p) { return 1e8 * (2 + 20 * p[0] - 30 * p[1]); },
+      [](const Vector& p) { return Vector(1e9 * p[0], 1e7, 0); });
+  set_vectors(state.slave, state.slave.velocity,
+              [](const Vector& p) { return Vector(10 * p[1], 20 * p[0], 30 * p[0]); });
   const ContactPatch patch = contact_solution(state).patches.at(0);
   REQUIRE(patch.touching.size() == state.slave.nodes.size());
   for (const CutDirection direction : {CutDirection::along, CutDirection::across}) {
     const std::vector<CutPoint> cut = centre_cut(state, patch, direction);
     REQUIRE(cut.size() > 100);
     for (const CutPoint& point : cut) {
-      const Vector p = patch.frame.centre + point.distance * (direction == CutDirection::along ? patch.frame.along : patch.frame.across);
+      const Vector p = patch.frame.centre +
+                       point.distance * (direction == CutDirection::along ? patch.frame.along : patch.frame.across);
       CHECK_THAT(point.pressure, WithinAbs(1e8 * (2 + 20 * p[0] - 30 * p[1]), 1));
       CHECK_THAT(point.bound, WithinRel(state.friction * point.pressure, 1e-12));
       CHECK_THAT(point.shear[0], WithinAbs(1e9 * p[0], 1));

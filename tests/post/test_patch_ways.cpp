@@ -18,13 +18,16 @@ namespace {
 constexpr double speed = 30, interval = 0.2e-3;  // m/s, s: a way of 6 mm, about a semi-axis
 constexpr int outputs = 9;
 
-/// Two patches of a wheel that go with it over a rail at rest, one 20 mm ahead of the other and 24 mm beside; while they go, the load passes
-/// from one to the other. The wheel turns about the vertical too, so that each slides differently.
+/// Two patches of a wheel that go with it over a rail at rest, one 20 mm ahead of the other and 24 mm beside; while
+/// they go, the load passes from one to the other. The wheel turns about the vertical too, so that each slides
+/// differently.
 struct TwoPatches {
-  double spin = 20;           ///< rad/s, about the vertical
-  double slide = 0.1;         ///< share of the speed by which the wheel slides
+  double spin = 20;    ///< rad/s, about the vertical
+  double slide = 0.1;  ///< share of the speed by which the wheel slides
 
-  Vector place(int patch, double time) const { return {speed * time + (patch == 0 ? 0.0 : 20e-3), patch == 0 ? -12e-3 : 12e-3, 0}; }
+  Vector place(int patch, double time) const {
+    return {speed * time + (patch == 0 ? 0.0 : 20e-3), patch == 0 ? -12e-3 : 12e-3, 0};
+  }
   double share(int patch, double time) const {
     const double first = 1 - 0.9 * time / (interval * (outputs - 1));
     return patch == 0 ? first : 1.1 - first;
@@ -36,26 +39,31 @@ struct TwoPatches {
   /// @param there which of the two touch
   ContactState state(double time, std::array<bool, 2> there) const {
     const double begin = speed * time - 25e-3;
-    ContactSide wheel = made_up_side(73, 62, false, [&](int i, int j) { return Vector(begin + 1e-3 * (i - 0.3), 1e-3 * (j - 30.6), 0); });
-    ContactSide rail = made_up_side(73, 62, true, [&](int i, int j) { return Vector(begin + 1e-3 * i, 1e-3 * (j - 30.2), 0); });
+    ContactSide wheel = made_up_side(
+        73, 62, false, [&](int i, int j) { return Vector(begin + 1e-3 * (i - 0.3), 1e-3 * (j - 30.6), 0); });
+    ContactSide rail =
+        made_up_side(73, 62, true, [&](int i, int j) { return Vector(begin + 1e-3 * i, 1e-3 * (j - 30.2), 0); });
     set_vectors(wheel, wheel.velocity, [&](const Vector& p) { return wheel_velocity(p, time); });
-    press(wheel,
-          [&](const Vector& p) {
-            double sum = 0;
-            for (int patch = 0; patch < 2; ++patch) {
-              HertzContact hertz;
-              hertz.centre_x = place(patch, time)[0];
-              hertz.centre_y = place(patch, time)[1];
-              if (there[patch]) sum += share(patch, time) * hertz.pressure(p[0], p[1]);
-            }
-            return sum;
-          },
-          [](const Vector&) { return Vector(Vector::Zero()); });
+    press(
+        wheel,
+        [&](const Vector& p) {
+          double sum = 0;
+          for (int patch = 0; patch < 2; ++patch) {
+            HertzContact hertz;
+            hertz.centre_x = place(patch, time)[0];
+            hertz.centre_y = place(patch, time)[1];
+            if (there[patch]) sum += share(patch, time) * hertz.pressure(p[0], p[1]);
+          }
+          return sum;
+        },
+        [](const Vector&) { return Vector(Vector::Zero()); });
     return made_up_state(std::move(wheel), std::move(rail), 0.4);
   }
 };
 
-SeenPatch seen(double x, double y = 0, double size = 5e-3, bool small = false) { return {Vector(x, y, 0), size, small}; }
+SeenPatch seen(double x, double y = 0, double size = 5e-3, bool small = false) {
+  return {Vector(x, y, 0), size, small};
+}
 
 }  // namespace
 
@@ -107,17 +115,20 @@ TEST_CASE("patches that slide with the slave at speeds of their own have creepag
   for (int i = 0; i < 6; ++i) {
     const double time = i * interval;
     const double velocity[2] = {30, 15}, y[2] = {-30e-3, 30e-3};
-    ContactSide feet = made_up_side(71, 101, false, [&](int k, int j) { return Vector(1e-3 * k - 20e-3, 1e-3 * j - 50e-3, 0); });
-    ContactSide plate = made_up_side(71, 101, true, [&](int k, int j) { return Vector(1e-3 * k - 20e-3, 1e-3 * j - 50e-3, 0); });
+    ContactSide feet =
+        made_up_side(71, 101, false, [&](int k, int j) { return Vector(1e-3 * k - 20e-3, 1e-3 * j - 50e-3, 0); });
+    ContactSide plate =
+        made_up_side(71, 101, true, [&](int k, int j) { return Vector(1e-3 * k - 20e-3, 1e-3 * j - 50e-3, 0); });
     set_vectors(feet, feet.velocity, [&](const Vector& p) { return Vector(velocity[p[1] > 0], 0, 0); });
-    press(feet,
-          [&](const Vector& p) {
-            HertzContact one, other;
-            one.centre_x = velocity[0] * time, one.centre_y = y[0];
-            other.centre_x = velocity[1] * time, other.centre_y = y[1];
-            return (5 - i) * one.pressure(p[0], p[1]) + (i + 0.5) * other.pressure(p[0], p[1]);
-          },
-          [](const Vector&) { return Vector(Vector::Zero()); });
+    press(
+        feet,
+        [&](const Vector& p) {
+          HertzContact one, other;
+          one.centre_x = velocity[0] * time, one.centre_y = y[0];
+          other.centre_x = velocity[1] * time, other.centre_y = y[1];
+          return (5 - i) * one.pressure(p[0], p[1]) + (i + 0.5) * other.pressure(p[0], p[1]);
+        },
+        [](const Vector&) { return Vector(Vector::Zero()); });
     const ContactState state = made_up_state(std::move(feet), std::move(plate), 0.4);
     const ContactSolution solution = contact_solution(state);
     tables.add(time, state, solution, ways.add(time, solution));

@@ -18,21 +18,24 @@ ContactSide grid() {
 /// Presses with 100 MPa on the nodes of the picture that are marked by 'x'; its first line has the largest y.
 ContactSide pressed(const std::vector<std::string>& picture) {
   ContactSide side = grid();
-  press(side, [&](const Vector& p) { return picture[ny - 1 - std::lround(1e3 * p[1])][std::lround(1e3 * p[0])] == 'x' ? 1e8 : 0.0; },
-        [](const Vector&) { return Vector(Vector::Zero()); });
+  press(
+      side,
+      [&](const Vector& p) {
+        return picture[ny - 1 - std::lround(1e3 * p[1])][std::lround(1e3 * p[0])] == 'x' ? 1e8 : 0.0;
+      },
+      [](const Vector&) { return Vector(Vector::Zero()); });
   return side;
 }
 
-const std::vector<std::string> two_patches_and_strays = {
-    "............",  //
-    ".xxx........",  //
-    ".xxxx......x",  //
-    ".xxx........",  //
-    "............",  //
-    "......xx....",  //
-    ".......xx...",  //
-    "xx..........",  //
-    "............"};
+const std::vector<std::string> two_patches_and_strays = {"............",  //
+                                                         ".xxx........",  //
+                                                         ".xxxx......x",  //
+                                                         ".xxx........",  //
+                                                         "............",  //
+                                                         "......xx....",  //
+                                                         ".......xx...",  //
+                                                         "xx..........",  //
+                                                         "............"};
 
 }  // namespace
 
@@ -65,9 +68,10 @@ TEST_CASE("all islands are patches by force, those of few nodes small ones") {
 }
 
 TEST_CASE("where only a node or two touch, the largest island is the patch, the others are strays") {
-  const ContactState state = made_up_state(pressed({"............", "............", "............", "...x........", "............", "............",
-                                                    "............", ".......xx...", "............"}),
-                                           grid(), 0.4);
+  const ContactState state =
+      made_up_state(pressed({"............", "............", "............", "...x........", "............",
+                             "............", "............", ".......xx...", "............"}),
+                    grid(), 0.4);
   const ContactSolution solution = contact_solution(state);
   REQUIRE(solution.patches.size() == 2);
   CHECK(solution.patches[0].touching.size() == 2);

@@ -7,7 +7,8 @@
 /// Signals with a known answer.
 namespace railwave::made_up {
 
-/// White noise of the standard deviation asked for, the same on every machine: normal by Box and Muller from a 64-bit mixer.
+/// White noise of the standard deviation asked for, the same on every machine: normal by Box and Muller from a 64-bit
+/// mixer.
 inline std::vector<double> noise(std::size_t length, double deviation, std::uint64_t seed) {
   std::uint64_t state = seed;
   const auto uniform = [&] {
@@ -27,9 +28,11 @@ inline std::vector<double> noise(std::size_t length, double deviation, std::uint
 }
 
 /// amplitude cos(2 pi frequency n interval + phase)
-inline std::vector<double> cosine(std::size_t length, double interval, double amplitude, double frequency, double phase = 0) {
+inline std::vector<double> cosine(std::size_t length, double interval, double amplitude, double frequency,
+                                  double phase = 0) {
   std::vector<double> values(length);
-  for (std::size_t n = 0; n < length; ++n) values[n] = amplitude * std::cos(2 * M_PI * frequency * static_cast<double>(n) * interval + phase);
+  for (std::size_t n = 0; n < length; ++n)
+    values[n] = amplitude * std::cos(2 * M_PI * frequency * static_cast<double>(n) * interval + phase);
   return values;
 }
 

@@ -20,7 +20,8 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 TEST_CASE("a transform is the sum that defines it, at any length, and its inverse brings the values back") {
-  const auto length = GENERATE(std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{60}, std::size_t{64}, std::size_t{97}, std::size_t{2 * 211});
+  const auto length = GENERATE(std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{60}, std::size_t{64},
+                               std::size_t{97}, std::size_t{2 * 211});
   const auto values = made_up::noise(length, 1.0, 7);
   const auto spectrum = real_spectrum(values);
   REQUIRE(spectrum.size() == length / 2 + 1);
@@ -75,5 +76,7 @@ TEST_CASE("windows have the mean and the mean square that the books give") {
 
 TEST_CASE("a window of another name is refused") {
   CHECK(window_named("tukey") == WindowType::tukey);
-  CHECK_THROWS_MATCHES(window_named("han"), InputError, Catch::Matchers::MessageMatches(ContainsSubstring("there is no window 'han'; did you mean 'hann'?")));
+  CHECK_THROWS_MATCHES(
+      window_named("han"), InputError,
+      Catch::Matchers::MessageMatches(ContainsSubstring("there is no window 'han'; did you mean 'hann'?")));
 }

@@ -1,4 +1,5 @@
-// Channels read from a results file: what they are called, evenly spaced times, and what is said of those that are not there.
+// Channels read from a results file: what they are called, evenly spaced times, and what is said of those that are not
+// there.
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
@@ -68,8 +69,9 @@ TEST_CASE("channels along axes, along a vector, in size, several at once and the
   const std::string path = folder / "run.h5";
   write_run(path, even_times());
 
-  auto series = read(path, {"block.row_1.velocity.z", "block.row_2.velocity.3,0,4", "mass.velocity.size", "beam.sleeper.moment.1.y", "contact.tread.nodes_in_contact",
-                            "contact.tread.normal_force.z", "energy.kinetic"});
+  auto series = read(
+      path, {"block.row_1.velocity.z", "block.row_2.velocity.3,0,4", "mass.velocity.size", "beam.sleeper.moment.1.y",
+             "contact.tread.nodes_in_contact", "contact.tread.normal_force.z", "energy.kinetic"});
   REQUIRE(series.channels.size() == 7);
   REQUIRE(series.length() == 100);
   CHECK_THAT(series.interval, WithinRel(1e-5, 1e-9));
@@ -103,7 +105,8 @@ TEST_CASE("channels along axes, along a vector, in size, several at once and the
     series = read(path, {average ? "block.row_*.velocity.x" : "block.row_1+block.row_2.velocity.x"}, average);
     REQUIRE(series.channels.size() == 1);
     CHECK(series.channels[0].name == "block.row_1+block.row_2.velocity.x");
-    CHECK_THAT(series.channels[0].values[17], WithinRel(0.5 * (std::cos(2000 * M_PI * at) + std::cos(2000 * M_PI * at + 1)), 1e-9));
+    CHECK_THAT(series.channels[0].values[17],
+               WithinRel(0.5 * (std::cos(2000 * M_PI * at) + std::cos(2000 * M_PI * at + 1)), 1e-9));
     CHECK((*series.channels[0].position)[0] == 0.25);
   }
 }
@@ -125,7 +128,8 @@ TEST_CASE("a last sample that comes early is left out; changed steps are moved t
   REQUIRE(series.notes.size() == 1);
   CHECK_THAT(series.notes[0], ContainsSubstring("cubic interpolation"));
   REQUIRE(series.length() == 100);
-  for (std::size_t i = 0; i < series.length(); ++i) CHECK_THAT(series.channels[0].values[i], WithinAbs(std::cos(2000 * M_PI * series.time(i) + 2), 2e-6));
+  for (std::size_t i = 0; i < series.length(); ++i)
+    CHECK_THAT(series.channels[0].values[i], WithinAbs(std::cos(2000 * M_PI * series.time(i) + 2), 2e-6));
 
   times = even_times();
   times.erase(times.begin() + 50, times.begin() + 53);
@@ -148,9 +152,11 @@ TEST_CASE("what is not there is refused with what there is") {
   const made_up::TemporaryFolder folder;
   const std::string path = folder / "run.h5";
   write_run(path, even_times());
-  CHECK_THAT(complaint(path, "block.raw_1.velocity.z"), ContainsSubstring("no history of a set 'block.raw_1'; did you mean 'block.row_1'?"));
+  CHECK_THAT(complaint(path, "block.raw_1.velocity.z"),
+             ContainsSubstring("no history of a set 'block.raw_1'; did you mean 'block.row_1'?"));
   CHECK_THAT(complaint(path, "block.row_1.velocty.z"), ContainsSubstring("did you mean 'block.row_1.velocity'?"));
-  CHECK_THAT(complaint(path, "block.row_1.velocity"), ContainsSubstring("it needs a direction at its end: x, y, z, size"));
+  CHECK_THAT(complaint(path, "block.row_1.velocity"),
+             ContainsSubstring("it needs a direction at its end: x, y, z, size"));
   CHECK_THAT(complaint(path, "block.row_1.velocity.up"), ContainsSubstring("'up' is no direction"));
   CHECK_THAT(complaint(path, "block.row_1.velocity.0,0,0"), ContainsSubstring("is no direction"));
   CHECK_THAT(complaint(path, "contact.tread.normal_force"), ContainsSubstring("it needs a direction"));
@@ -160,5 +166,8 @@ TEST_CASE("what is not there is refused with what there is") {
   CHECK_THAT(complaint(path, "beam.sleeper.moment.y"), ContainsSubstring("the number of an element"));
   CHECK_THAT(complaint(path, "beam.sleeper.moment.2.y"), ContainsSubstring("the beam has 2 elements"));
   CHECK_THAT(complaint(path, "energy.kinetik"), ContainsSubstring("did you mean 'kinetic'?"));
-  CHECK_THAT(complaint(path, "nonsense"), ContainsSubstring("there are SET.(displacement|velocity|acceleration) of block.row_1, block.row_2, mass; contact.NAME."));
+  CHECK_THAT(
+      complaint(path, "nonsense"),
+      ContainsSubstring(
+          "there are SET.(displacement|velocity|acceleration) of block.row_1, block.row_2, mass; contact.NAME."));
 }

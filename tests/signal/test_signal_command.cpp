@@ -185,7 +185,9 @@ TEST_CASE("files are not lost, and mistakes are told") {
   CHECK_THAT(run.complaint(), ContainsSubstring("is the results file, which this command reads"));
   write_run(run.folder / "other.h5");
   run.request.hdf5 = run.folder / "other.h5";
-  CHECK_THAT(run.complaint(), ContainsSubstring("is there already and is a file 'Railwave results', not a file of 'railwave signal --hdf5'"));
+  CHECK_THAT(
+      run.complaint(),
+      ContainsSubstring("is there already and is a file 'Railwave results', not a file of 'railwave signal --hdf5'"));
   run.request.hdf5.reset();
   run.request.csv = run.folder / "other.h5";
   CHECK_THAT(run.complaint(), ContainsSubstring("not a table of 'railwave signal psd --csv'"));

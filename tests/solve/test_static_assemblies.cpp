@@ -38,7 +38,8 @@ Rest settled(scene::Scene scene, scene::SettleMethod method, double tolerance, M
   build_model(scene, model);
   Rest rest;
   rest.report = settle_whole(model);
-  INFO(rest.report.steps << " evaluations in " << rest.report.iterations << " steps, unbalance " << rest.report.unbalance << "; " << rest.report.adrift);
+  INFO(rest.report.steps << " evaluations in " << rest.report.iterations << " steps, unbalance "
+                         << rest.report.unbalance << "; " << rest.report.adrift);
   REQUIRE(rest.report.settled);
   rest.displacement = node_field(model, NodeField::displacement, all_nodes(model)).values;
   if (!model.beams) return rest;
@@ -79,7 +80,8 @@ scene::Scene block_between_ends() {
 
 }  // namespace
 
-TEST_CASE("Newton's method holds non-reflecting ends as relaxation does, and they bear the load afterwards", "[static]") {
+TEST_CASE("Newton's method holds non-reflecting ends as relaxation does, and they bear the load afterwards",
+          "[static]") {
   Model model;
   check_both("ends", block_between_ends(), model, 1e-5);
   const auto support = to_host(model.ends.arrays.support);
@@ -189,7 +191,9 @@ TEST_CASE("what hangs on beams that nothing holds is named", "[static]") {
   CHECK(report.adrift.find("'block'") != std::string::npos);
 }
 
-TEST_CASE("unless told otherwise a scene settles by Newton's method, and by relaxation where a point mass would drift away", "[static]") {
+TEST_CASE(
+    "unless told otherwise a scene settles by Newton's method, and by relaxation where a point mass would drift away",
+    "[static]") {
   scene::Scene scene = block_between_ends();
   scene.settle.active = true;
   scene.settle.tolerance = 1e-6;

@@ -1,6 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
-#include <map>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <map>
 
 #include <catch2/matchers/catch_matchers_string.hpp>
 
@@ -22,11 +22,13 @@ scene::Scene settling(scene::Scene scene, double tolerance) {
 }
 
 void check_settled(const Model& model, const SettleReport& report, int most_steps) {
-  INFO(report.steps << " evaluations in " << report.iterations << " steps, unbalance " << report.unbalance << "; " << report.adrift);
+  INFO(report.steps << " evaluations in " << report.iterations << " steps, unbalance " << report.unbalance << "; "
+                    << report.adrift);
   CHECK(report.settled);
   CHECK(report.unbalance < model.scene.settle.tolerance);
   CHECK(report.steps < most_steps);
-  WARN(report.steps << " evaluations in " << report.iterations << " steps, unbalance " << report.unbalance << "; " << report.wall_seconds << " s");
+  WARN(report.steps << " evaluations in " << report.iterations << " steps, unbalance " << report.unbalance << "; "
+                    << report.wall_seconds << " s");
 }
 
 }  // namespace
@@ -93,7 +95,8 @@ struct BarOnSprings {
     const auto row = [&](const std::string& name, double x, double z) {
       auto& nodes = assembly.node_sets[name];
       for (std::size_t n = 0; n < assembly.nodes.size(); ++n)
-        if (std::fabs(assembly.nodes[n][0] - x) < 0.1 * pitch && std::fabs(assembly.nodes[n][2] - z) < 1e-6) nodes.push_back(static_cast<int>(n));
+        if (std::fabs(assembly.nodes[n][0] - x) < 0.1 * pitch && std::fabs(assembly.nodes[n][2] - z) < 1e-6)
+          nodes.push_back(static_cast<int>(n));
     };
     for (int k = seat_every / 2; k < along; k += seat_every) {
       scene::Connector seat;
@@ -122,7 +125,8 @@ TEST_CASE("a bar on an elastic foundation bends as theory says, in some hundreds
   const double bending = 210e9 * bar.width * std::pow(bar.height, 3) / 12;
   const double beta = std::pow(bar.foundation / (4 * bending), 0.25);
   const Vec3 middle = mean(model, NodeField::displacement, model.assembly.node_sets.at("block.middle"));
-  // Of a beam without end; ends are six wave lengths / 2 pi away. Shear adds a quarter per cent, one-point elements take a little off EI.
+  // Of a beam without end; ends are six wave lengths / 2 pi away. Shear adds a quarter per cent, one-point elements
+  // take a little off EI.
   CHECK_THAT(-middle[2], WithinRel(bar.force * beta / (2 * bar.foundation), 0.01));
   // What the springs carry is what is put on.
   double carried = 0;
@@ -199,8 +203,9 @@ double worst_force(scene::Scene scene, bool settled, double end) {
 
 }  // namespace
 
-TEST_CASE("explicit run from the static start, no motion, 5 ms: the contact force stays, from the unsettled start it doesn't",
-          "[static][long]") {
+TEST_CASE(
+    "explicit run from the static start, no motion, 5 ms: the contact force stays, from the unsettled start it doesn't",
+    "[static][long]") {
   for (auto algorithm : both_algorithms) {
     TwoBlocks blocks;
     blocks.algorithm = algorithm;
@@ -212,7 +217,8 @@ TEST_CASE("explicit run from the static start, no motion, 5 ms: the contact forc
     for (scene::Part& part : scene.parts) part.hourglass = scene::HourglassType::stiffness;
     hold(scene, "lower.z_min", {true, true, true});
     const double settled = worst_force(scene, true, 5e-3), unsettled = worst_force(scene, false, 5e-3);
-    WARN(name_of(algorithm) << ": contact force off its static value by at most " << 100 * settled << " %, from the unsettled start " << 100 * unsettled << " %");
+    WARN(name_of(algorithm) << ": contact force off its static value by at most " << 100 * settled
+                            << " %, from the unsettled start " << 100 * unsettled << " %");
     CHECK(settled < 0.005);
     CHECK(unsettled > 0.5);
   }
@@ -232,8 +238,8 @@ TEST_CASE("a long bar on springs: Newton's method against relaxation", "[static]
     const SettleReport& of = report[method];
     const Vec3 middle = mean(model, NodeField::displacement, model.assembly.node_sets.at("block.middle"));
     WARN((method == scene::SettleMethod::newton ? "newton" : "relaxation")
-         << ": " << (of.settled ? "settled" : "NOT settled") << " after " << of.steps << " evaluations, " << of.wall_seconds << " s, unbalance "
-         << of.unbalance << ", middle " << 1e3 * middle[2] << " mm");
+         << ": " << (of.settled ? "settled" : "NOT settled") << " after " << of.steps << " evaluations, "
+         << of.wall_seconds << " s, unbalance " << of.unbalance << ", middle " << 1e3 * middle[2] << " mm");
   }
   CHECK(report[scene::SettleMethod::newton].settled);
   CHECK(10 * report[scene::SettleMethod::newton].steps < report[scene::SettleMethod::relaxation].steps);

@@ -11,15 +11,16 @@ struct Torment {
   std::string what;
   scene::Scene scene;
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  ///< rows into which the upper block's axes are turned
-  double gap = 0;        ///< m, then, between its lowest node and the plane z = 0; negative: pressed in
-  double load = 0;       ///< N, along -z, for good
-  std::string warning{};  ///< the cause that the first warning names, and the fault that may end the run; empty: it runs to its end
+  double gap = 0;         ///< m, then, between its lowest node and the plane z = 0; negative: pressed in
+  double load = 0;        ///< N, along -z, for good
+  std::string warning{};  ///< the cause that the first warning names, and the fault that may end the run; empty: it
+                          ///< runs to its end
 };
 
 constexpr double edge = 0.02, face = 0.005;
 
-/// A cube of 20 mm of elements of 2.5 mm on a plate of 60 mm of elements of 5 mm, held below; contact as a user leaves it. The nodes
-/// of the cube's foot lie exactly on vertices, sides and middles of the plate's faces.
+/// A cube of 20 mm of elements of 2.5 mm on a plate of 60 mm of elements of 5 mm, held below; contact as a user leaves
+/// it. The nodes of the cube's foot lie exactly on vertices, sides and middles of the plate's faces.
 scene::Scene cube_on_plate(scene::ContactAlgorithm algorithm, double friction, scene::HourglassType hourglass) {
   TwoBlocks blocks;
   blocks.upper_size = {edge, edge, edge};
@@ -49,7 +50,8 @@ Assembly place(const Torment& torment, scene::Scene& scene) {
     x = turned(torment.axes, x - Vec3{0, 0, 0.5 * edge});
     lowest = std::min(lowest, x[2]);
   }
-  for (int n = upper.first_node; n < upper.first_node + upper.node_count; ++n) assembly.nodes[n][2] += torment.gap - lowest;
+  for (int n = upper.first_node; n < upper.first_node + upper.node_count; ++n)
+    assembly.nodes[n][2] += torment.gap - lowest;
   return assembly;
 }
 
@@ -86,7 +88,8 @@ void torture(scene::ContactAlgorithm algorithm, scene::HourglassType hourglass, 
   all.push_back({"corner against face, 10 times the load", cube(), on_its_corner(), 0, 1e4});
   // Multipliers let nothing penetrate: they throw apart in one step what springs push apart.
   const bool at_once = algorithm == scene::ContactAlgorithm::multiplier;
-  all.push_back({"pressed in by a tenth of a face", cube(), flat, -0.1 * face, 0, at_once ? "initial penetration" : ""});
+  all.push_back(
+      {"pressed in by a tenth of a face", cube(), flat, -0.1 * face, 0, at_once ? "initial penetration" : ""});
   all.push_back({"pressed in by half a face", cube(), flat, -0.5 * face, 0, "initial penetration"});
   all.push_back({"pressed in by a whole face", cube(), flat, -face, 0, "initial penetration"});
   for (Torment& torment : all) {
@@ -97,17 +100,22 @@ void torture(scene::ContactAlgorithm algorithm, scene::HourglassType hourglass, 
     const Ordeal ordeal = endure(model, torment.load > 0 ? 3000 : 1500, mass_of(model, "upper"));
     double largest = 0;
     for (const Vec3& force : ordeal.force) largest = std::max(largest, norm(force));
-    std::cout << fmt::format("{:38} {:10} {:9} mu {:3.1f}: balance error {:.2e} of the energy given, largest contact force {:.3g} N, of which {:.1e} are not in "
-                             "balance",
-                             torment.what, name_of(algorithm), hourglass == scene::HourglassType::viscous ? "viscous" : "stiffness", friction,
-                             ordeal.worst_balance, largest, ordeal.unbalanced() / largest)
+    std::cout << fmt::format(
+                     "{:38} {:10} {:9} mu {:3.1f}: balance error {:.2e} of the energy given, largest contact force "
+                     "{:.3g} N, of which {:.1e} are not in "
+                     "balance",
+                     torment.what, name_of(algorithm),
+                     hourglass == scene::HourglassType::viscous ? "viscous" : "stiffness", friction,
+                     ordeal.worst_balance, largest, ordeal.unbalanced() / largest)
               << ordeal.said() << std::endl;
     INFO(torment.what << ", " << name_of(algorithm) << ", friction " << friction << ordeal.said());
-    // Forces on a node beyond those of any sound contact are cut off (extra_force_sum.hpp): a scene that begins so is stopped.
+    // Forces on a node beyond those of any sound contact are cut off (extra_force_sum.hpp): a scene that begins so is
+    // stopped.
     if (torment.warning.empty()) CHECK(ordeal.unbalanced() < 1e-3 * largest);
-    // What viscous control takes is not booked right where its modes ring (docs/hourglass.md), as those of a corner that is squeezed to a quarter do: a run may
-    // be ended there, but not before it was warned of that.
-    const bool told = hourglass == scene::HourglassType::viscous && !ordeal.warnings.empty() && ordeal.warnings[0].kind == FaultKind::hourglass_share;
+    // What viscous control takes is not booked right where its modes ring (docs/hourglass.md), as those of a corner
+    // that is squeezed to a quarter do: a run may be ended there, but not before it was warned of that.
+    const bool told = hourglass == scene::HourglassType::viscous && !ordeal.warnings.empty() &&
+                      ordeal.warnings[0].kind == FaultKind::hourglass_share;
     if (torment.warning.empty()) CHECK((ordeal.summary.completed || told));
     if (torment.warning.empty()) continue;
     REQUIRE(!ordeal.warnings.empty());
@@ -122,7 +130,8 @@ TEST_CASE("contact under torture as a user leaves it: bounded, in balance with t
   torture(scene::ContactAlgorithm::penalty, scene::HourglassType::viscous, 0.4);
 }
 
-TEST_CASE("contact under torture, both algorithms, both kinds of hourglass control, with and without friction", "[long]") {
+TEST_CASE("contact under torture, both algorithms, both kinds of hourglass control, with and without friction",
+          "[long]") {
   for (auto algorithm : both_algorithms)
     for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
       for (double friction : {0.0, 0.4}) torture(algorithm, hourglass, friction);

@@ -11,7 +11,9 @@ namespace {
 
 const scene::HourglassType both_kinds[] = {scene::HourglassType::viscous, scene::HourglassType::stiffness};
 
-const char* name_of(scene::HourglassType type) { return type == scene::HourglassType::viscous ? "viscous" : "stiffness"; }
+const char* name_of(scene::HourglassType type) {
+  return type == scene::HourglassType::viscous ? "viscous" : "stiffness";
+}
 
 scene::Scene scene_of(const Distortion& distortion, scene::HourglassType hourglass) {
   const auto& n = distortion.divisions;
@@ -29,7 +31,8 @@ Assembly assembly_of(const Distortion& distortion, const scene::Scene& scene) {
 
 /// u = e A x
 Vec3 stretched(const Vec3& x, double strain) {
-  return x + strain * Vec3{1.0 * x[0] + 0.5 * x[1] - 0.3 * x[2], 0.2 * x[0] - 0.7 * x[1] + 0.4 * x[2], -0.1 * x[0] + 0.6 * x[1] + 0.8 * x[2]};
+  return x + strain * Vec3{1.0 * x[0] + 0.5 * x[1] - 0.3 * x[2], 0.2 * x[0] - 0.7 * x[1] + 0.4 * x[2],
+                           -0.1 * x[0] + 0.6 * x[1] + 0.8 * x[2]};
 }
 
 double largest_force(const Model& model, const std::vector<int>& nodes) {
@@ -61,9 +64,11 @@ TEST_CASE("distorted meshes: a linear displacement field has one stress everywhe
         for (int n : element) ++around[n];
       for (int n : all_nodes(model))
         if (around[n] == 8) inner.push_back(n);
-      const double outer = largest_force(model, all_nodes(model)), unbalance = inner.empty() ? 0 : largest_force(model, inner) / outer;
-      std::cout << fmt::format("patch   {:21} {:9}: spread of stress {:.1e}, force on inner nodes {:.1e} of the largest\n", distortion.name,
-                               name_of(hourglass), spread / largest, unbalance);
+      const double outer = largest_force(model, all_nodes(model)),
+                   unbalance = inner.empty() ? 0 : largest_force(model, inner) / outer;
+      std::cout << fmt::format(
+          "patch   {:21} {:9}: spread of stress {:.1e}, force on inner nodes {:.1e} of the largest\n", distortion.name,
+          name_of(hourglass), spread / largest, unbalance);
       INFO(distortion.name << ", " << name_of(hourglass));
       CHECK(spread < 1e-9 * largest);
       CHECK(unbalance < 1e-9);
@@ -88,7 +93,9 @@ TEST_CASE("distorted meshes: turned and moved as a rigid body no element is stra
   }
 }
 
-TEST_CASE("distorted meshes: clamped at one end, struck at the other, and in free flight they stay calm at the default settings") {
+TEST_CASE(
+    "distorted meshes: clamped at one end, struck at the other, and in free flight they stay calm at the default "
+    "settings") {
   for (const Distortion& distortion : bench::distortions())
     for (auto hourglass : both_kinds)
       for (const bool clamped : {true, false}) {
@@ -103,12 +110,16 @@ TEST_CASE("distorted meshes: clamped at one end, struck at the other, and in fre
         Model model;
         build_model(scene, assembly_of(distortion, scene), model);
         const Ordeal ordeal = endure(model, 4000);
-        std::cout << fmt::format("{} {:21} {:9}: balance error {:.2e} of the energy given, {} warnings{}\n", clamped ? "clamped" : "flying ",
-                                 distortion.name, name_of(hourglass), ordeal.worst_balance, ordeal.warnings.size(), ordeal.said());
+        std::cout << fmt::format("{} {:21} {:9}: balance error {:.2e} of the energy given, {} warnings{}\n",
+                                 clamped ? "clamped" : "flying ", distortion.name, name_of(hourglass),
+                                 ordeal.worst_balance, ordeal.warnings.size(), ordeal.said());
         INFO(distortion.name << ", " << name_of(hourglass) << (clamped ? ", clamped" : ", free") << ordeal.said());
         CHECK(ordeal.summary.completed);
-        // Bodies one element thick bend in hourglass modes, and what viscous control takes out of the fastest of these is counted too high: told.
-        const bool told = std::any_of(ordeal.warnings.begin(), ordeal.warnings.end(), [](const Fault& fault) { return fault.kind == FaultKind::energy; });
-        CHECK((ordeal.worst_balance < scene.watch.energy_error || (told && hourglass == scene::HourglassType::viscous)));
+        // Bodies one element thick bend in hourglass modes, and what viscous control takes out of the fastest of these
+        // is counted too high: told.
+        const bool told = std::any_of(ordeal.warnings.begin(), ordeal.warnings.end(),
+                                      [](const Fault& fault) { return fault.kind == FaultKind::energy; });
+        CHECK(
+            (ordeal.worst_balance < scene.watch.energy_error || (told && hourglass == scene::HourglassType::viscous)));
       }
 }

@@ -17,26 +17,31 @@ struct Ordeal : RunObserver {
   double given = 0;          ///< J: the energy at the beginning and the most that loads have worked
   double worst_balance = 0;  ///< largest error of the energy balance, over the energy given at the end
   std::vector<Vec3> force;   ///< of contact 0 on the slave at each sample, N
-  std::vector<Vec3> rest;    ///< of all else on it: its momentum's change (the scene's first history set) less its load, N
-  double mass = 0;           ///< kg, of that set, when it is wanted
+  std::vector<Vec3>
+      rest;         ///< of all else on it: its momentum's change (the scene's first history set) less its load, N
+  double mass = 0;  ///< kg, of that set, when it is wanted
 
   void history(const Model&, const HistorySample& sample) override {
     const EnergyAccount& e = sample.energy;
     if (sample.step == 0) start_ = e.kinetic + e.internal + e.contact;
     given = std::max({given, start_, start_ + std::fabs(e.external_work), e.internal, e.contact});
     worst_ = std::isfinite(e.balance_error) ? std::max(worst_, std::fabs(e.balance_error)) : 1e300;
-    if (!sample.contacts.empty()) force.push_back(sample.contacts[0].normal_force + sample.contacts[0].tangential_force);
-    if (mass > 0) rest.push_back(mass * sample.sets.at(0).acceleration - (sample.loads.empty() ? Vec3{} : sample.loads[0].force));
+    if (!sample.contacts.empty())
+      force.push_back(sample.contacts[0].normal_force + sample.contacts[0].tangential_force);
+    if (mass > 0)
+      rest.push_back(mass * sample.sets.at(0).acceleration - (sample.loads.empty() ? Vec3{} : sample.loads[0].force));
   }
   void warning(const Model&, const Fault& fault) override { warnings.push_back(fault); }
   void end(const Model&, const RunSummary& ended) override {
     summary = ended;
     worst_balance = worst_ / given;
   }
-  /// How far the contact force is from what moves the body and carries its load: mean of the difference over the run, N.
+  /// How far the contact force is from what moves the body and carries its load: mean of the difference over the run,
+  /// N.
   double unbalanced() const {
     Vec3 sum{};
-    for (std::size_t k = 0; k < force.size(); ++k) sum = sum + (1.0 / static_cast<double>(force.size())) * (force[k] - rest[k]);
+    for (std::size_t k = 0; k < force.size(); ++k)
+      sum = sum + (1.0 / static_cast<double>(force.size())) * (force[k] - rest[k]);
     return norm(sum);
   }
   std::string said() const {

@@ -32,7 +32,8 @@ coarse_size = 0.05
 core_size = 0.06
 section_size = 0.012
 fishplates = true
-)" << keys << R"(
+)" << keys
+       << R"(
 [node_sets.loaded]
 part = "track_rail"
 surface = "head"
@@ -44,7 +45,8 @@ force = [0, 0, -5e4]
 [gravity]
 acceleration = [0, 0, -9.81]
 [settle]
-)" << settle << R"(
+)" << settle
+       << R"(
 [time]
 end = 1e-5
 )";
@@ -55,7 +57,8 @@ double ballast_force(const Model& model) {
   const auto force = to_host(model.connectors.arrays.force);
   double sum = 0;
   for (int c = 0; c < model.connectors.arrays.count; ++c)
-    if (model.scene.connectors[model.connectors.cells[c].connector].name.find("ballast") != std::string::npos) sum += force(c, 2);
+    if (model.scene.connectors[model.connectors.cells[c].connector].name.find("ballast") != std::string::npos)
+      sum += force(c, 2);
   return sum;
 }
 
@@ -68,7 +71,9 @@ double axial_force(const Model& model, const std::string& name) {
 
 /// Vertical displacement of the head just before and just behind the gap.
 std::array<double, 2> deflections(const Model& model) {
-  const auto of = [&](const char* set) { return mean(model, NodeField::displacement, model.assembly.node_sets.at(set))[2]; };
+  const auto of = [&](const char* set) {
+    return mean(model, NodeField::displacement, model.assembly.node_sets.at(set))[2];
+  };
   return {of("track_rail.end"), of("track_rail_2.start")};
 }
 
@@ -77,14 +82,18 @@ void check_settled(Model& model) {
   INFO("settled after " << settled.steps << " steps, unbalance " << settled.unbalance);
   CHECK(settled.settled);
   compute_forces(model);
-  if (model.scene.settle.method == scene::SettleMethod::newton) CHECK_THAT(ballast_force(model), WithinRel(weight + 9.81 * total_mass(model), 1e-4));
+  if (model.scene.settle.method == scene::SettleMethod::newton)
+    CHECK_THAT(ballast_force(model), WithinRel(weight + 9.81 * total_mass(model), 1e-4));
   for (const char* bolt : {"track_bolt_1", "track_bolt_2", "track_bolt_3", "track_bolt_4"})
     CHECK_THAT(axial_force(model, bolt), WithinRel(12.5e3, 0.01));
 }
 
 }  // namespace
 
-TEST_CASE("a glued joint settles: its bolts have their pretension, the ballast carries all weight, both rails go down together", "[long]") {
+TEST_CASE(
+    "a glued joint settles: its bolts have their pretension, the ballast carries all weight, both rails go down "
+    "together",
+    "[long]") {
   Model model;
   build_model(joint("", "method = \"newton\"\ntolerance = 1e-6"), model);
   check_settled(model);

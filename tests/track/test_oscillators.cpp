@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <algorithm>
 #include <sstream>
 
 #include "case/expand_tracks.hpp"
@@ -11,7 +11,8 @@ using namespace railwave;
 using namespace railwave::verify;
 using Catch::Matchers::WithinRel;
 
-// Each spring-dashpot pair of track and vehicle carries one mass that can move one way only: frequency and decay of theory.
+// Each spring-dashpot pair of track and vehicle carries one mass that can move one way only: frequency and decay of
+// theory.
 namespace {
 
 /// An oscillator's mass, stiffness and dashpot, and what theory makes of them.
@@ -21,11 +22,11 @@ struct Oscillator {
   double undamped() const { return std::sqrt(stiffness / mass); }
   double share() const { return damping / (2 * std::sqrt(stiffness * mass)); }
   double frequency() const { return undamped() * std::sqrt(1 - share() * share()); }  // rad/s
-  double decay() const { return share() * undamped(); }                                // 1/s
+  double decay() const { return share() * undamped(); }                               // 1/s
 };
 
-/// Decay rate of a damped swing: its extremes, each the top of a parabola through three values, fall by exp(-decay pi/frequency)
-/// from one to the next of either sign.
+/// Decay rate of a damped swing: its extremes, each the top of a parabola through three values, fall by exp(-decay
+/// pi/frequency) from one to the next of either sign.
 double decay_rate(const std::vector<double>& u, double interval) {
   std::vector<std::array<double, 2>> extremes;
   for (std::size_t k = 1; k + 1 < u.size(); ++k) {
@@ -38,7 +39,8 @@ double decay_rate(const std::vector<double>& u, double interval) {
   return std::log(extremes.front()[1] / extremes.back()[1]) / (extremes.back()[0] - extremes.front()[0]);
 }
 
-void check_oscillator(const char* name, scene::Scene scene, const Oscillator& theory, const std::string& what, int axis) {
+void check_oscillator(const char* name, scene::Scene scene, const Oscillator& theory, const std::string& what,
+                      int axis) {
   scene::InitialMotion push;
   push.name = "push";
   push.parts = {what};
@@ -51,11 +53,13 @@ void check_oscillator(const char* name, scene::Scene scene, const Oscillator& th
   build_model(scene, model);
   set_initial_motion(model);
   std::vector<double> u;
-  march(model, model.step_count, [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at(what))[axis]); });
+  march(model, model.step_count,
+        [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at(what))[axis]); });
   const double frequency = angular_frequency(u, model.step_size), decay = decay_rate(u, model.step_size);
   const auto percent = [](double found, double expected) { return 100 * (found / expected - 1); };
-  WARN(name << ": " << frequency / (2 * M_PI) << " Hz, theory " << theory.frequency() / (2 * M_PI) << " Hz (" << percent(frequency, theory.frequency())
-            << " %); decay " << decay << " 1/s, theory " << theory.decay() << " 1/s (" << percent(decay, theory.decay()) << " %)");
+  WARN(name << ": " << frequency / (2 * M_PI) << " Hz, theory " << theory.frequency() / (2 * M_PI) << " Hz ("
+            << percent(frequency, theory.frequency()) << " %); decay " << decay << " 1/s, theory " << theory.decay()
+            << " 1/s (" << percent(decay, theory.decay()) << " %)");
   CHECK_THAT(frequency, WithinRel(theory.frequency(), 1e-3));
   CHECK_THAT(decay, WithinRel(theory.decay(), 0.01));
 }
@@ -83,14 +87,17 @@ scene::Scene held_block() {
 /// A track of one sleeper of that kind under a short rail.
 scene::Scene one_sleeper(const std::string& kind) {
   std::ostringstream text;
-  text << "[tracks.track]\nstart = -0.3\nend = 0.3\nzone_start = -0.05\nzone_end = 0.05\nsleeper = \"" << kind << "\"\n[time]\nend = 1\n";
+  text << "[tracks.track]\nstart = -0.3\nend = 0.3\nzone_start = -0.05\nzone_end = 0.05\nsleeper = \"" << kind
+       << "\"\n[time]\nend = 1\n";
   return read_case(test::TemporaryCase(text.str()).path());
 }
 
 template <class Entry>
 void keep(std::vector<Entry>& entries, const std::vector<std::string>& names) {
   entries.erase(std::remove_if(entries.begin(), entries.end(),
-                               [&](const Entry& entry) { return std::find(names.begin(), names.end(), entry.name) == names.end(); }),
+                               [&](const Entry& entry) {
+                                 return std::find(names.begin(), names.end(), entry.name) == names.end();
+                               }),
                 entries.end());
 }
 
@@ -119,8 +126,10 @@ TEST_CASE("oscillator: a stiff block on the fastening of table 4.1, along each o
   for (const char* kind : {"concrete", "timber"})
     for (int axis = 0; axis < 3; ++axis) {
       scene::Scene track = one_sleeper(kind);
-      const auto fastening = std::find_if(track.connectors.begin(), track.connectors.end(), [](const auto& c) { return c.name == "track_fastening_1"; });
-      const double length = (*fastening->area)[1][0] - (*fastening->area)[0][0], width = 0.14, height = 0.1, mass = 2000;
+      const auto fastening = std::find_if(track.connectors.begin(), track.connectors.end(),
+                                          [](const auto& c) { return c.name == "track_fastening_1"; });
+      const double length = (*fastening->area)[1][0] - (*fastening->area)[0][0], width = 0.14, height = 0.1,
+                   mass = 2000;
       scene::Scene scene = block_scene({length, width, height}, {4, 4, 2}, 1);
       scene.parts[0].position = {-0.5 * length, -0.5 * width, 0};
       scene.materials[0].density = mass / (length * width * height);
@@ -130,7 +139,8 @@ TEST_CASE("oscillator: a stiff block on the fastening of table 4.1, along each o
       scene.connectors[0].to = "block.z_min";
       hold_other_directions(scene, "block", axis);
       const Oscillator theory{mass, fastening->stiffness[axis], fastening->damping[axis]};
-      check_oscillator((std::string("fastening, ") + kind + ", along " + "xyz"[axis]).c_str(), scene, theory, "block", axis);
+      check_oscillator((std::string("fastening, ") + kind + ", along " + "xyz"[axis]).c_str(), scene, theory, "block",
+                       axis);
     }
 }
 
@@ -141,11 +151,14 @@ TEST_CASE("oscillator: a sleeper on its ballast", "[oscillators]") {
     keep(scene.connectors, {"track_ballast_1"});
     keep(scene.constraints, {"track_bed_1", "track_centre_1"});
     const scene::Sleeper sleeper = case_file::sleeper_of(scene, kind);
-    const auto material = std::find_if(scene.materials.begin(), scene.materials.end(), [&](const auto& m) { return m.name == scene.parts[0].material; });
-    // Dashpots take the velocity of half a step before: with share of critical d that is a mass less by the share d omega step. A sleeper
-    // alone would allow 20 us, 0.2 % off in frequency; runs go at the rail's step, a tenth of a microsecond or some.
+    const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                       [&](const auto& m) { return m.name == scene.parts[0].material; });
+    // Dashpots take the velocity of half a step before: with share of critical d that is a mass less by the share d
+    // omega step. A sleeper alone would allow 20 us, 0.2 % off in frequency; runs go at the rail's step, a tenth of a
+    // microsecond or some.
     scene.time.step = 2e-6;
     const double mass = material->density * *sleeper.width * *sleeper.half_length * *sleeper.height;
-    check_oscillator((std::string("ballast, ") + kind).c_str(), scene, {mass, *sleeper.ballast_stiffness, *sleeper.ballast_damping}, "track_sleeper_1", 2);
+    check_oscillator((std::string("ballast, ") + kind).c_str(), scene,
+                     {mass, *sleeper.ballast_stiffness, *sleeper.ballast_damping}, "track_sleeper_1", 2);
   }
 }

@@ -49,8 +49,8 @@ scene::Scene cracked_bar(double traction) {
 }
 
 struct Answer {
-  double stretch = 0;   ///< of the bar, of what a whole one has
-  double opening = 0;   ///< m, of the mouth
+  double stretch = 0;  ///< of the bar, of what a whole one has
+  double opening = 0;  ///< m, of the mouth
 };
 
 Answer answer(double traction) {
@@ -63,15 +63,17 @@ Answer answer(double traction) {
       if (model.assembly.nodes[n][2] > side - 1e-9) top.push_back(n);
     return mean(model, NodeField::displacement, top)[0];
   };
-  return {mean(model, NodeField::displacement, model.assembly.node_sets.at("block.x_max"))[0] / (traction * length / 210e9),
-          mouth("block.crack_behind") - mouth("block.crack_before")};
+  return {
+      mean(model, NodeField::displacement, model.assembly.node_sets.at("block.x_max"))[0] / (traction * length / 210e9),
+      mouth("block.crack_behind") - mouth("block.crack_before")};
 }
 
 }  // namespace
 
 TEST_CASE("a crack opens under tension, and carries pressure as whole steel does but for its contact springs") {
   const Answer pulled = answer(stress), pressed = answer(-stress);
-  INFO("stretch " << pulled.stretch << " pulled, " << pressed.stretch << " pressed; opening " << pulled.opening << " and " << pressed.opening << " m");
+  INFO("stretch " << pulled.stretch << " pulled, " << pressed.stretch << " pressed; opening " << pulled.opening
+                  << " and " << pressed.opening << " m");
   CHECK(pulled.stretch > 1.1);
   CHECK(pulled.opening > 5e-6);
   CHECK(pressed.stretch > 0.999);

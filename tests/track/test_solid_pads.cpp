@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <algorithm>
 #include <sstream>
 
 #include "case/solid_pad.hpp"
@@ -25,10 +25,13 @@ const std::string coarse = "zone_size = 0.007\nzone_layers = 1\ncoarse_size = 0.
 /// A piece of rail as long as the pad, all but rigid, on a sleeper that is held; the rail moves along one axis only.
 scene::Scene one_pad(const std::string& pad, int axis, double inclination = 0) {
   std::ostringstream text;
-  text << "[sleepers.concrete]\n" << pad << "[tracks.track]\nstart = -0.08\nend = 0.08\npositions = [0]\nzone_start = -0.028\nzone_end = 0.028\n" << coarse
-       << "core_size = 0.03\ninclination = " << inclination << "\n[time]\nend = 1\n";
+  text << "[sleepers.concrete]\n"
+       << pad << "[tracks.track]\nstart = -0.08\nend = 0.08\npositions = [0]\nzone_start = -0.028\nzone_end = 0.028\n"
+       << coarse << "core_size = 0.03\ninclination = " << inclination << "\n[time]\nend = 1\n";
   scene::Scene scene = read_case(test::TemporaryCase(text.str()).path());
-  scene.connectors.erase(std::remove_if(scene.connectors.begin(), scene.connectors.end(), [](const auto& c) { return c.name == "track_ballast_1"; }), scene.connectors.end());
+  scene.connectors.erase(std::remove_if(scene.connectors.begin(), scene.connectors.end(),
+                                        [](const auto& c) { return c.name == "track_ballast_1"; }),
+                         scene.connectors.end());
   scene.constraints.clear();
   hold(scene, "track_sleeper_1", {true, true, true});
   std::array<bool, 3> guide{true, true, true};
@@ -58,8 +61,10 @@ double stiffness_of(scene::Scene scene, int axis) {
 
 scene::Scene loaded_track(const std::string& sleeper, double inclination, const std::string& more = "") {
   std::ostringstream text;
-  text << "[sleepers.concrete]\n" << sleeper << "[tracks.track]\nstart = -1.5\nend = 1.5\nzone_start = -0.028\nzone_end = 0.028\n" << coarse
-       << "core_size = 0.06\ninclination = " << inclination << "\n" << more
+  text << "[sleepers.concrete]\n"
+       << sleeper << "[tracks.track]\nstart = -1.5\nend = 1.5\nzone_start = -0.028\nzone_end = 0.028\n"
+       << coarse << "core_size = 0.06\ninclination = " << inclination << "\n"
+       << more
        << "[node_sets.loaded]\npart = \"track_rail\"\nbox = [[-0.0051, -1, -1], [0.0051, 1, 1]]\n[time]\nend = 1e-5\n";
   return read_case(test::TemporaryCase(text.str()).path());
 }
@@ -90,7 +95,8 @@ TEST_CASE("a solid pad is as stiff as the fastening that it stands for") {
     for (double inclination : {0.0, 0.025})
       for (int axis = 0; axis < 3; ++axis) {
         const double found = stiffness_of(one_pad(std::string(kind) + "pad = \"solid\"\n", axis, inclination), axis);
-        WARN(kind << "inclination " << inclination << ", along " << "xyz"[axis] << ": " << found / 1e6 << " MN/m, the table's " << table[axis] / 1e6 << " ("
+        WARN(kind << "inclination " << inclination << ", along "
+                  << "xyz"[axis] << ": " << found / 1e6 << " MN/m, the table's " << table[axis] / 1e6 << " ("
                   << 100 * (found / table[axis] - 1) << " %)");
         CHECK_THAT(found, WithinRel(table[axis], 0.02));
       }
@@ -102,11 +108,13 @@ TEST_CASE("a solid pad of any Poisson's ratio and number of layers is as stiff a
   for (double ratio : {0.0, 0.3, 0.45})
     for (int layers : {2, 4}) {
       std::ostringstream pad;
-      pad << "pad = \"solid\"\npad_modulus = 5e7\npad_poissons_ratio = " << ratio << "\npad_layers = " << layers << "\n";
+      pad << "pad = \"solid\"\npad_modulus = 5e7\npad_poissons_ratio = " << ratio << "\npad_layers = " << layers
+          << "\n";
       const double found = stiffness_of(one_pad(pad.str(), 2), 2), theory = 5e7 * layer.vertical_stiffness(ratio);
       const double along = stiffness_of(one_pad(pad.str(), 1), 1), shear = 5e7 * layer.shear_stiffness(ratio);
-      WARN("ratio " << ratio << ", " << layers << " layers: " << found / 1e6 << " MN/m, layer " << theory / 1e6 << " (" << 100 * (found / theory - 1)
-                    << " %); along " << along / 1e6 << ", layer " << shear / 1e6 << " (" << 100 * (along / shear - 1) << " %)");
+      WARN("ratio " << ratio << ", " << layers << " layers: " << found / 1e6 << " MN/m, layer " << theory / 1e6 << " ("
+                    << 100 * (found / theory - 1) << " %); along " << along / 1e6 << ", layer " << shear / 1e6 << " ("
+                    << 100 * (along / shear - 1) << " %)");
       CHECK_THAT(found, WithinRel(theory, 0.03));
       CHECK_THAT(along, WithinRel(shear, 0.03));
     }
@@ -115,7 +123,8 @@ TEST_CASE("a solid pad of any Poisson's ratio and number of layers is as stiff a
 TEST_CASE("a track on solid pads gives way as one on springs does, and its ballast bears the load") {
   for (double inclination : {0.0, 0.025}) {
     const double springs = deflection("", inclination), solid = deflection("pad = \"solid\"\n", inclination);
-    WARN("inclination " << inclination << ": " << 1e3 * springs << " mm on springs, " << 1e3 * solid << " mm on pads (" << 100 * (solid / springs - 1) << " %)");
+    WARN("inclination " << inclination << ": " << 1e3 * springs << " mm on springs, " << 1e3 * solid << " mm on pads ("
+                        << 100 * (solid / springs - 1) << " %)");
     CHECK_THAT(solid, WithinRel(springs, 0.02));
   }
 }
@@ -142,7 +151,8 @@ Swing swing_of(const std::vector<double>& u, double interval) {
 
 TEST_CASE("oscillator: a block on a solid pad", "[oscillators]") {
   scene::Scene scene = one_pad("pad = \"solid\"\n", 2);
-  const auto pad = *std::find_if(scene.parts.begin(), scene.parts.end(), [](const auto& p) { return p.name == "track_pad_1"; });
+  const auto pad =
+      *std::find_if(scene.parts.begin(), scene.parts.end(), [](const auto& p) { return p.name == "track_pad_1"; });
   const scene::Scene block = block_scene({0.16, 0.14, 0.1}, {4, 4, 2}, 1);
   scene.meshes.push_back(block.meshes[0]);
   scene.parts = {block.parts[0], pad};
@@ -167,13 +177,15 @@ TEST_CASE("oscillator: a block on a solid pad", "[oscillators]") {
   build_model(scene, model);
   set_initial_motion(model);
   std::vector<double> u;
-  march(model, model.step_count, [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block"))[2]); });
+  march(model, model.step_count,
+        [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block"))[2]); });
   const Swing found = swing_of(u, model.step_size);
   const double swinging = mass + mass_of(model, "track_pad_1") / 3, decay = 0.5 * damping / swinging;
   const double frequency = std::sqrt(stiffness / swinging - decay * decay);
-  WARN("block on a solid pad: " << found.frequency / (2 * M_PI) << " Hz, theory " << frequency / (2 * M_PI) << " Hz (" << 100 * (found.frequency / frequency - 1)
-                               << " %); decay " << found.decay << " 1/s, theory " << decay << " 1/s (" << 100 * (found.decay / decay - 1) << " %); step "
-                               << 1e9 * model.step_size << " ns");
+  WARN("block on a solid pad: " << found.frequency / (2 * M_PI) << " Hz, theory " << frequency / (2 * M_PI) << " Hz ("
+                                << 100 * (found.frequency / frequency - 1) << " %); decay " << found.decay
+                                << " 1/s, theory " << decay << " 1/s (" << 100 * (found.decay / decay - 1)
+                                << " %); step " << 1e9 * model.step_size << " ns");
   CHECK_THAT(found.frequency, WithinRel(frequency, 0.01));
   CHECK_THAT(found.decay, WithinRel(decay, 0.02));
 }
@@ -224,15 +236,17 @@ Response struck(const std::string& sleeper) {
 }  // namespace
 
 TEST_CASE("a struck track on solid pads answers as one on springs does, and its account closes", "[long]") {
-  const Response springs = struck(""), solid = struck("pad = \"solid\"\n"), dashpots = struck("pad = \"solid\"\npad_damping = 0\n");
+  const Response springs = struck(""), solid = struck("pad = \"solid\"\n"),
+                 dashpots = struck("pad = \"solid\"\npad_damping = 0\n");
   for (const Response* pads : {&solid, &dashpots}) {
     double off = 0, whole = 0;
     for (std::size_t k = 0; k < springs.values.size(); ++k) {
       off += std::pow(pads->at(springs.times[k]) - springs.values[k], 2);
       whole += std::pow(springs.values[k], 2);
     }
-    WARN("off by " << 100 * std::sqrt(off / whole) << " % of the response; balance off by " << pads->worst_balance / pads->last.external_work
-                   << " of the work done; step " << 1e9 * pads->step << " ns, on springs " << 1e9 * springs.step << " ns");
+    WARN("off by " << 100 * std::sqrt(off / whole) << " % of the response; balance off by "
+                   << pads->worst_balance / pads->last.external_work << " of the work done; step " << 1e9 * pads->step
+                   << " ns, on springs " << 1e9 * springs.step << " ns");
     CHECK(std::sqrt(off / whole) < 0.05);
     CHECK(pads->worst_balance < 1e-3 * pads->last.external_work);
     CHECK(pads->last.kinetic < 0.5 * pads->last.external_work);

@@ -93,7 +93,9 @@ TEST_CASE("a spread connector resists rotations as a bed does, less what its cel
   for (const std::array<int, 2> spread : {std::array<int, 2>{1, 1}, {2, 3}, {4, 3}, {6, 5}}) {
     const scene::Scene scene = two_blocks(spread);
     const double angle = 1e-6;
-    const auto bed = [](double k, double side, int cells) { return k * side * side / 12 * (1 - 1.0 / (cells * cells)); };
+    const auto bed = [](double k, double side, int cells) {
+      return k * side * side / 12 * (1 - 1.0 / (cells * cells));
+    };
     const double roll = bed(stiffness[2], width, spread[1]), pitch = bed(stiffness[2], length, spread[0]);
     // Sideways springs lie in the plane of the turn's centre; in a turn about z they all work.
     const double yaw = bed(stiffness[0], width, spread[1]) + bed(stiffness[1], length, spread[0]);
@@ -131,7 +133,8 @@ TEST_CASE("a block on a spread bed swings at its theory's frequency, stable at t
   build_model(scene, model);
   set_initial_motion(model);
   std::vector<double> place;
-  march(model, model.step_count, [&] { place.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))[2]); });
+  march(model, model.step_count,
+        [&] { place.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))[2]); });
   CHECK_THAT(angular_frequency(place, model.step_size), WithinRel(omega, 1e-3));
 }
 
@@ -142,11 +145,14 @@ TEST_CASE("stiff spread connectors are stable at the step chosen") {
   Model model;
   build_model(scene, model);
   CHECK(model.stable_step.connector < model.stable_step.elements);
-  set_velocity(model, [](const Vec3& x, int) { return 1e-3 * Vec3{std::sin(90 * x[0] + 1), std::sin(70 * x[1]), std::sin(110 * x[2] + 2)}; });
+  set_velocity(model, [](const Vec3& x, int) {
+    return 1e-3 * Vec3{std::sin(90 * x[0] + 1), std::sin(70 * x[1]), std::sin(110 * x[2] + 2)};
+  });
   double fastest = 0;
   march(model, 1500, [&] {
     if (model.step % 100 == 0)
-      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values) fastest = std::isfinite(v) ? std::max(fastest, std::fabs(v)) : 1e300;
+      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+        fastest = std::isfinite(v) ? std::max(fastest, std::fabs(v)) : 1e300;
   });
   CHECK(fastest < 0.02);
 }
@@ -170,10 +176,12 @@ TEST_CASE("ends that cannot be spread over are told with what is missing") {
   CHECK_THAT(complaint(nodes), ContainsSubstring("[connectors.bed] to: 'block.few' is a set of nodes without faces"));
   scene::Scene apart = two_blocks({2, 2});
   apart.parts[1].position = {5, 0, -0.1};
-  CHECK_THAT(complaint(apart), ContainsSubstring("[connectors.bed] spread: 'lower.z_max' and 'block.z_min' do not face each other"));
+  CHECK_THAT(complaint(apart),
+             ContainsSubstring("[connectors.bed] spread: 'lower.z_max' and 'block.z_min' do not face each other"));
   scene::Scene outside = two_blocks({2, 2});
   outside.connectors[0].area = {{{5, 5, -1}, {6, 6, 1}}};
-  CHECK_THAT(complaint(outside), ContainsSubstring("do not face each other along the third of the axes, or not within the area"));
+  CHECK_THAT(complaint(outside),
+             ContainsSubstring("do not face each other along the third of the axes, or not within the area"));
   scene::Scene low = two_blocks({2, 2});
   low.connectors[0].area = {{{0, 0, -1}, {1, 1, -0.5}}};
   CHECK_THAT(complaint(low), ContainsSubstring("[connectors.bed] area: has no face of 'lower.z_max' in it"));

@@ -100,7 +100,8 @@ TEST_CASE("tied blocks settle on a connector under the tie: it bears the load, a
     compute_forces(model);
     Vec3 carried{};
     const auto force = to_host(model.connectors.arrays.force);
-    for (int c = 0; c < model.connectors.arrays.count; ++c) carried = carried + Vec3{force(c, 0), force(c, 1), force(c, 2)};
+    for (int c = 0; c < model.connectors.arrays.count; ++c)
+      carried = carried + Vec3{force(c, 0), force(c, 1), force(c, 2)};
     CHECK(norm(carried + applied) < 1e-6 * norm(applied));
     const Resultant left = of_all(model);
     CHECK(norm(left.force) < 1e-6 * norm(applied));

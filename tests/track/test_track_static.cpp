@@ -30,11 +30,13 @@ section_size = 0.012
 inclination = 0
 [node_sets.loaded]
 part = "track_rail"
-box = )" << load_place << R"(
+box = )"
+       << load_place << R"(
 [loads.weight]
 type = "nodal_force"
 target = "track_rail.loaded"
-force = [0, 0, )" << force << R"(]
+force = [0, 0, )"
+       << force << R"(]
 [settle]
 tolerance = 1e-6
 max_steps = 60000
@@ -56,7 +58,8 @@ void check_deflection(double load_place, const std::string& box) {
   CHECK_THAT(ballast_force(model) / weight, WithinAbs(1, 1e-6));
   const double deflection = -mean(model, NodeField::displacement, section)[2] / weight;
   const double theory = BeamOnSupports(scene, model, "track_rail", "track_concrete").deflection(load_place, 1);
-  INFO("deflection " << 1e3 * weight * deflection << " mm, beam on supports " << 1e3 * weight * theory << " mm, ballast " << ballast_force(model) << " N");
+  INFO("deflection " << 1e3 * weight * deflection << " mm, beam on supports " << 1e3 * weight * theory
+                     << " mm, ballast " << ballast_force(model) << " N");
   CHECK_THAT(deflection, WithinRel(theory, 0.03));
 }
 

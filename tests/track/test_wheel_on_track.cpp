@@ -11,11 +11,15 @@ using namespace railwave::verify;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
-TEST_CASE("a wheel at rest on the track of table 4.1: the ballast carries the weight of all, the rail bends as a beam on supports", "[long]") {
-  scene::Scene scene = read_case(source_folder + std::string("/cases/track.toml"),
-                                 {"settle.tolerance=2e-5", "meshes.wheel.zone_size=0.004", "tracks.track.zone_size=0.004",
-                                  "meshes.wheel.section_size=0.012", "tracks.track.section_size=0.012", "meshes.wheel.zone_layers=1",
-                                  "tracks.track.zone_layers=1"});
+TEST_CASE(
+    "a wheel at rest on the track of table 4.1: the ballast carries the weight of all, the rail bends as a beam on "
+    "supports",
+    "[long]") {
+  scene::Scene scene =
+      read_case(source_folder + std::string("/cases/track.toml"),
+                {"settle.tolerance=2e-5", "meshes.wheel.zone_size=0.004", "tracks.track.zone_size=0.004",
+                 "meshes.wheel.section_size=0.012", "tracks.track.section_size=0.012", "meshes.wheel.zone_layers=1",
+                 "tracks.track.zone_layers=1"});
   scene.initial_motions.clear();
   scene::NodeSet under;
   under.name = "under_wheel";
@@ -35,11 +39,14 @@ TEST_CASE("a wheel at rest on the track of table 4.1: the ballast carries the we
   for (const char* part : {"wheel", "sprung_mass"})
     for (int n : model.assembly.node_sets.at(part)) wheel += gravity * model.mass[n];
   const double contact = contact_totals(model, model.contacts[0]).normal_force[2];
-  const double deflection = -mean(model, NodeField::displacement, model.assembly.node_sets.at("track_rail.under_wheel"))[2];
+  const double deflection =
+      -mean(model, NodeField::displacement, model.assembly.node_sets.at("track_rail.under_wheel"))[2];
   const double theory = BeamOnSupports(scene, model, "track_rail", "track_concrete").deflection(0, wheel, gravity);
-  INFO("weight " << weight << " N, ballast " << ballast_force(model) << " N; wheel " << wheel << " N, contact " << contact << " N; deflection "
-                 << 1e3 * deflection << " mm, beam on supports " << 1e3 * theory << " mm");
+  INFO("weight " << weight << " N, ballast " << ballast_force(model) << " N; wheel " << wheel << " N, contact "
+                 << contact << " N; deflection " << 1e3 * deflection << " mm, beam on supports " << 1e3 * theory
+                 << " mm");
   CHECK_THAT(deflection, WithinRel(theory, 0.03));
-  WARN("weight " << weight << " N, ballast over it less 1: " << ballast_force(model) / weight - 1 << "; wheel " << wheel << " N, contact " << contact << " N; deflection "
-                 << 1e3 * deflection << " mm, beam on supports " << 1e3 * theory << " mm; " << settled.steps << " evaluations, " << settled.wall_seconds << " s");
+  WARN("weight " << weight << " N, ballast over it less 1: " << ballast_force(model) / weight - 1 << "; wheel " << wheel
+                 << " N, contact " << contact << " N; deflection " << 1e3 * deflection << " mm, beam on supports "
+                 << 1e3 * theory << " mm; " << settled.steps << " evaluations, " << settled.wall_seconds << " s");
 }

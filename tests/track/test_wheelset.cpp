@@ -17,15 +17,18 @@ struct Loads {
 };
 
 Loads loads_of(const Model& model) {
-  return {contact_totals(model, model.contacts[0]).normal_force[2], contact_totals(model, model.contacts[1]).normal_force[2]};
+  return {contact_totals(model, model.contacts[0]).normal_force[2],
+          contact_totals(model, model.contacts[1]).normal_force[2]};
 }
 
 }  // namespace
 
 TEST_CASE("a wheelset runs 5 ms along two rails with loads symmetric within 1 %", "[long]") {
-  std::vector<std::string> coarser{"settle.cache=false", "meshes.wheelset.zone_size=0.006", "meshes.wheelset.zone_width=0.03", "meshes.wheelset.coarse_size=0.05"};
+  std::vector<std::string> coarser{"settle.cache=false", "meshes.wheelset.zone_size=0.006",
+                                   "meshes.wheelset.zone_width=0.03", "meshes.wheelset.coarse_size=0.05"};
   for (const std::string track : {"tracks.left.", "tracks.right."})
-    for (const char* change : {"zone_size=0.006", "zone_width=0.03", "start=-0.9", "end=0.9", "coarse_size=0.06"}) coarser.push_back(track + change);
+    for (const char* change : {"zone_size=0.006", "zone_width=0.03", "start=-0.9", "end=0.9", "coarse_size=0.06"})
+      coarser.push_back(track + change);
   Model model;
   build_model(read_case(source_folder + "/cases/wheelset.toml", coarser), model);
   const SettleReport settled = settle_whole(model);
@@ -49,11 +52,14 @@ TEST_CASE("a wheelset runs 5 ms along two rails with loads symmetric within 1 %"
     sum.right += now.right;
     ++samples;
   });
-  INFO("left and right unlike by at most " << 100 * worst << " %, in the mean " << 100 * sum.unlike() << " %; loads " << 1e-3 * smallest << " to " << 1e-3 * largest
-                                           << " kN, static " << 0.5e-3 * weight << " kN");
+  INFO("left and right unlike by at most " << 100 * worst << " %, in the mean " << 100 * sum.unlike() << " %; loads "
+                                           << 1e-3 * smallest << " to " << 1e-3 * largest << " kN, static "
+                                           << 0.5e-3 * weight << " kN");
   CHECK(worst < 0.01);
   CHECK(sum.unlike() < 0.01);
   CHECK_THAT(sum.left / samples, WithinRel(0.5 * weight, 0.05));
-  WARN("left and right unlike by at most " << 100 * worst << " %, in the mean " << 100 * sum.unlike() << " %; loads " << 1e-3 * smallest << " to " << 1e-3 * largest
-                                           << " kN, static " << 0.5e-3 * weight << " kN; " << model.step_count << " steps of " << model.element_count() << " elements");
+  WARN("left and right unlike by at most " << 100 * worst << " %, in the mean " << 100 * sum.unlike() << " %; loads "
+                                           << 1e-3 * smallest << " to " << 1e-3 * largest << " kN, static "
+                                           << 0.5e-3 * weight << " kN; " << model.step_count << " steps of "
+                                           << model.element_count() << " elements");
 }

@@ -1,6 +1,6 @@
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <algorithm>
 #include <sstream>
 
 #include "tests/case/temporary_case.hpp"
@@ -19,12 +19,16 @@ constexpr double force = 5e4;
 
 scene::Scene track(bool whole, const std::string& sleeper = "") {
   std::ostringstream text;
-  text << "[sleepers.concrete]\nbase = \"concrete\"\n" << sleeper
-       << "[tracks.track]\nstart = -0.9\nend = 0.9\nzone_size = 0.007\nzone_layers = 1\ncoarse_size = 0.05\nsection_size = 0.012\nzone_start = -0.028\n"
+  text << "[sleepers.concrete]\nbase = \"concrete\"\n"
+       << sleeper
+       << "[tracks.track]\nstart = -0.9\nend = 0.9\nzone_size = 0.007\nzone_layers = 1\ncoarse_size = "
+          "0.05\nsection_size = 0.012\nzone_start = -0.028\n"
           "zone_end = 0.028\ncore_size = 0.06\n"
        << (whole ? "both_rails = true\n" : "");
   for (const char* rail : {"track_rail", "track_far_rail"})
-    if (whole || rail[6] == 'r') text << "[node_sets.loaded_" << rail << "]\npart = \"" << rail << "\"\nsurface = \"running_surface\"\nbox = [[-0.0051, -3, -1], [0.0051, 3, 1]]\n";
+    if (whole || rail[6] == 'r')
+      text << "[node_sets.loaded_" << rail << "]\npart = \"" << rail
+           << "\"\nsurface = \"running_surface\"\nbox = [[-0.0051, -3, -1], [0.0051, 3, 1]]\n";
   text << "[settle]\nmethod = \"newton\"\ntolerance = 1e-7\n[time]\nend = 1e-5\n";
   return read_case(test::TemporaryCase(text.str()).path());
 }
@@ -39,7 +43,9 @@ void settle_under_load(const scene::Scene& scene, Model& model) {
   compute_forces(model);
 }
 
-Vec3 moved(const Model& model, const char* rail) { return mean(model, NodeField::displacement, model.assembly.node_sets.at(loaded(rail))); }
+Vec3 moved(const Model& model, const char* rail) {
+  return mean(model, NodeField::displacement, model.assembly.node_sets.at(loaded(rail)));
+}
 
 /// Displacements of both rails under forces on both.
 std::array<Vec3, 2> under(const Vec3& near, const Vec3& far, const std::string& sleeper = "") {
@@ -73,10 +79,11 @@ TEST_CASE("a whole track under equal loads is two halves; under opposite ones it
   const auto one = under(load, {0, 0, 0});
   CHECK(norm(one[0] - 0.5 * (equal[0] + opposite[0])) < 0.01 * norm(one[0]));
   CHECK(norm(one[1] - 0.5 * (equal[1] + opposite[1])) < 0.01 * norm(one[0]));
-  WARN("vertical mm: half track " << 1e3 * of_half[2] << ", equal loads " << 1e3 * equal[0][2] << " (off by " << norm(equal[0] - of_half) / norm(of_half)
-                                  << "), opposite " << 1e3 * opposite[0][2] << ", one rail " << 1e3 * one[0][2] << " and " << 1e3 * one[1][2]
-                                  << "; lateral: " << 1e3 * of_half[1] << ", " << 1e3 * equal[0][1] << ", " << 1e3 * opposite[0][1] << ", " << 1e3 * one[0][1]
-                                  << " and " << 1e3 * one[1][1]);
+  WARN("vertical mm: half track " << 1e3 * of_half[2] << ", equal loads " << 1e3 * equal[0][2] << " (off by "
+                                  << norm(equal[0] - of_half) / norm(of_half) << "), opposite " << 1e3 * opposite[0][2]
+                                  << ", one rail " << 1e3 * one[0][2] << " and " << 1e3 * one[1][2]
+                                  << "; lateral: " << 1e3 * of_half[1] << ", " << 1e3 * equal[0][1] << ", "
+                                  << 1e3 * opposite[0][1] << ", " << 1e3 * one[0][1] << " and " << 1e3 * one[1][1]);
   CHECK(std::fabs(opposite[0][2]) > 1.02 * std::fabs(equal[0][2]));
 }
 
@@ -86,7 +93,10 @@ TEST_CASE("a whole track on laterally springy ballast yields as that does") {
   Model model;
   settle_under_load(scene, model);
   double aside = 0;
-  for (int k = 1; k <= 3; ++k) aside += mean(model, NodeField::displacement, model.assembly.node_sets.at("track_sleeper_" + std::to_string(k) + ".z_min"))[1] / 3;
+  for (int k = 1; k <= 3; ++k)
+    aside += mean(model, NodeField::displacement,
+                  model.assembly.node_sets.at("track_sleeper_" + std::to_string(k) + ".z_min"))[1] /
+             3;
   // Two halves each.
   CHECK_THAT(aside, WithinRel(2 * force / (6 * 20e6), 1e-3));
   const auto held = under({0, force, 0}, {0, force, 0});

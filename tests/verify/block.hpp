@@ -49,7 +49,8 @@ inline scene::Scene block_scene(const Vec3& size, const std::array<int, 3>& divi
   part.name = "block";
   part.mesh = "block";
   part.material = "steel";
-  part.take_hourglass(scene::HourglassType::viscous);  // what tolerances of older tests were found with; others say theirs
+  part.take_hourglass(
+      scene::HourglassType::viscous);  // what tolerances of older tests were found with; others say theirs
   scene.parts.push_back(part);
   scene.time.end = end;
   scene.output.history_interval = end;

@@ -23,7 +23,8 @@ struct GradedBar {
   scene::Scene scene;
   Assembly assembly;
 
-  GradedBar(int coarse, int fine, double end, int across = 2, double largest = 0.03) : planes(graded_planes(coarse, fine, largest)) {
+  GradedBar(int coarse, int fine, double end, int across = 2, double largest = 0.03)
+      : planes(graded_planes(coarse, fine, largest)) {
     const int layers = static_cast<int>(planes.size()) - 1;
     const double width = largest * across;
     scene = block_scene({static_cast<double>(layers), width, width}, {layers, across, across}, end);

@@ -9,8 +9,8 @@
 /// Driving a model step by step, and what the tests measure on it.
 namespace railwave::verify {
 
-/// `steps` steps from the model's present instant; `look()` is called at every instant, first and last included, when the
-/// forces are known.
+/// `steps` steps from the model's present instant; `look()` is called at every instant, first and last included, when
+/// the forces are known.
 template <class Look>
 void march(Model& model, long steps, const Look& look) {
   const auto stages = force_stages(model);
@@ -55,7 +55,9 @@ inline std::array<Vec3, 3> oblique_axes() {
 }
 
 /// x in axes `rows`: first axis is carried into rows[0], and so on.
-inline Vec3 turned(const std::array<Vec3, 3>& rows, const Vec3& x) { return x[0] * rows[0] + x[1] * rows[1] + x[2] * rows[2]; }
+inline Vec3 turned(const std::array<Vec3, 3>& rows, const Vec3& x) {
+  return x[0] * rows[0] + x[1] * rows[1] + x[2] * rows[2];
+}
 
 /// Moves every node by up to `share` of the block's element size, at random.
 inline void warp(Assembly& assembly, double element_size, double share, unsigned seed) {

@@ -7,7 +7,8 @@
 #include "model/doubts.hpp"
 #include "tests/verify/two_blocks.hpp"
 
-/// Absorbing layers before the ends of bars and beams, against the theory of a bar whose mass damping grows with the cube of the way.
+/// Absorbing layers before the ends of bars and beams, against the theory of a bar whose mass damping grows with the
+/// cube of the way.
 using namespace railwave;
 using namespace railwave::verify;
 using Catch::Matchers::ContainsSubstring;
@@ -37,17 +38,19 @@ void add_dashpots(scene::Scene& scene, const std::string& target) {
 /// A bar along x, 10 mm thick, with packets of waves of length 0.1 m that leave its middle to both sides.
 struct Bar {
   Wave wave = Wave::bar;
-  double layer = 0.1;         ///< m; 0: none
+  double layer = 0.1;  ///< m; 0: none
   bool dashpots = false;
   double reflection = 0.01;
   scene::Precision precision = scene::Precision::double_precision;
   bool subcycling = false;
-  double element = 0.004;     ///< m, along the bar; of bending 0.0025
+  double element = 0.004;  ///< m, along the bar; of bending 0.0025
 
   static constexpr double wavelength = 0.1, thickness = 0.01, deviation = 0.1, free_length = 0.6;
 
   double length() const { return free_length + 2 * layer; }
-  double modulus(const scene::Material& m) const { return wave == Wave::plane ? m.dilatational_modulus() : m.youngs_modulus; }
+  double modulus(const scene::Material& m) const {
+    return wave == Wave::plane ? m.dilatational_modulus() : m.youngs_modulus;
+  }
   double speed(const scene::Material& m) const {
     const double c = std::sqrt(modulus(m) / m.density), k = 2 * M_PI / wavelength;
     return wave == Wave::bending ? 2 * c * k * thickness / std::sqrt(12.0) : c;  // group velocity
@@ -55,7 +58,10 @@ struct Bar {
 
   scene::Scene scene() const {
     const bool bends = wave == Wave::bending;
-    const int across = wave == Wave::plane ? 1 : bends ? 4 : 2, along = static_cast<int>(std::lround(length() / (bends ? 0.0025 : element)));
+    const int across = wave == Wave::plane ? 1
+                       : bends             ? 4
+                                           : 2,
+              along = static_cast<int>(std::lround(length() / (bends ? 0.0025 : element)));
     scene::Scene made = block_scene({length(), thickness, thickness}, {along, bends ? 1 : across, across}, 1);
     set_hourglass(made.parts[0], scene::HourglassType::stiffness, 0.05);
     // Until packets that came back from the ends would be in the middle again.
@@ -70,11 +76,14 @@ struct Bar {
     return made;
   }
 
-  /// Velocities of the packet, as far as a thin bar's section goes along: thinner where it gets longer, turned where it bends.
+  /// Velocities of the packet, as far as a thin bar's section goes along: thinner where it gets longer, turned where it
+  /// bends.
   void start(Model& model) const {
     const double middle = 0.5 * length(), k = 2 * M_PI / wavelength;
     const double thinning = wave == Wave::bar ? model.scene.materials[0].poissons_ratio : 0;
-    const auto packet = [&](double x) { return std::exp(-0.5 * std::pow((x - middle) / deviation, 2)) * std::cos(k * (x - middle)); };
+    const auto packet = [&](double x) {
+      return std::exp(-0.5 * std::pow((x - middle) / deviation, 2)) * std::cos(k * (x - middle));
+    };
     const auto slope = [&](double x) { return (packet(x + 1e-6) - packet(x - 1e-6)) / 2e-6; };
     set_velocity(model, [&](const Vec3& x, int) {
       const double y = x[1] - 0.5 * thickness, z = x[2] - 0.5 * thickness;
@@ -105,8 +114,9 @@ struct Bar {
   }
 };
 
-/// The same by theory for longitudinal waves of one length: rho (u'' + alpha u') = E d2u/dx2 in the layer, whose end is free or has the continuum's dashpots. The layer
-/// is a stack of thin ones with each its own wave number, passed from the end to its beginning.
+/// The same by theory for longitudinal waves of one length: rho (u'' + alpha u') = E d2u/dx2 in the layer, whose end is
+/// free or has the continuum's dashpots. The layer is a stack of thin ones with each its own wave number, passed from
+/// the end to its beginning.
 /// @param faster C_d over the wave's speed
 double theory(double lengths, double reflection, double faster, bool dashpots) {
   using Complex = std::complex<double>;
@@ -132,7 +142,8 @@ double theory_of_packet(double lengths, double reflection, double faster, bool d
   const double k0 = 2 * M_PI / Bar::wavelength;
   double sum = 0, energy = 0;
   for (double off = -3; off <= 3; off += 0.25) {
-    const double weight = std::exp(-off * off), back = theory(lengths * (1 + off / (k0 * Bar::deviation)), reflection, faster, dashpots);
+    const double weight = std::exp(-off * off),
+                 back = theory(lengths * (1 + off / (k0 * Bar::deviation)), reflection, faster, dashpots);
     sum += weight;
     energy += weight * back * back;
   }
@@ -141,7 +152,8 @@ double theory_of_packet(double lengths, double reflection, double faster, bool d
 
 }  // namespace
 
-TEST_CASE("a layer of one and a half wavelengths sends less than 2 % of a bar's packet back, where dashpots alone send 7 %") {
+TEST_CASE(
+    "a layer of one and a half wavelengths sends less than 2 % of a bar's packet back, where dashpots alone send 7 %") {
   const scene::Material m = steel();
   const double faster = m.dilatational_speed() / std::sqrt(m.youngs_modulus / m.density);
   for (bool dashpots : {false, true}) {
@@ -149,8 +161,10 @@ TEST_CASE("a layer of one and a half wavelengths sends less than 2 % of a bar's 
     bar.dashpots = dashpots;
     bar.layer = 1.5 * Bar::wavelength;
     double balance = 0, taken = 0;
-    const double found = bar.returned(&balance, &taken), wanted = theory_of_packet(1.5, bar.reflection, faster, dashpots);
-    UNSCOPED_INFO("dashpots " << dashpots << ": returned " << found << ", by theory " << wanted << "; damping took " << taken << ", balance " << balance);
+    const double found = bar.returned(&balance, &taken),
+                 wanted = theory_of_packet(1.5, bar.reflection, faster, dashpots);
+    UNSCOPED_INFO("dashpots " << dashpots << ": returned " << found << ", by theory " << wanted << "; damping took "
+                              << taken << ", balance " << balance);
     CHECK(found < 0.02);
     // By 0.007 with elements of a twenty-fifth of the wavelength: see below.
     CHECK_THAT(found, WithinAbs(wanted, 0.01));
@@ -173,7 +187,8 @@ TEST_CASE("what plane waves of the continuum leave in layers of several lengths 
     bar.layer = lengths * Bar::wavelength;
     const double found = bar.returned(), wanted = theory_of_packet(lengths, bar.reflection, 1, false);
     UNSCOPED_INFO(lengths << " wavelengths: returned " << found << ", by theory " << wanted);
-    // Over elements of a fiftieth of the wavelength damping grows in steps, of which the theory knows nothing: of twice the size they send back 0.009 more at one wavelength.
+    // Over elements of a fiftieth of the wavelength damping grows in steps, of which the theory knows nothing: of twice
+    // the size they send back 0.009 more at one wavelength.
     CHECK_THAT(found, WithinAbs(wanted, 0.005 + 0.05 * wanted));
   }
 }
@@ -233,7 +248,8 @@ TEST_CASE("layers that cannot work are refused, and such as work badly are told"
     for (auto& layer : scene.absorbing_layers) layer.line = 7, layer.length = length;
     return complaint_of_building(scene);
   };
-  CHECK_THAT(complaint(0.003), ContainsSubstring("bar.toml:7: [absorbing_layers.block.x_min] length: 0.003 m is less than the elements at 'block.x_min' are long (0.004 m)"));
+  CHECK_THAT(complaint(0.003), ContainsSubstring("bar.toml:7: [absorbing_layers.block.x_min] length: 0.003 m is less "
+                                                 "than the elements at 'block.x_min' are long (0.004 m)"));
   CHECK_THAT(complaint(0.5), ContainsSubstring("leaves nothing of part block undamped"));
   scene::Scene scene = bar.scene();
   scene.absorbing_layers[0].length = 0.01;
@@ -284,7 +300,8 @@ TEST_CASE("table of what layers send back", "[.table]") {
           bar.reflection = reflection;
           found[wave == Wave::bending] = bar.returned();
         }
-        WARN("reflection " << reflection << ", " << lengths << " wavelengths, dashpots " << dashpots << ": longitudinal " << found[0] << " (theory "
+        WARN("reflection " << reflection << ", " << lengths << " wavelengths, dashpots " << dashpots
+                           << ": longitudinal " << found[0] << " (theory "
                            << theory_of_packet(lengths, reflection, faster, dashpots) << "), bending " << found[1]);
       }
 }

@@ -31,7 +31,8 @@ std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancin
     values.insert(values.end(), part.begin(), part.end());
   }
   const EnergyAccount energy = account_energies(model, model.step_size);
-  values.insert(values.end(), {energy.contact, energy.friction, energy.hourglass, energy.external_work, energy.damping});
+  values.insert(values.end(),
+                {energy.contact, energy.friction, energy.hourglass, energy.external_work, energy.damping});
   return values;
 }
 
@@ -66,7 +67,8 @@ TEST_CASE("nodes that patches advance at once move as all others do, bit by bit"
   spring.damping = {10, 20, 30};
   scene.connectors.push_back(spring);
   for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
-    for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+    for (auto precision :
+         {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
       for (scene::Part& part : scene.parts) set_hourglass(part, hourglass, 0.1);
       scene.solver.precision = precision;
       const auto plain = outcome(scene, 200, false), advanced = outcome(scene, 200, true);

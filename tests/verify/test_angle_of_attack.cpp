@@ -90,14 +90,17 @@ TEST_CASE("spin and torque of a part with an angle of attack are about its own a
     const Vec3 centre = mean(model, NodeField::position, nodes);
     Vec3 sum{};
     for (std::size_t k = 0; k < nodes.size(); ++k)
-      sum = sum + model.mass[nodes[k]] * cross(model.assembly.nodes[nodes[k]] - centre, Vec3{v[3 * k], v[3 * k + 1], v[3 * k + 2]});
+      sum = sum + model.mass[nodes[k]] *
+                      cross(model.assembly.nodes[nodes[k]] - centre, Vec3{v[3 * k], v[3 * k + 1], v[3 * k + 2]});
     return sum;
   };
   compute_forces(model);
-  const Vec3 torque = moment(NodeField::acceleration), spin = moment(NodeField::velocity), travel = mean(model, NodeField::velocity, nodes);
+  const Vec3 torque = moment(NodeField::acceleration), spin = moment(NodeField::velocity),
+             travel = mean(model, NodeField::velocity, nodes);
   for (int i = 0; i < 3; ++i) {
     CHECK_THAT(torque[i], WithinAbs(1000 * turned_axle[i], 1e-6));
-    CHECK_THAT(spin[i] / norm(spin), WithinAbs(turned_axle[i], 1e-3));  // the mesh is not quite symmetric about its axle
+    CHECK_THAT(spin[i] / norm(spin),
+               WithinAbs(turned_axle[i], 1e-3));  // the mesh is not quite symmetric about its axle
   }
   CHECK_THAT(travel[0], WithinRel(10.0, 1e-9));
   CHECK_THAT(travel[1], WithinAbs(0, 1e-9));

@@ -10,13 +10,15 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// Determinant of moment and shear force at the free end for two independent motions of the clamped one, by Runge and Kutta:
-/// w' = phi + Q/(k G A), phi' = M/(E I), Q' = - rho A omega^2 w, M' = - Q - rho I omega^2 phi.
+/// Determinant of moment and shear force at the free end for two independent motions of the clamped one, by Runge and
+/// Kutta: w' = phi + Q/(k G A), phi' = M/(E I), Q' = - rho A omega^2 w, M' = - Q - rho I omega^2 phi.
 double free_end(double omega, double length, double radius) {
   const double A = M_PI * radius * radius, I = M_PI / 4 * std::pow(radius, 4), EI = 210e9 * I;
   const double shear = 6 * 1.3 / 8.8 * (210e9 / 2.6) * A, squared = 7800 * omega * omega;
   using State = std::array<double, 4>;
-  const auto slope = [&](const State& s) { return State{s[1] + s[3] / shear, s[2] / EI, -s[3] - squared * I * s[1], -squared * A * s[0]}; };
+  const auto slope = [&](const State& s) {
+    return State{s[1] + s[3] / shear, s[2] / EI, -s[3] - squared * I * s[1], -squared * A * s[0]};
+  };
   const auto ahead = [](const State& s, double h, const State& k) {
     State next{};
     for (int i = 0; i < 4; ++i) next[i] = s[i] + h * k[i];
@@ -203,7 +205,9 @@ TEST_CASE("an element alone is stable up to L / sqrt(E/rho), and not beyond") {
       set_velocity(model, [&](const Vec3& x, int) { return Vec3{1e-3 * x[0] / length, 2e-3 * x[0], -1e-3}; });
       march(model, 2000, [] {});
       const double moved = norm(displacement(model, "tip")) / length;
-      if (share < 1) CHECK(moved < 1e-2);
-      else CHECK(!(moved < 1e-2));
+      if (share < 1)
+        CHECK(moved < 1e-2);
+      else
+        CHECK(!(moved < 1e-2));
     }
 }

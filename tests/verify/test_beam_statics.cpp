@@ -42,7 +42,8 @@ TEST_CASE("a cantilever of one element or ten bends as Timoshenko's under a forc
     scene::Scene scene = beam_scene(length * axes[0], radius, divisions, 1e-3);
     Model model;
     settle_cantilever(scene, force_on("tip", force * axes[1]), model);
-    CHECK_THAT(dot(displacement(model, "tip"), axes[1]), WithinRel(force * std::pow(length, 3) / (3 * EI) + force * length / shear, 1e-3));
+    CHECK_THAT(dot(displacement(model, "tip"), axes[1]),
+               WithinRel(force * std::pow(length, 3) / (3 * EI) + force * length / shear, 1e-3));
     CHECK_THAT(dot(rotation(model, "tip"), axes[2]), WithinRel(force * length * length / (2 * EI), 1e-3));
     compute_forces(model);
     const BeamResultants sections = beam_resultants(model).front();
@@ -79,7 +80,8 @@ TEST_CASE("a torque about a beam twists it by M L / (G J), a pull stretches it b
   scene::Scene scene = beam_scene(length * axes[0], radius, 10, 1e-3);
   Model model;
   settle_cantilever(scene, force_on("tip", 1e5 * axes[0]), model);
-  CHECK_THAT(dot(displacement(model, "tip"), axes[0]), WithinRel(1e5 * length / (210e9 * M_PI * radius * radius), 1e-5));
+  CHECK_THAT(dot(displacement(model, "tip"), axes[0]),
+             WithinRel(1e5 * length / (210e9 * M_PI * radius * radius), 1e-5));
 }
 
 TEST_CASE("a rectangle bends along its height and across it, each with its own stiffness") {

@@ -15,7 +15,8 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-/// A coarse ring around the y axis, four beams from its centre to the bore, and a torque on the centre (thesis fig. 3.8).
+/// A coarse ring around the y axis, four beams from its centre to the bore, and a torque on the centre (thesis
+/// fig. 3.8).
 scene::Scene spoked_ring(double end) {
   scene::Scene scene;
   scene.path = "ring";
@@ -52,8 +53,8 @@ scene::Scene spoked_ring(double end) {
   return scene;
 }
 
-/// A cube with a bolt through it: a shank under tension between two points above and below, each with a beam to every node of
-/// the cube's face there.
+/// A cube with a bolt through it: a shank under tension between two points above and below, each with a beam to every
+/// node of the cube's face there.
 scene::Scene bolted_cube(double pretension, double end) {
   scene::Scene scene = block_scene({0.08, 0.08, 0.08}, {4, 4, 4}, end);
   scene.points = {massless("head", {0.04, 0.04, 0.1}), massless("nut", {0.04, 0.04, -0.02})};
@@ -93,7 +94,8 @@ TEST_CASE("four spokes lie evenly around in the plane of the axle, and carry a t
 
 TEST_CASE("the account of a spoked ring closes, in every precision, and the axle turns as far") {
   std::vector<double> angle;
-  for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     scene::Scene scene = spoked_ring(2e-3);
     scene.solver.precision = precision;
     scene.time.step_scale = 0.5;
@@ -146,7 +148,8 @@ TEST_CASE("a ring that rolls with its spokes feels no more in them than rotation
 
 TEST_CASE("a bolt has its pretension when all has settled, and a millisecond later still") {
   // Viscous hourglass control holds nothing at rest, as what settles has it: that is what the bolt's force swings by.
-  for (const auto& [control, bound] : {std::pair{scene::HourglassType::stiffness, 1e-3}, {scene::HourglassType::viscous, 1e-2}}) {
+  for (const auto& [control, bound] :
+       {std::pair{scene::HourglassType::stiffness, 1e-3}, {scene::HourglassType::viscous, 1e-2}}) {
     scene::Scene scene = bolted_cube(12500, 1e-3);
     set_hourglass(scene.parts[0], control, control == scene::HourglassType::viscous ? 0.1 : 0.05);
     scene.settle.active = true;
@@ -187,7 +190,8 @@ TEST_CASE("without settling a bolt begins with its pretension as it lies, and lo
 TEST_CASE("beams that cannot be laid, and rotations where there are none, are refused") {
   const auto refused = [](const scene::Scene& scene, const std::string& why, const std::string& mend) {
     Model model;
-    CHECK_THROWS_MATCHES(build_model(scene, model), InputError, MessageMatches(ContainsSubstring(why) && ContainsSubstring(mend)));
+    CHECK_THROWS_MATCHES(build_model(scene, model), InputError,
+                         MessageMatches(ContainsSubstring(why) && ContainsSubstring(mend)));
   };
   scene::Scene scene = spoked_ring(1e-4);
   scene.beams[0].orientation.reset();

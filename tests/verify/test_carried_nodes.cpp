@@ -86,7 +86,8 @@ TEST_CASE("a carrier's velocities of half steps are its motion's differences") {
   }
   // No step behind: the velocity of the instant itself.
   const Vector3 arm = X - motion.centre;
-  CHECK(norm(carrier_at(motion, 0, 0).velocity_of(X) - motion.velocity - motion.speed * cross(motion.axis, arm)) < 1e-12);
+  CHECK(norm(carrier_at(motion, 0, 0).velocity_of(X) - motion.velocity - motion.speed * cross(motion.axis, arm)) <
+        1e-12);
 }
 
 TEST_CASE("a flying, turning block in single precision does what it does in double") {
@@ -103,7 +104,8 @@ TEST_CASE("a flying, turning block in single precision does what it does in doub
     // It tumbles, as it does not turn about a principal axis: the nodes leave the carrier by a millimetre.
     const double moved = largest_difference(narrow.position, wide.position);
     const double speed = largest_difference(narrow.velocity, wide.velocity);
-    INFO("hourglass type " << static_cast<int>(hourglass) << ": positions differ by " << moved << " m, velocities by " << speed << " m/s");
+    INFO("hourglass type " << static_cast<int>(hourglass) << ": positions differ by " << moved << " m, velocities by "
+                           << speed << " m/s");
     CHECK(moved < 1e-7 * 0.12);
     CHECK(speed < 1e-4 * 36);
     CHECK(largest_of(wide.velocity) > 30);
@@ -128,7 +130,8 @@ TEST_CASE("a cube that flies and turns stays within its own ringing of the carri
     }
   const State wide = flown(scene, scene::Precision::double_precision, steady), narrow = state_of(model);
   const double moved = largest_difference(narrow.position, wide.position);
-  INFO("largest d " << displacement << " m, largest w " << velocity << " m/s; positions differ from double ones by " << moved << " m");
+  INFO("largest d " << displacement << " m, largest w " << velocity << " m/s; positions differ from double ones by "
+                    << moved << " m");
   // Centrifugal forces stretch it by rho omega^2 L^3 / E or so.
   CHECK(displacement < 7800 * 110.0 * 110.0 * 1e-3 / 210e9);
   CHECK(displacement > 1e-9);
@@ -156,7 +159,8 @@ TEST_CASE("a wave in a bar in single precision is the wave in double") {
       });
     }
     const double largest = largest_of(amplitude[0]), error = largest_difference(amplitude[0], amplitude[1]);
-    INFO("hourglass type " << static_cast<int>(hourglass) << ": amplitude " << largest << " m, differs by " << error << " m");
+    INFO("hourglass type " << static_cast<int>(hourglass) << ": amplitude " << largest << " m, differs by " << error
+                           << " m");
     CHECK(error < 1e-5 * largest);
     CHECK(largest > 1e-7);
   }

@@ -79,7 +79,9 @@ TEST_CASE("a connector on a block's single node is stable at the step chosen") {
     scene.connectors.push_back(connector);
     Model model;
     build_model(scene, assembly, model);
-    set_velocity(model, [](const Vec3& x, int) { return 1e-3 * Vec3{std::sin(900 * x[0] + 1), std::sin(700 * x[1]), std::sin(1100 * x[2])}; });
+    set_velocity(model, [](const Vec3& x, int) {
+      return 1e-3 * Vec3{std::sin(900 * x[0] + 1), std::sin(700 * x[1]), std::sin(1100 * x[2])};
+    });
     double fastest = 0;
     march(model, 2000, [&] {
       if (model.step % 50 == 0) fastest = std::max(fastest, largest_speed(model));

@@ -20,7 +20,8 @@ scene::Constraint constraint(const std::string& target, std::array<bool, 3> fixe
 
 const double slope = M_PI / 6;
 /// Down the slope, across, normal to it.
-const std::array<Vec3, 3> slope_axes{{{std::cos(slope), 0, -std::sin(slope)}, {0, 1, 0}, {std::sin(slope), 0, std::cos(slope)}}};
+const std::array<Vec3, 3> slope_axes{
+    {{std::cos(slope), 0, -std::sin(slope)}, {0, 1, 0}, {std::sin(slope), 0, std::cos(slope)}}};
 
 }  // namespace
 
@@ -35,7 +36,8 @@ TEST_CASE("a block whose foot is held normal to a slope of 30 degrees slides wit
   double normal = 0;
   march(model, model.step_count, [&] {
     const auto u = node_field(model, NodeField::displacement, nodes).values;
-    for (int n : nodes) normal = std::max(normal, std::fabs(dot(slope_axes[2], Vec3{u[3 * n], u[3 * n + 1], u[3 * n + 2]})));
+    for (int n : nodes)
+      normal = std::max(normal, std::fabs(dot(slope_axes[2], Vec3{u[3 * n], u[3 * n + 1], u[3 * n + 2]})));
   });
   const double t = model.time;
   CHECK_THAT(dot(slope_axes[0], mean(model, NodeField::acceleration, nodes)), WithinRel(9.81 * 0.5, 1e-10));
@@ -65,8 +67,10 @@ TEST_CASE("constraints on one node combine: what is left is the direction that n
   for (int n : all_nodes(model)) {
     const bool held = std::find(top.begin(), top.end(), n) != top.end();
     for (int i = 0; i < 3; ++i) {
-      if (held) CHECK(a[3 * n + i] == 0);
-      else CHECK_THAT(a[3 * n + i], WithinAbs(expected[i], 1e-12));
+      if (held)
+        CHECK(a[3 * n + i] == 0);
+      else
+        CHECK_THAT(a[3 * n + i], WithinAbs(expected[i], 1e-12));
     }
   }
 }
@@ -81,7 +85,8 @@ TEST_CASE("a node held in three directions, given one by one, never moves by a b
   Model model;
   build_model(scene, model);
   march(model, model.step_count, [] {});
-  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values) CHECK(u == 0);
+  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
+    CHECK(u == 0);
   CHECK(norm(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))) > 1e-9);
 }
 
@@ -99,5 +104,6 @@ TEST_CASE("a constrained direction keeps the velocity that it began with") {
   set_initial_motion(model);
   march(model, model.step_count, [] {});
   const auto v = node_field(model, NodeField::velocity, all_nodes(model)).values;
-  for (int n : all_nodes(model)) CHECK_THAT(dot(slope_axes[2], Vec3{v[3 * n], v[3 * n + 1], v[3 * n + 2]}), WithinRel(3.0, 1e-13));
+  for (int n : all_nodes(model))
+    CHECK_THAT(dot(slope_axes[2], Vec3{v[3 * n], v[3 * n + 1], v[3 * n + 2]}), WithinRel(3.0, 1e-13));
 }

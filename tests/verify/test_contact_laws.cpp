@@ -16,7 +16,8 @@ struct Throw {
   EnergyAccount last;
 };
 
-Throw thrown(double damping, const std::vector<std::array<double, 2>>& growth, double friction, double step_scale = 0.5) {
+Throw thrown(double damping, const std::vector<std::array<double, 2>>& growth, double friction,
+             double step_scale = 0.5) {
   TwoBlocks blocks;
   blocks.upper_divisions = {4, 4, 2};
   blocks.lower_divisions = {6, 6, 2};
@@ -60,12 +61,16 @@ TEST_CASE("the energy account holds in an impact on a penalty that grows, with d
       for (bool grows : {false, true}) {
         const Throw result = thrown(damping, grows ? growing : std::vector<std::array<double, 2>>{}, friction);
         INFO("friction " << friction << ", damping " << damping << ", grows " << grows << ": imbalance "
-                         << result.imbalance / result.kinetic_before << " of the kinetic energy, contact stored at most "
-                         << result.largest_contact / result.kinetic_before << ", damped " << result.last.damping / result.kinetic_before);
+                         << result.imbalance / result.kinetic_before
+                         << " of the kinetic energy, contact stored at most "
+                         << result.largest_contact / result.kinetic_before << ", damped "
+                         << result.last.damping / result.kinetic_before);
         CHECK(result.largest_contact > 0.02 * result.kinetic_before);
         CHECK(result.imbalance < 0.01 * result.kinetic_before);
-        if (damping > 0) CHECK(result.last.damping > 0.01 * result.kinetic_before);
-        else CHECK(result.last.damping == 0);
+        if (damping > 0)
+          CHECK(result.last.damping > 0.01 * result.kinetic_before);
+        else
+          CHECK(result.last.damping == 0);
       }
 }
 
@@ -148,7 +153,8 @@ TEST_CASE("a cube that bounces on damped contact springs calms down at the rate 
     double inverse = 1 / corner;
     for (int k = 0; k < 4; ++k) {
       const double shape = segment_shape(k, place(s, 0), place(s, 1));
-      inverse += shape * shape / model.mass[model.contacts[0].master_nodes[model.contacts[0].master_segments[segment(s)][k]]];
+      inverse +=
+          shape * shape / model.mass[model.contacts[0].master_nodes[model.contacts[0].master_segments[segment(s)][k]]];
     }
     dashpots += 2 * share * std::sqrt(stiffness / inverse);
   }
@@ -161,7 +167,8 @@ TEST_CASE("a cube that bounces on damped contact springs calms down at the rate 
 }
 
 TEST_CASE("with growth and damping the element, eigenvalue and global steps keep pressed columns calm") {
-  for (scene::StepEstimate estimate : {scene::StepEstimate::element, scene::StepEstimate::eigenvalue, scene::StepEstimate::global})
+  for (scene::StepEstimate estimate :
+       {scene::StepEstimate::element, scene::StepEstimate::eigenvalue, scene::StepEstimate::global})
     for (double friction : {0.0, 0.3}) {
       TwoBlocks blocks;
       blocks.upper_size = blocks.lower_size = {2e-3, 2e-3, 4e-3};
@@ -186,7 +193,8 @@ TEST_CASE("with growth and damping the element, eigenvalue and global steps keep
       plain.contacts[0].penalty_growth.clear();
       Model without;
       build_model(plain, without);
-      INFO("estimate " << static_cast<int>(estimate) << ", step " << model.step_size << " s, of a plain law " << without.step_size << " s");
+      INFO("estimate " << static_cast<int>(estimate) << ", step " << model.step_size << " s, of a plain law "
+                       << without.step_size << " s");
       CHECK(model.step_size < 0.95 * without.step_size);
       std::mt19937 generator(3);
       std::uniform_real_distribution<double> speed(-1e-4, 1e-4);

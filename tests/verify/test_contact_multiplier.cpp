@@ -8,7 +8,8 @@ using namespace railwave::verify;
 
 namespace {
 
-/// A block of other mesh than the one below, pressed on it by 78 MPa and pulled along x by 0.9 of what friction can hold.
+/// A block of other mesh than the one below, pressed on it by 78 MPa and pulled along x by 0.9 of what friction can
+/// hold.
 scene::Scene pressed(scene::ContactAlgorithm algorithm, int sweeps) {
   TwoBlocks blocks;
   blocks.algorithm = algorithm;
@@ -45,7 +46,8 @@ Deepest deepest(const scene::Scene& scene) {
     if (!pair.multipliers.active()) return;
     const auto way = to_host(pair.multipliers.way_since_stuck);
     for (int s = 0; s < pair.arrays.slave_count; ++s)
-      if (status(s) == status_sticks) result.creep = std::max(result.creep, std::hypot(way(s, 0), way(s, 1), way(s, 2)));
+      if (status(s) == status_sticks)
+        result.creep = std::max(result.creep, std::hypot(way(s, 0), way(s, 1), way(s, 2)));
   });
   return result;
 }
@@ -58,7 +60,8 @@ TEST_CASE("multipliers leave a pressed and pulled block neither penetrating nor 
   CHECK(springs > 78e6 / 175e9 * 5e-3);
   for (int sweeps : {2, 4, 8}) {
     const Deepest result = deepest(pressed(scene::ContactAlgorithm::multiplier, sweeps));
-    INFO(sweeps << " sweeps: penetration " << result.penetration << " m, of springs " << springs << "; creep " << result.creep);
+    INFO(sweeps << " sweeps: penetration " << result.penetration << " m, of springs " << springs << "; creep "
+                << result.creep);
     CHECK(result.penetration < 1e-3 * springs);
     CHECK(result.creep < 1e-3 * springs);
   }

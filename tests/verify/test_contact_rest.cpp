@@ -26,7 +26,8 @@ void check_rest(const scene::Scene& scene, const Assembly& assembly, const Vec3&
     CHECK(totals.nodes_in_contact > 0);
   });
   INFO("contact force against weight: worst relative difference " << worst << ", against the master's " << reaction);
-  // The unbalance is relative to all forces applied: the weights of both blocks, nine of the upper one, and the contact's.
+  // The unbalance is relative to all forces applied: the weights of both blocks, nine of the upper one, and the
+  // contact's.
   CHECK(worst < 10 * scene.settle.tolerance);
   CHECK(reaction < 1e-12);
 }
@@ -84,9 +85,12 @@ TEST_CASE("without friction while it settles a contact begins the run without sh
       const auto tangential = to_host(model.contacts[0].arrays.tangential_force);
       for (std::size_t s = 0; s < tangential.extent(0); ++s)
         shear = std::max(shear, std::hypot(tangential(s, 0), tangential(s, 1)));
-      INFO(name_of(algorithm) << (friction ? ", friction" : ", no friction") << " while settling: largest shear force of a node " << shear << " N");
-      if (friction) CHECK(shear > 1);
-      else CHECK(shear == 0);
+      INFO(name_of(algorithm) << (friction ? ", friction" : ", no friction")
+                              << " while settling: largest shear force of a node " << shear << " N");
+      if (friction)
+        CHECK(shear > 1);
+      else
+        CHECK(shear == 0);
       CHECK(model.contacts[0].arrays.friction == 0.4);
     }
 }

@@ -10,8 +10,9 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Where a slave stands over one segment: Gauss-Newton from the centre, one tangent plane after the other. Beyond distorted
-/// segments that can circle for ever, so its steps are shortened as it goes on, and what has not come to rest is outside.
+/// Where a slave stands over one segment: Gauss-Newton from the centre, one tangent plane after the other. Beyond
+/// distorted segments that can circle for ever, so its steps are shortened as it goes on, and what has not come to rest
+/// is outside.
 struct Standing {
   double outside, gap;  ///< in xi or eta; m, at the nearest place within the segment's sides
 };
@@ -30,7 +31,8 @@ Standing stand(const Vec3& slave, const std::array<Vec3, 4>& x) {
     at();
     const Vec3 d = slave - r;
     const double aa = dot(a, a), ab = dot(a, b), bb = dot(b, b), determinant = aa * bb - ab * ab;
-    const double ds = (bb * dot(a, d) - ab * dot(b, d)) / determinant, dt = (aa * dot(b, d) - ab * dot(a, d)) / determinant;
+    const double ds = (bb * dot(a, d) - ab * dot(b, d)) / determinant,
+                 dt = (aa * dot(b, d) - ab * dot(a, d)) / determinant;
     s = std::max(-2.0, std::min(3.0, s + damping * ds));
     t = std::max(-2.0, std::min(3.0, t + damping * dt));
     at_rest = std::fabs(ds) + std::fabs(dt) < 1e-12;
@@ -45,11 +47,11 @@ Standing stand(const Vec3& slave, const std::array<Vec3, 4>& x) {
 
 /// What all segments say of a node.
 struct Verdict {
-  double deepest = 0;                  ///< gap under the segment that holds it, 0: none
-  double nearest_outside = 1e300;      ///< of the segments near
+  double deepest = 0;              ///< gap under the segment that holds it, 0: none
+  double nearest_outside = 1e300;  ///< of the segments near
   double gap_there = 1e300;
-  double distance = 1e300;             ///< from the nearest side
-  std::vector<double> gaps;            ///< over every segment that holds it
+  double distance = 1e300;   ///< from the nearest side
+  std::vector<double> gaps;  ///< over every segment that holds it
 
   /// Over a fold no segment may hold a node; what is hardly outside counts (ContactSearch::outside_tolerance).
   bool touches() const { return nearest_outside <= 0.05 && (gaps.empty() ? gap_there < 0 : deepest < 0); }
@@ -132,8 +134,8 @@ Count compare(Model& model) {
 /// An arc of a wheel with a crowned tread over a rail with a crowned and wavy head, both meshes disordered.
 struct WheelOnRail {
   double radius = 0.03, crown = 0.06, rail_crown = 0.08, wave = 1.5e-4, wave_length = 0.017;
-  Vec3 velocity{}, spin{};   ///< of the wheel, the spin about its axle
-  double pressing = 0;       ///< m/s2 downwards
+  Vec3 velocity{}, spin{};  ///< of the wheel, the spin about its axle
+  double pressing = 0;      ///< m/s2 downwards
 
   scene::Scene scene(double end) const {
     TwoBlocks blocks;
@@ -162,9 +164,8 @@ struct WheelOnRail {
       const double height = 1 + x[2] / 0.006;  // 0 at the foot, 1 at the head
       x[2] += height * (-x[1] * x[1] / (2 * rail_crown) + wave * std::sin(2 * M_PI * x[0] / wave_length));
     }
-    const int highest = *std::max_element(rail.begin(), rail.end(), [&](int a, int b) {
-      return made.nodes[a][2] < made.nodes[b][2];
-    });
+    const int highest =
+        *std::max_element(rail.begin(), rail.end(), [&](int a, int b) { return made.nodes[a][2] < made.nodes[b][2]; });
     const double head = made.nodes[highest][2];
     for (int n : wheel) {
       const Vec3 x = made.nodes[n];

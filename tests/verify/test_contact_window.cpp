@@ -8,7 +8,8 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Positions, velocities and contact forces at the end of a run, with the window laid out at its own pace or every step.
+/// Positions, velocities and contact forces at the end of a run, with the window laid out at its own pace or every
+/// step.
 std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& layouts) {
   Model model;
   build_model(scene, model);

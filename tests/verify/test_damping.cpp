@@ -12,7 +12,8 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 constexpr double length = 0.1;
-constexpr auto precisions = {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision};
+constexpr auto precisions = {scene::Precision::double_precision, scene::Precision::mixed,
+                             scene::Precision::single_precision};
 
 /// A bar along z without lateral contraction, held across its lower end, and its first mode of angular frequency w.
 struct Bar {
@@ -35,9 +36,9 @@ void start_in_first_mode(Model& model, double speed) {
 }
 
 struct Decay {
-  double ratio;      ///< of critical damping, from the peaks
-  double imbalance;  ///< of the energy, over what there was
-  double dissipated; ///< told by the account, over what is no longer there
+  double ratio;       ///< of critical damping, from the peaks
+  double imbalance;   ///< of the energy, over what there was
+  double dissipated;  ///< told by the account, over what is no longer there
 };
 
 Decay decay_of(const scene::Scene& scene) {
@@ -65,8 +66,8 @@ Decay decay_of(const scene::Scene& scene) {
           last.damping / (first.kinetic - last.kinetic - last.internal - last.hourglass)};
 }
 
-/// Any motion of a free block after many steps of a size, over that at the start. (The scheme's kinetic energy is negative
-/// where velocities change their sign with every step.)
+/// Any motion of a free block after many steps of a size, over that at the start. (The scheme's kinetic energy is
+/// negative where velocities change their sign with every step.)
 double growth(const scene::Scene& scene, double share_of_step) {
   Model model;
   build_model(scene, model);
@@ -91,11 +92,13 @@ TEST_CASE("a bar's mode decays as Rayleigh's two constants say, and the account 
       Bar bar(32, 4);
       bar.scene.solver.precision = precision;
       const double ratio = 0.03;
-      if (stiffness) bar.scene.parts[0].stiffness_damping = 2 * ratio / bar.frequency;
-      else bar.scene.parts[0].mass_damping = 2 * ratio * bar.frequency;
+      if (stiffness)
+        bar.scene.parts[0].stiffness_damping = 2 * ratio / bar.frequency;
+      else
+        bar.scene.parts[0].mass_damping = 2 * ratio * bar.frequency;
       const Decay decay = decay_of(bar.scene);
-      INFO("precision " << static_cast<int>(precision) << (stiffness ? ", stiffness" : ", mass") << ": ratio " << decay.ratio
-                        << ", imbalance " << decay.imbalance << ", dissipated " << decay.dissipated);
+      INFO("precision " << static_cast<int>(precision) << (stiffness ? ", stiffness" : ", mass") << ": ratio "
+                        << decay.ratio << ", imbalance " << decay.imbalance << ", dissipated " << decay.dissipated);
       CHECK_THAT(decay.ratio, WithinRel(ratio, 0.01));
       CHECK(decay.imbalance < 1e-3);
       CHECK_THAT(decay.dissipated, WithinRel(1.0, 2e-3));
@@ -124,7 +127,8 @@ TEST_CASE("mass damping slows a body that flies, in every precision, and the acc
       if (model.step == 0) first = last;
     });
     for (int i = 0; i < 3; ++i) CHECK_THAT(speed[i], WithinRel(motion.velocity[i] * std::exp(-0.5), 2e-3));
-    INFO("precision " << static_cast<int>(precision) << ", imbalance " << (balance_total(last) - balance_total(first)) / first.kinetic);
+    INFO("precision " << static_cast<int>(precision) << ", imbalance "
+                      << (balance_total(last) - balance_total(first)) / first.kinetic);
     CHECK_THAT(balance_total(last) / first.kinetic, WithinRel(1.0, 1e-4));
     CHECK_THAT(last.damping / first.kinetic, WithinRel(1 - std::exp(-1.0), 5e-3));
   }
@@ -162,7 +166,8 @@ TEST_CASE("the stable step knows the damping: below it motions die, above they g
     scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {5, 5, 5}, 1e-3);
     set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
     double undamped = 0, damped = 0;
-    for (const auto estimate : {scene::StepEstimate::global, scene::StepEstimate::eigenvalue, scene::StepEstimate::element}) {
+    for (const auto estimate :
+         {scene::StepEstimate::global, scene::StepEstimate::eigenvalue, scene::StepEstimate::element}) {
       scene.solver.step_estimate = estimate;
       scene::Scene with = scene;
       if (kind == Kind::stiffness) with.parts[0].stiffness_damping = 4e-6;
@@ -172,7 +177,8 @@ TEST_CASE("the stable step knows the damping: below it motions die, above they g
       build_model(scene, plain);
       build_model(with, model);
       undamped = plain.stable_step.limit, damped = model.stable_step.limit;
-      INFO("kind " << static_cast<int>(kind) << ", estimate " << static_cast<int>(estimate) << ": " << damped << " of " << undamped);
+      INFO("kind " << static_cast<int>(kind) << ", estimate " << static_cast<int>(estimate) << ": " << damped << " of "
+                   << undamped);
       CHECK(damped < 0.8 * undamped);
       CHECK(growth(with, 0.95) < 1);
       if (estimate == scene::StepEstimate::global && kind != Kind::bulk) {
@@ -201,7 +207,8 @@ TEST_CASE("bulk viscosity presses where volume shrinks, and only there") {
     return sum;
   };
   const scene::Material& material = scene.materials[0];
-  const double d = 800, l = 0.05, q = material.density * l * (1.5 * l * d * d + 0.06 * material.dilatational_speed() * d);
+  const double d = 800, l = 0.05,
+               q = material.density * l * (1.5 * l * d * d + 0.06 * material.dilatational_speed() * d);
   CHECK_THAT(power(-d), WithinRel(-q * d * 1e-3, 1e-10));
   CHECK_THAT(power(d), WithinAbs(0, 1e-6));
 }
@@ -241,7 +248,8 @@ TEST_CASE("a pulse loses as much to damping with subcycling as without, and its 
     first[subcycling] = begin.kinetic + begin.internal;
     dissipated[subcycling] = end.damping;
     INFO("subcycling " << subcycling << ": dissipated " << end.damping / first[subcycling] << ", balance error "
-                       << end.balance_error / first[subcycling] << ", updates " << model.subcycling.gain() << " times fewer");
+                       << end.balance_error / first[subcycling] << ", updates " << model.subcycling.gain()
+                       << " times fewer");
     CHECK(end.damping > 0.05 * first[subcycling]);
     CHECK(std::fabs(end.balance_error) < 1e-2 * first[subcycling]);
   }

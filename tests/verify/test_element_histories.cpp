@@ -50,14 +50,17 @@ void box(scene::Scene& scene, const std::string& name, const scene::Box& box) {
 TEST_CASE("a block stretched and turned far has its logarithmic strain in every element, in any precision") {
   const auto rows = oblique_axes();
   const Vec3 stretch{1.3, 0.8, 1.05};
-  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (const auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     scene::Scene scene = block_scene({0.4, 0.2, 0.3}, {4, 3, 5}, 1);
     scene.solver.precision = precision;
     probe(scene, "inside", "block", {0.23, 0.11, 0.17});
     box(scene, "half", {{{0, 0, 0}, {0.2, 1, 1}}});
     Model model;
     build_model(scene, model);
-    set_position(model, [&](const Vec3& x, int) { return turned(rows, {stretch[0] * x[0], stretch[1] * x[1], stretch[2] * x[2]}); });
+    set_position(model, [&](const Vec3& x, int) {
+      return turned(rows, {stretch[0] * x[0], stretch[1] * x[1], stretch[2] * x[2]});
+    });
     for (const ElementGroup& group : model.elements) renew_frames(model, group);
     // ln V = R diag(ln stretch) R^T, R's columns the turned axes.
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
@@ -97,11 +100,15 @@ TEST_CASE("listed elements have the stress that fields have, bit for bit, of eve
       const Assembly assembly = assemble(scene);
       const auto& nodes = assembly.nodes;
       for (const auto& range : assembly.parts)
-        if (range.name == part.name) probe(scene, "first", part.name, nodes[range.first_node]), probe(scene, "last", part.name, nodes[range.first_node + range.node_count - 1]);
+        if (range.name == part.name)
+          probe(scene, "first", part.name, nodes[range.first_node]),
+              probe(scene, "last", part.name, nodes[range.first_node + range.node_count - 1]);
     }
     Model model;
     build_model(scene, model);
-    set_position(model, [](const Vec3& x, int) { return Vec3{x[0] + 5e-3 * x[0] * x[0], x[1] - 2e-3 * x[2] * x[0], x[2]}; });
+    set_position(model, [](const Vec3& x, int) {
+      return Vec3{x[0] + 5e-3 * x[0] * x[0], x[1] - 2e-3 * x[2] * x[0], x[2]};
+    });
     for (const ElementGroup& group : model.elements) {
       renew_frames(model, group);
       if (group.plastic.active()) Kokkos::deep_copy(group.plastic.history, 0.125);
@@ -190,11 +197,13 @@ namespace {
 double largest_shear(const std::array<double, 6>& s) {
   Eigen::Matrix3d matrix;
   matrix << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
   return 0.5 * (principal[2] - principal[0]);
 }
 
-/// On the axis of Hertz's circular contact at a depth of z radii, over the peak pressure (Johnson, Contact Mechanics, eq. 3.45).
+/// On the axis of Hertz's circular contact at a depth of z radii, over the peak pressure (Johnson, Contact Mechanics,
+/// eq. 3.45).
 double exact_shear(double z, double nu) {
   const double along = -1 / (1 + z * z), across = -(1 + nu) * (1 - z * std::atan(1 / z)) + 0.5 / (1 + z * z);
   return 0.5 * (across - along);
@@ -206,15 +215,18 @@ double exact_shear(double z, double nu) {
 TEST_CASE("probes under a sphere find Hertz's largest shear at 0.48 of the contact's radius") {
   std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "settle.tolerance=2e-3"};
   for (const std::string mesh : {"sphere", "block"})
-    for (const char* key : {"zone_size=2.4e-3", "zone_layers=4", "growth=1.5", "coarse_size=0.04"}) changed.push_back("meshes." + mesh + "." + key);
-  for (const char* key : {"zone_start=-0.0108", "zone_end=0.0108", "zone_width=0.0216", "zone_centre=0"}) changed.push_back(std::string("meshes.block.") + key);
+    for (const char* key : {"zone_size=2.4e-3", "zone_layers=4", "growth=1.5", "coarse_size=0.04"})
+      changed.push_back("meshes." + mesh + "." + key);
+  for (const char* key : {"zone_start=-0.0108", "zone_end=0.0108", "zone_width=0.0216", "zone_centre=0"})
+    changed.push_back(std::string("meshes.block.") + key);
   scene::Scene scene = read_case(source_folder + "/cases/verify/hertz_sphere.toml", changed);
   for (int k = 0; k < 4; ++k) probe(scene, "depth_" + std::to_string(k), "block", {0, 0, -1.2e-3 - 2.4e-3 * k});
   Model model;
   build_model(scene, model);
   CHECK(settle_whole(model).settled);
   compute_forces(model);
-  const double force = contact_solution(contact_state(model, 0)).whole.normal_force, radius = 0.46, modulus = 210e9 / (2 * (1 - 0.09));
+  const double force = contact_solution(contact_state(model, 0)).whole.normal_force, radius = 0.46,
+               modulus = 210e9 / (2 * (1 - 0.09));
   const double a = std::cbrt(0.75 * force * radius / modulus), peak = 1.5 * force / (M_PI * a * a);
   const auto means = means_of(model);
   const auto sets = resolve_history_sets(model.scene, model.assembly);
@@ -222,7 +234,9 @@ TEST_CASE("probes under a sphere find Hertz's largest shear at 0.48 of the conta
   for (int k = 0; k < 4; ++k) {
     depth[k] = -sets[k].element_centre[2] / a;
     shear[k] = largest_shear(means[k].stress) / peak;
-    INFO("depth " << depth[k] << " a: " << shear[k] << " p0, exact " << exact_shear(depth[k], 0.3) << "; off the axis by " << sets[k].element_centre[0] / a << ", " << sets[k].element_centre[1] / a << " a");
+    INFO("depth " << depth[k] << " a: " << shear[k] << " p0, exact " << exact_shear(depth[k], 0.3)
+                  << "; off the axis by " << sets[k].element_centre[0] / a << ", " << sets[k].element_centre[1] / a
+                  << " a");
     CHECK(std::fabs(sets[k].element_centre[0]) + std::fabs(sets[k].element_centre[1]) < 0.05 * a);
     // The first element lies right under the surface, where six cells over the patch give its pressure by 6 %.
     CHECK_THAT(shear[k], WithinAbs(exact_shear(depth[k], 0.3), k == 0 ? 0.03 : 0.02));

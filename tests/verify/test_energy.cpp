@@ -23,9 +23,9 @@ double imbalance(const scene::Scene& scene, const std::function<Vec3(const Vec3&
   return worst / largest;
 }
 
-/// The central difference keeps v(n-1/2) M v(n+1/2)/2 and the elastic energy exactly while motion is small. What viscous
-/// control takes is booked with the last velocity's force, not the mean of two steps: an error of (omega step)^2/4 of what
-/// fast motion loses, and of first order where the loss grows or falls.
+/// The central difference keeps v(n-1/2) M v(n+1/2)/2 and the elastic energy exactly while motion is small. What
+/// viscous control takes is booked with the last velocity's force, not the mean of two steps: an error of (omega
+/// step)^2/4 of what fast motion loses, and of first order where the loss grows or falls.
 void check_balance(scene::Scene scene, const std::function<Vec3(const Vec3&, int)>& velocity) {
   const auto at = [&](double step_scale) {
     scene.time.step_scale = step_scale;
@@ -35,7 +35,8 @@ void check_balance(scene::Scene scene, const std::function<Vec3(const Vec3&, int
   const double exact = at(0.9);
   set_hourglass(scene.parts[0], scene::HourglassType::viscous, 0.1);
   const double coarse = at(0.9), half = at(0.45), tenth = at(0.09);
-  INFO("imbalance: stiffness " << exact << ", viscous " << coarse << ", half the step " << half << ", a tenth " << tenth);
+  INFO("imbalance: stiffness " << exact << ", viscous " << coarse << ", half the step " << half << ", a tenth "
+                               << tenth);
   CHECK(exact < 1e-6);
   CHECK(coarse / half > 3);
   CHECK(half / tenth > 5);
@@ -47,7 +48,8 @@ void check_balance(scene::Scene scene, const std::function<Vec3(const Vec3&, int
 TEST_CASE("the energies of a stretching block balance, the better the shorter the step") {
   const scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {8, 8, 8}, 4e-4);
   check_balance(scene, [](const Vec3& x, int) {
-    return 0.01 * Vec3{std::cos(M_PI * x[0] / 0.1), 0.5 * std::cos(M_PI * x[1] / 0.1), -0.7 * std::cos(M_PI * x[2] / 0.1)};
+    return 0.01 *
+           Vec3{std::cos(M_PI * x[0] / 0.1), 0.5 * std::cos(M_PI * x[1] / 0.1), -0.7 * std::cos(M_PI * x[2] / 0.1)};
   });
 }
 

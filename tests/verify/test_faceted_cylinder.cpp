@@ -3,7 +3,8 @@
 
 #include "tests/verify/two_blocks.hpp"
 
-/// A small block under constant load on a cylinder of plane facets that turns once below it: every node crosses every edge.
+/// A small block under constant load on a cylinder of plane facets that turns once below it: every node crosses every
+/// edge.
 using namespace railwave;
 using namespace railwave::verify;
 using Catch::Matchers::WithinRel;
@@ -54,7 +55,7 @@ Assembly ring(const scene::Scene& scene) {
 /// Gives held nodes the velocities that carry them to their places at the next angle.
 struct Turn {
   Array<const int*> nodes;
-  Array<const double* [3]> reference, position;
+  Array<const double*[3]> reference, position;
   Array<double* [3]> velocity;
   double cosine, sine, step;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -102,7 +103,8 @@ Ride ride(double damping, scene::ContactNormals normals) {
   const double begin = 0.05 * turn_time, full = 2 * M_PI / (turn_time - 0.5 * begin) * 1.01;
   march(model, model.step_count, [&] {
     const double t = model.time + model.step_size;
-    const double angle = t < begin ? 0.5 * full * (t - begin / M_PI * std::sin(M_PI * t / begin)) : full * (t - 0.5 * begin);
+    const double angle =
+        t < begin ? 0.5 * full * (t - begin / M_PI * std::sin(M_PI * t / begin)) : full * (t - 0.5 * begin);
     Kokkos::parallel_for("turn", Range(0, static_cast<int>(turning.size())),
                          Turn{nodes, model.nodes.reference, model.nodes.position, model.nodes.velocity, std::cos(angle),
                               std::sin(angle), model.step_size});
@@ -133,9 +135,10 @@ Ride ride(double damping, scene::ContactNormals normals) {
 TEST_CASE("no contact is lost in a full turn of a faceted cylinder below a loaded block") {
   for (double damping : {0.0, 0.1}) {
     const Ride result = ride(damping, scene::ContactNormals::facet);
-    WARN("faceted cylinder, damping " << damping << ": force " << result.least << " to " << result.most << " of the load, jitter (rms) "
-                                      << result.deviation << ", mean " << result.mean << ", edges crossed " << result.crossings
-                                      << ", at least " << result.fewest << " of 4 nodes in contact, " << result.steps << " steps");
+    WARN("faceted cylinder, damping " << damping << ": force " << result.least << " to " << result.most
+                                      << " of the load, jitter (rms) " << result.deviation << ", mean " << result.mean
+                                      << ", edges crossed " << result.crossings << ", at least " << result.fewest
+                                      << " of 4 nodes in contact, " << result.steps << " steps");
     CHECK(result.fewest >= 2);
     CHECK(result.least > 0.5);
     CHECK_THAT(result.mean, WithinRel(1.0, 0.01));
@@ -145,7 +148,8 @@ TEST_CASE("no contact is lost in a full turn of a faceted cylinder below a loade
 
 TEST_CASE("with smooth normals a block does not feel the facets of a turning cylinder") {
   const Ride result = ride(0, scene::ContactNormals::smooth);
-  WARN("faceted cylinder, smooth normals: force " << result.least << " to " << result.most << " of the load, jitter (rms) " << result.deviation);
+  WARN("faceted cylinder, smooth normals: force " << result.least << " to " << result.most
+                                                  << " of the load, jitter (rms) " << result.deviation);
   CHECK(result.fewest == 4);
   CHECK(result.deviation < 1e-5);
   CHECK(result.crossings >= 4 * facets);

@@ -1,4 +1,5 @@
-// Fields fetched from the model: those of the nodes and elements asked for, in the order asked for, of all element groups.
+// Fields fetched from the model: those of the nodes and elements asked for, in the order asked for, of all element
+// groups.
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
@@ -70,7 +71,8 @@ TEST_CASE("displacement and position come for the nodes asked for") {
   Model model;
   build_stretched_blocks(scene::Precision::double_precision, model);
   const std::vector<int> asked{17, 400, 0, 17};
-  const HostField moved = node_field(model, NodeField::displacement, asked), place = node_field(model, NodeField::position, asked);
+  const HostField moved = node_field(model, NodeField::displacement, asked),
+                  place = node_field(model, NodeField::position, asked);
   REQUIRE(moved.components == 3);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const Vec3 x = model.assembly.nodes[asked[i]];

@@ -37,8 +37,10 @@ double largest_ratio(const ContactPair& pair) {
   for (int s = 0; s < pair.arrays.slave_count; ++s) {
     const double n = std::hypot(normal(s, 0), normal(s, 1), normal(s, 2));
     const double t = std::hypot(tangential(s, 0), tangential(s, 1), tangential(s, 2));
-    if (n == 0) CHECK(t == 0);
-    else largest = std::max(largest, t / (friction * n));
+    if (n == 0)
+      CHECK(t == 0);
+    else
+      largest = std::max(largest, t / (friction * n));
   }
   return largest;
 }
@@ -92,14 +94,15 @@ TEST_CASE("a block pulled with nine tenths of its friction stays where it is") {
   for (auto [algorithm, divisions] : variants()) {
     const scene::Scene scene = pulled_block(algorithm, 0.9, divisions);
     const Slide result = slide(scene);
-    // Elastic size: shear of the block and of the contact springs (stiffness K / 5 mm for each area) under the whole pull.
+    // Elastic size: shear of the block and of the contact springs (stiffness K / 5 mm for each area) under the whole
+    // pull.
     const double shear_stress = 0.9 * friction * pressing * 7800 * 0.01;
     const double elastic = shear_stress * (0.01 / 80.8e9 + 0.02 / 80.8e9 + 0.005 / 175e9);
     double largest = 0;
     for (double u : result.displacement) largest = std::max(largest, std::fabs(u));
     const double late = result.displacement.back() - result.displacement[result.at(3.5e-4)];
-    INFO(name_of(algorithm) << ": moved " << largest << ", elastic " << elastic << ", of it late " << late << ", imbalance "
-                  << result.imbalance / result.largest);
+    INFO(name_of(algorithm) << ": moved " << largest << ", elastic " << elastic << ", of it late " << late
+                            << ", imbalance " << result.imbalance / result.largest);
     CHECK(largest > 0.1 * elastic);
     CHECK(largest < 3 * elastic);
     CHECK(std::fabs(late) < 0.2 * elastic);
@@ -108,14 +111,16 @@ TEST_CASE("a block pulled with nine tenths of its friction stays where it is") {
   }
 }
 
-TEST_CASE("a block pulled with eleven tenths of its friction slides with (T - mu N)/m and heats by mu N times the way") {
+TEST_CASE(
+    "a block pulled with eleven tenths of its friction slides with (T - mu N)/m and heats by mu N times the way") {
   for (auto [algorithm, divisions] : variants()) {
     const scene::Scene scene = pulled_block(algorithm, 1.1, divisions);
     const Slide result = slide(scene);
     const std::size_t a = result.at(2.5e-4), b = result.time.size() - 1;
     const double acceleration = (result.velocity[b] - result.velocity[a]) / (result.time[b] - result.time[a]);
-    INFO(name_of(algorithm) << ": acceleration " << acceleration << ", friction energy " << result.last.friction << ", way " << result.displacement[b]
-                         << ", imbalance / largest " << result.imbalance / result.largest);
+    INFO(name_of(algorithm) << ": acceleration " << acceleration << ", friction energy " << result.last.friction
+                            << ", way " << result.displacement[b] << ", imbalance / largest "
+                            << result.imbalance / result.largest);
     CHECK_THAT(acceleration, WithinRel(0.1 * friction * pressing, 0.01));
     CHECK_THAT(result.last.friction, WithinRel(friction * result.mass * pressing * result.displacement[b], 0.01));
     CHECK(result.imbalance < 0.01 * result.largest);

@@ -12,7 +12,8 @@ using Catch::Matchers::WithinRel;
 
 // The whole table is scripts/verify_contact's matter; here the case is run coarsely, six elements over the patch.
 TEST_CASE("the case of Hertz's sphere on a plane comes near Hertz's solution on a coarse mesh") {
-  std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "settle.tolerance=5e-3", "meshes.block.zone_centre=0.00055"};
+  std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "settle.tolerance=5e-3",
+                                   "meshes.block.zone_centre=0.00055"};
   for (const std::string mesh : {"sphere", "block"})
     for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04"})
       changed.push_back("meshes." + mesh + "." + key);
@@ -35,10 +36,11 @@ TEST_CASE("the case of Hertz's sphere on a plane comes near Hertz's solution on 
 
 // A node of the sphere that lies on a node of the block has four facets below it, whose normals differ.
 TEST_CASE("nodes that meet exactly come to rest with smooth normals") {
-  std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "contacts.hertz.normals=smooth", "settle.tolerance=2e-3",
-                                   "settle.max_steps=3000", "meshes.block.zone_centre=0"};
+  std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "contacts.hertz.normals=smooth",
+                                   "settle.tolerance=2e-3", "settle.max_steps=3000", "meshes.block.zone_centre=0"};
   for (const std::string mesh : {"sphere", "block"})
-    for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04", "zone_start=-0.012", "zone_end=0.012", "zone_width=0.024"})
+    for (const char* key : {"zone_size=2.4e-3", "zone_layers=3", "growth=1.5", "coarse_size=0.04", "zone_start=-0.012",
+                            "zone_end=0.012", "zone_width=0.024"})
       changed.push_back("meshes." + mesh + "." + key);
   const scene::Scene scene = read_case(source_folder + "/cases/verify/hertz_sphere.toml", changed);
   Model model;

@@ -65,8 +65,9 @@ TEST_CASE("each of the twelve hourglass modes of a block decays or stays bounded
         }
         for (const Stage& stage : stages) stage.run(instant);
         const EnergyAccount after = account_energies(model, model.step_size);
-        INFO("direction " << direction << ", mode " << mode << (viscous ? ", viscous" : ", stiffness") << ": largest amplitude "
-                          << largest << ", energy " << balance_total(before) << " -> " << balance_total(after));
+        INFO("direction " << direction << ", mode " << mode << (viscous ? ", viscous" : ", stiffness")
+                          << ": largest amplitude " << largest << ", energy " << balance_total(before) << " -> "
+                          << balance_total(after));
         // Uncontrolled, 1e-2 m/s over 2e-4 s would carry the mode to 3e-6.
         CHECK(largest < 1.6e-6);
         if (viscous) CHECK(after.kinetic < 1e-3 * before.kinetic);
@@ -89,7 +90,9 @@ TEST_CASE("hourglass control does nothing to rigid motion and uniform strain") {
       set_position(model, [](const Vec3& x, int) {
         return Vec3{x[0] + 1e-3 * x[0] + 2e-3 * x[1] + 0.1, x[1] - 1e-3 * x[2], x[2] + 1e-3 * x[0] - 5e-4 * x[2]};
       });
-      set_velocity(model, [](const Vec3& x, int) { return Vec3{3 + 20 * x[0] - 7 * x[1], 5 * x[2] + 1, 11 * x[0] - 4 * x[2]}; });
+      set_velocity(model, [](const Vec3& x, int) {
+        return Vec3{3 + 20 * x[0] - 7 * x[1], 5 * x[2] + 1, 11 * x[0] - 4 * x[2]};
+      });
       compute_forces(model);
       (coefficient > 0 ? with : without) = node_field(model, NodeField::acceleration, all_nodes(model)).values;
     }

@@ -15,8 +15,8 @@ scene::Scene falling_block(const TwoBlocks& blocks, double speed, double end) {
   TwoBlocks apart = blocks;
   apart.gap = 1e-6;
   scene::Scene scene = apart.scene(end);
-  // Corner nodes have the whole contact spring on a quarter of the mass; and an impact is a shock, whose energy error goes
-  // with the step squared.
+  // Corner nodes have the whole contact spring on a quarter of the mass; and an impact is a shock, whose energy error
+  // goes with the step squared.
   scene.time.step_scale = 0.5;
   for (scene::Part& part : scene.parts) part.hourglass = scene::HourglassType::stiffness;
   scene::InitialMotion motion;
@@ -27,12 +27,12 @@ scene::Scene falling_block(const TwoBlocks& blocks, double speed, double end) {
 }
 
 struct Impact {
-  double momentum = 0;     ///< worst change over the momentum brought in
-  double imbalance = 0;    ///< worst, over the energy brought in
-  double reaction = 0;     ///< worst difference of the contact force and its reaction, over the largest force
-  double last_contact = 0; ///< s
+  double momentum = 0;      ///< worst change over the momentum brought in
+  double imbalance = 0;     ///< worst, over the energy brought in
+  double reaction = 0;      ///< worst difference of the contact force and its reaction, over the largest force
+  double last_contact = 0;  ///< s
   double first_contact = -1;
-  Vec3 upper{}, lower{};   ///< mean velocities at the end
+  Vec3 upper{}, lower{};  ///< mean velocities at the end
 };
 
 Impact impact(const scene::Scene& scene, double speed) {
@@ -55,7 +55,8 @@ Impact impact(const scene::Scene& scene, double speed) {
     const ContactTotals totals = contact_totals(model, model.contacts[0]);
     // Not over the present force: at a moment of parting that is a few quanta of what forces are added in.
     largest_force = std::max(largest_force, norm(totals.normal_force));
-    result.reaction = std::max(result.reaction, norm(totals.normal_force + totals.tangential_force + totals.master_force));
+    result.reaction =
+        std::max(result.reaction, norm(totals.normal_force + totals.tangential_force + totals.master_force));
     if (totals.nodes_in_contact == 0) return;
     if (result.first_contact < 0) result.first_contact = model.time;
     result.last_contact = model.time;
@@ -80,7 +81,8 @@ TEST_CASE("two equal bars held sideways exchange their velocities after twice a 
     hold(scene, "lower", {true, true, false});
     const Impact result = impact(scene, 1.0);
     INFO(name_of(algorithm) << ": upper " << result.upper[2] << ", lower " << result.lower[2] << ", contact for "
-                  << (result.last_contact - result.first_contact) / duration << " of 2 L/c, imbalance " << result.imbalance);
+                            << (result.last_contact - result.first_contact) / duration << " of 2 L/c, imbalance "
+                            << result.imbalance);
     CHECK_THAT(result.last_contact - result.first_contact, WithinRel(duration, 0.05));
     CHECK_THAT(result.upper[2], WithinAbs(0, 0.02));
     CHECK_THAT(result.lower[2], WithinAbs(-1, 0.02));
@@ -91,8 +93,10 @@ TEST_CASE("two equal bars held sideways exchange their velocities after twice a 
 }
 
 TEST_CASE("blocks of different meshes and sizes that meet off centre keep momentum and energy") {
-  for (auto [algorithm, friction] : {std::pair{scene::ContactAlgorithm::penalty, 0.0}, {scene::ContactAlgorithm::penalty, 0.4},
-                                    {scene::ContactAlgorithm::multiplier, 0.0}, {scene::ContactAlgorithm::multiplier, 0.4}}) {
+  for (auto [algorithm, friction] : {std::pair{scene::ContactAlgorithm::penalty, 0.0},
+                                     {scene::ContactAlgorithm::penalty, 0.4},
+                                     {scene::ContactAlgorithm::multiplier, 0.0},
+                                     {scene::ContactAlgorithm::multiplier, 0.4}}) {
     TwoBlocks blocks;
     blocks.algorithm = algorithm;
     blocks.upper_divisions = {7, 6, 2};
@@ -103,7 +107,8 @@ TEST_CASE("blocks of different meshes and sizes that meet off centre keep moment
     scene.parts[0].position = scene.parts[0].position + Vec3{0.0123, -0.0071, 0};
     scene.initial_motions[0].angular_velocity = {20, -30, 0};
     const Impact result = impact(scene, 5.0);
-    INFO(name_of(algorithm) << ", friction " << friction << ", imbalance " << result.imbalance << ", rebound " << result.upper[2]);
+    INFO(name_of(algorithm) << ", friction " << friction << ", imbalance " << result.imbalance << ", rebound "
+                            << result.upper[2]);
     CHECK(result.first_contact >= 0);
     CHECK(result.momentum < 1e-11);
     CHECK(result.imbalance < 0.01);

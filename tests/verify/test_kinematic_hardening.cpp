@@ -47,9 +47,11 @@ scene::Scene pulled_and_pushed(double beta) {
 
 }  // namespace
 
-TEST_CASE("a bar pulled, then pushed as hard, flows back by what hardening is kinematic, and keeps its energy account") {
+TEST_CASE(
+    "a bar pulled, then pushed as hard, flows back by what hardening is kinematic, and keeps its energy account") {
   for (const double beta : {1.0, 0.5, 0.0})
-    for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+    for (const auto precision :
+         {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
       scene::Scene scene = pulled_and_pushed(beta);
       scene.solver.precision = precision;
       Model model;
@@ -68,11 +70,13 @@ TEST_CASE("a bar pulled, then pushed as hard, flows back by what hardening is ki
       const double flown = 80e6 / hardening;
       const double back = 160e6 * (1 - beta) / hardening;
       const double end = element_plastic_strain(model, elements).values[0];
-      INFO("beta " << beta << ", precision " << static_cast<int>(precision) << ": pulled " << pulled / flown << ", pushed "
-                   << (end - pulled) / flown << ", imbalance " << worst / largest);
+      INFO("beta " << beta << ", precision " << static_cast<int>(precision) << ": pulled " << pulled / flown
+                   << ", pushed " << (end - pulled) / flown << ", imbalance " << worst / largest);
       CHECK_THAT(pulled, WithinRel(flown, 0.05));
-      if (beta == 1) CHECK(end - pulled < 0.05 * flown);
-      else CHECK_THAT(end - pulled, WithinRel(back, 0.08));
+      if (beta == 1)
+        CHECK(end - pulled < 0.05 * flown);
+      else
+        CHECK_THAT(end - pulled, WithinRel(back, 0.08));
       CHECK(worst < 1e-3 * largest);
     }
 }
@@ -88,7 +92,9 @@ TEST_CASE("rigid turns of a bar that has flown leave its stress as it was") {
     Model model;
     build_model(scene, model);
     const auto elements = all_elements(model);
-    const auto pulled = [](const Vec3& x, int) { return Vec3{1.004 * x[0] + 0.006 * x[1], 0.998 * x[1], 0.998 * x[2]}; };
+    const auto pulled = [](const Vec3& x, int) {
+      return Vec3{1.004 * x[0] + 0.006 * x[1], 0.998 * x[1], 0.998 * x[2]};
+    };
     const auto evaluate = [&](const std::function<Vec3(const Vec3&, int)>& field) {
       set_position(model, field);
       for (const ElementGroup& group : model.elements) renew_frames(model, group);

@@ -26,7 +26,7 @@ Assembly tilted_block(const scene::Scene& scene) {
 }
 
 struct NodalForces {
-  Vec3 sum{}, moment{};          ///< moment about the centre of mass
+  Vec3 sum{}, moment{};  ///< moment about the centre of mass
   double largest = 0;
 };
 
@@ -34,7 +34,8 @@ struct NodalForces {
 NodalForces forces_on(const Model& model) {
   NodalForces result;
   const auto nodes = all_nodes(model);
-  const auto a = node_field(model, NodeField::acceleration, nodes).values, x = node_field(model, NodeField::position, nodes).values;
+  const auto a = node_field(model, NodeField::acceleration, nodes).values,
+             x = node_field(model, NodeField::position, nodes).values;
   const Vec3 centre = mean(model, NodeField::position, nodes);
   for (int n : nodes) {
     const Vec3 f = model.mass[n] * Vec3{a[3 * n], a[3 * n + 1], a[3 * n + 2]};
@@ -151,7 +152,8 @@ TEST_CASE("a torque changes the angular momentum by M t about its axis and has n
   for (int i = 0; i < 3; ++i) CHECK_THAT(after[i], WithinRel(before[i], 1e-12));
 
   // Angular momentum about the axis through the centre of mass.
-  const auto x = node_field(model, NodeField::position, nodes).values, v = node_field(model, NodeField::velocity, nodes).values;
+  const auto x = node_field(model, NodeField::position, nodes).values,
+             v = node_field(model, NodeField::velocity, nodes).values;
   const Vec3 centre = mean(model, NodeField::position, nodes);
   double momentum = 0;
   for (int n : nodes)
@@ -161,7 +163,8 @@ TEST_CASE("a torque changes the angular momentum by M t about its axis and has n
 }
 
 TEST_CASE("the work of every kind of load becomes energy of the body") {
-  for (auto type : {scene::LoadType::nodal_force, scene::LoadType::traction, scene::LoadType::pressure, scene::LoadType::torque}) {
+  for (auto type :
+       {scene::LoadType::nodal_force, scene::LoadType::traction, scene::LoadType::pressure, scene::LoadType::torque}) {
     const bool on_nodes = type == scene::LoadType::nodal_force || type == scene::LoadType::torque;
     scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {3, 3, 3}, 2e-3);
     scene.parts[0].hourglass = scene::HourglassType::stiffness;

@@ -24,7 +24,8 @@ Solid enclosed(const Assembly& assembly, const std::vector<Face>& surface) {
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
         const double xi = place[a], eta = place[b];
-        const double shape[4] = {(1 - xi) * (1 - eta), (1 + xi) * (1 - eta), (1 + xi) * (1 + eta), (1 - xi) * (1 + eta)};
+        const double shape[4] = {(1 - xi) * (1 - eta), (1 + xi) * (1 - eta), (1 + xi) * (1 + eta),
+                                 (1 - xi) * (1 + eta)};
         const double by_xi[4] = {eta - 1, 1 - eta, 1 + eta, -1 - eta}, by_eta[4] = {xi - 1, -1 - xi, 1 + xi, 1 - xi};
         Vec3 x{}, along_xi{}, along_eta{};
         for (int k = 0; k < 4; ++k) {
@@ -83,7 +84,8 @@ TEST_CASE("a body falls freely with g, without stress") {
       double worst_mean = 0, worst_node = 0, stress = 0;
       march(model, model.step_count, [&] {
         const auto a = node_field(model, NodeField::acceleration, nodes).values;
-        for (std::size_t k = 0; k < a.size(); ++k) worst_node = std::max(worst_node, std::fabs(a[k] - scene.gravity[k % 3]));
+        for (std::size_t k = 0; k < a.size(); ++k)
+          worst_node = std::max(worst_node, std::fabs(a[k] - scene.gravity[k % 3]));
         const Vec3 centre = mean(model, NodeField::acceleration, nodes);
         for (int i = 0; i < 3; ++i) worst_mean = std::max(worst_mean, std::fabs(centre[i] / scene.gravity[i] - 1));
         stress = std::max(stress, largest_stress(model));

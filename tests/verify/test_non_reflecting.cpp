@@ -30,8 +30,8 @@ double waves_energy(const Model& model) {
 struct Bar {
   double length = 0.4, width = 0.01, deviation = 0.02;
   int layers = 80, across = 1;
-  int moved = 0;          ///< 0: the pulse presses along the bar, 1: it shears
-  bool held = true;       ///< across the pulse's motion: plane waves
+  int moved = 0;     ///< 0: the pulse presses along the bar, 1: it shears
+  bool held = true;  ///< across the pulse's motion: plane waves
   double step_scale = 0.9;
   scene::Precision precision = scene::Precision::double_precision;
 
@@ -54,9 +54,13 @@ struct Bar {
   /// Puts the pulse in the middle.
   void start(Model& model) const {
     const double c = speed(model.scene.materials[0]), amplitude = 1e-6;
-    const auto shape = [&](double x) { return amplitude * std::exp(-0.5 * std::pow((x - 0.5 * length) / deviation, 2)); };
+    const auto shape = [&](double x) {
+      return amplitude * std::exp(-0.5 * std::pow((x - 0.5 * length) / deviation, 2));
+    };
     const auto slope = [&](double x) { return -(x - 0.5 * length) / (deviation * deviation) * shape(x); };
-    const auto bend = [&](double x) { return (std::pow((x - 0.5 * length) / deviation, 2) - 1) / (deviation * deviation) * shape(x); };
+    const auto bend = [&](double x) {
+      return (std::pow((x - 0.5 * length) / deviation, 2) - 1) / (deviation * deviation) * shape(x);
+    };
     // A bar that is free to do so gets thinner where it is stretched.
     const double thinning = held ? 0 : model.scene.materials[0].poissons_ratio;
     set_position(model, [&](const Vec3& x, int) {
@@ -91,7 +95,8 @@ struct Bar {
 }  // namespace
 
 TEST_CASE("a P pulse leaves a non-reflecting end at normal incidence with less than 1 % of its energy thrown back") {
-  for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     Bar bar;
     bar.precision = precision;
     const double share = bar.reflected();
@@ -135,7 +140,8 @@ TEST_CASE("a Rayleigh pulse runs out of a block's side") {
     const Vec3 u = packet.displacement(x[0] - from, depth - x[2]);
     return x + amplitude * u;
   });
-  set_velocity(model, [&](const Vec3& x, int) { return (-packet.speed * amplitude) * packet.slope(x[0] - from, depth - x[2]); });
+  set_velocity(
+      model, [&](const Vec3& x, int) { return (-packet.speed * amplitude) * packet.slope(x[0] - from, depth - x[2]); });
   double first = -1;
   march(model, model.step_count, [&] {
     if (first < 0) first = waves_energy(model);
@@ -232,7 +238,8 @@ void check_reaction(double end) {
   double moved = 0;
   const auto now = node_field(model, NodeField::position, nodes).values;
   for (std::size_t k = 0; k < now.size(); ++k) moved = std::fmax(moved, std::fabs(now[k] - settled[k]));
-  UNSCOPED_INFO("reaction off by " << worst << " of the load, nodes moved by " << moved << " m in " << model.step_count << " steps");
+  UNSCOPED_INFO("reaction off by " << worst << " of the load, nodes moved by " << moved << " m in " << model.step_count
+                                   << " steps");
   CHECK(worst < 5e-3);
   CHECK(moved < 1e-7);
 }

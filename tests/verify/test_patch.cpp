@@ -14,11 +14,24 @@ namespace {
 /// u = 1e-3 (2x + y + z)/2, v = 1e-3 (x + 2y + z)/2, w = 1e-3 (x + y + 2z)/2.
 Assembly seven_hexahedra() {
   Assembly assembly;
-  assembly.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1},
-                    {0.249, 0.342, 0.192}, {0.826, 0.288, 0.288}, {0.850, 0.649, 0.263}, {0.273, 0.750, 0.230},
-                    {0.320, 0.186, 0.643}, {0.677, 0.305, 0.683}, {0.788, 0.693, 0.644}, {0.165, 0.745, 0.702}};
-  assembly.elements = {{8, 9, 10, 11, 12, 13, 14, 15}, {0, 1, 2, 3, 8, 9, 10, 11},   {12, 13, 14, 15, 4, 5, 6, 7},
-                       {0, 1, 9, 8, 4, 5, 13, 12},     {1, 2, 10, 9, 5, 6, 14, 13},  {2, 3, 11, 10, 6, 7, 15, 14},
+  assembly.nodes = {{0, 0, 0},
+                    {1, 0, 0},
+                    {1, 1, 0},
+                    {0, 1, 0},
+                    {0, 0, 1},
+                    {1, 0, 1},
+                    {1, 1, 1},
+                    {0, 1, 1},
+                    {0.249, 0.342, 0.192},
+                    {0.826, 0.288, 0.288},
+                    {0.850, 0.649, 0.263},
+                    {0.273, 0.750, 0.230},
+                    {0.320, 0.186, 0.643},
+                    {0.677, 0.305, 0.683},
+                    {0.788, 0.693, 0.644},
+                    {0.165, 0.745, 0.702}};
+  assembly.elements = {{8, 9, 10, 11, 12, 13, 14, 15}, {0, 1, 2, 3, 8, 9, 10, 11},  {12, 13, 14, 15, 4, 5, 6, 7},
+                       {0, 1, 9, 8, 4, 5, 13, 12},     {1, 2, 10, 9, 5, 6, 14, 13}, {2, 3, 11, 10, 6, 7, 15, 14},
                        {3, 0, 8, 11, 7, 4, 12, 15}};
   assembly.parts.push_back({"block", 0, 16, 0, 7, 0});
   return assembly;
@@ -48,7 +61,8 @@ ElasticConstants constants_of(const Model& model) { return to_host(model.element
 
 /// Stress of the uniform deformation: the material's own function of its gradient.
 void exact_stress(const Model& model, double (&stress)[6]) {
-  // F = I + 1e-3 A with A = [[1, .5, .5], [.5, 1, .5], [.5, .5, 1]]; its inverse by the same symmetric form p I + q 1 1^T.
+  // F = I + 1e-3 A with A = [[1, .5, .5], [.5, 1, .5], [.5, .5, 1]]; its inverse by the same symmetric form p I + q 1
+  // 1^T.
   const double diagonal = 1 + 0.5e-3, q = 0.5e-3;  // F = diagonal I + q 1 1^T
   const double inner = -q / (diagonal * (diagonal + 3 * q));
   double G[3][3], H[3][3], e[6], h[6], tau[6];
@@ -68,8 +82,8 @@ void check_stress(const Model& model) {
   exact_stress(model, exact);
   for (double s : exact) largest = std::max(largest, std::fabs(s));
   // Small-strain theory, as MacNeal & Harder state it: E = 1e6, nu = 1/4 give 2000 and 400; here scaled to steel.
-  CHECK_THAT(exact[0], Catch::Matchers::WithinRel(3e-3 * constants_of(model).lambda +
-                                                      2e-3 * constants_of(model).mu, 0.01));
+  CHECK_THAT(exact[0],
+             Catch::Matchers::WithinRel(3e-3 * constants_of(model).lambda + 2e-3 * constants_of(model).mu, 0.01));
   const auto stress = element_stress(model, all_elements(model));
   for (std::size_t k = 0; k < stress.values.size(); ++k)
     worst = std::max(worst, std::fabs(stress.values[k] - exact[k % 6]) / largest);
@@ -91,7 +105,8 @@ std::vector<int> inner_nodes(const Model& model) {
 /// Forces on nodes inside, relative to those on the surface.
 double inner_unbalance(const Model& model, const std::vector<int>& inner) {
   double outer = 0, worst = 0;
-  for (double a : node_field(model, NodeField::acceleration, all_nodes(model)).values) outer = std::max(outer, std::fabs(a));
+  for (double a : node_field(model, NodeField::acceleration, all_nodes(model)).values)
+    outer = std::max(outer, std::fabs(a));
   for (double a : node_field(model, NodeField::acceleration, inner).values) worst = std::max(worst, std::fabs(a));
   return worst / outer;
 }

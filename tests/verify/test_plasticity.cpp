@@ -15,8 +15,8 @@ struct PullPoint {
   double strain, stress;
 };
 
-/// A bar pulled slowly along x by a traction on its end, free to contract: logarithmic strain and mean true stress, with
-/// the imbalance of energies over the work done.
+/// A bar pulled slowly along x by a traction on its end, free to contract: logarithmic strain and mean true stress,
+/// with the imbalance of energies over the work done.
 std::vector<PullPoint> pull(scene::Precision precision, double& imbalance, double& plastic) {
   const double length = 0.02;
   scene::Scene scene = block_scene({length, 0.01, 0.01}, {4, 2, 2}, 2.5e-3);
@@ -72,7 +72,8 @@ double slope(const std::vector<PullPoint>& points, double from, double to) {
 }  // namespace
 
 TEST_CASE("a bar pulled past yield stiffens along its two slopes and keeps its energy account") {
-  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (const auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     double imbalance = 1, plastic = 0;
     const auto points = pull(precision, imbalance, plastic);
     const double elastic_slope = slope(points, 50e6, 350e6), plastic_slope = slope(points, 440e6, 560e6);

@@ -47,13 +47,15 @@ TEST_CASE("a set with a prescribed motion is where the rigid motion has it, afte
   const auto u = node_field(model, NodeField::displacement, nodes).values;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Vec3 x = model.assembly.nodes[nodes[k]], r = x - Vec3{0.1, 0, 0};
-    const Vec3 expected = Vec3{0.1, 0, 0} + t * Vec3{3, 0, 1} + c * r + s * cross(axis, r) + ((1 - c) * dot(axis, r)) * axis;
+    const Vec3 expected =
+        Vec3{0.1, 0, 0} + t * Vec3{3, 0, 1} + c * r + s * cross(axis, r) + ((1 - c) * dot(axis, r)) * axis;
     for (int i = 0; i < 3; ++i) CHECK_THAT(x[i] + u[3 * k + i], WithinAbs(expected[i], 1e-14));
   }
   march(model, model.step_count - model.step, [] {});
   const auto at_end = node_field(model, NodeField::displacement, nodes).values;
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < 3; ++i) CHECK_THAT(at_end[3 * k + i], WithinAbs(model.time * (i == 0 ? 3 : i == 1 ? 0 : 1), 1e-12));
+    for (int i = 0; i < 3; ++i)
+      CHECK_THAT(at_end[3 * k + i], WithinAbs(model.time * (i == 0 ? 3 : i == 1 ? 0 : 1), 1e-12));
 }
 
 TEST_CASE("the work of a prescribed motion is in the account: a bar stretched slowly, one shaken, and one turned") {
@@ -134,7 +136,8 @@ TEST_CASE("a prescribed displacement is met at the end of every step, and other 
   });
   INFO("off the curve by " << worst << " m, free directions by " << free_worst << " m");
   CHECK(worst < 1e-16);
-  // Nothing pushes the block along the other axes: its momentum there stays, to rounding of places of 0.05 m in 200 steps.
+  // Nothing pushes the block along the other axes: its momentum there stays, to rounding of places of 0.05 m in 200
+  // steps.
   CHECK(free_worst < 1e-14);
   CHECK_THAT(dot(axes[1], mean(model, NodeField::displacement, nodes)), WithinAbs(2e-4, 1e-16));
 }
@@ -161,7 +164,8 @@ TEST_CASE("a bar pulled along one direction by a displacement is free to thin, a
   run(model, {&recorder});
   const HistorySample& last = recorder.samples.back();
   const double stretch = 0.5 * 210e9 * 4e-4 / 0.1 * 50e-6 * 50e-6;
-  INFO("internal " << last.energy.internal << " J, theory " << stretch << " J, damping " << last.energy.damping << " J, work " << last.energy.external_work << " J");
+  INFO("internal " << last.energy.internal << " J, theory " << stretch << " J, damping " << last.energy.damping
+                   << " J, work " << last.energy.external_work << " J");
   // Uniaxial stress: were the end held across too, the energy would be larger by some per cent.
   CHECK_THAT(last.energy.internal, WithinRel(stretch, 0.005));
   CHECK(std::fabs(last.energy.balance_error) < 0.004 * last.energy.external_work);
@@ -173,7 +177,8 @@ TEST_CASE("a displacement that begins with a jump is refused") {
   scene.prescribed_motions.push_back(motion("block.z_min", {0, 0, 0}, {0, 0, 0}));
   scene.prescribed_motions[0].displacement = {1e-3, 0, 0};
   scene.prescribed_motions[0].displacement_curve = "pace";
-  CHECK_THAT(complaint_of_building(scene), ContainsSubstring("[prescribed_motion.driven] displacement_curve: 'pace' is 0.5 at t = 0"));
+  CHECK_THAT(complaint_of_building(scene),
+             ContainsSubstring("[prescribed_motion.driven] displacement_curve: 'pace' is 0.5 at t = 0"));
 }
 
 TEST_CASE("a set with a prescribed motion is held while the scene settles") {
@@ -184,7 +189,8 @@ TEST_CASE("a set with a prescribed motion is held while the scene settles") {
   Model model;
   build_model(scene, model);
   settle_whole(model);
-  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values) CHECK(u == 0);
+  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
+    CHECK(u == 0);
   CHECK(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))[2] < 0);
 }
 

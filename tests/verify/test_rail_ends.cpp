@@ -19,8 +19,8 @@ std::vector<Face> faces_at(const Assembly& assembly, double place) {
   return faces;
 }
 
-/// Share of a packet's energy that is left in a coarse 54E1 rail with two non-reflecting ends. The packet is a velocity along
-/// `direction` in the middle, a Gaussian times a cosine; it parts into two that run to both ends.
+/// Share of a packet's energy that is left in a coarse 54E1 rail with two non-reflecting ends. The packet is a velocity
+/// along `direction` in the middle, a Gaussian times a cosine; it parts into two that run to both ends.
 double left_in_rail(const Vec3& direction, double wavelength, double deviation, double time, bool open) {
   scene::Scene scene = block_scene({1, 1, 1}, {1, 1, 1}, time);
   scene.meshes[0].type = scene::MeshType::rail;
@@ -65,8 +65,10 @@ double left_in_rail(const Vec3& direction, double wavelength, double deviation, 
 
 TEST_CASE("a rail's ends let axial and bending packets out", "[long]") {
   const double axial = left_in_rail({1, 0, 0}, 1.5, 0.5, 1.2e-3, true);
-  const double vertical = left_in_rail({0, 0, 1}, 0.5, 0.4, 3e-3, true), lateral = left_in_rail({0, 1, 0}, 0.5, 0.4, 4e-3, true);
-  UNSCOPED_INFO("left in the rail: axial " << axial << ", vertical bending " << vertical << ", lateral bending " << lateral);
+  const double vertical = left_in_rail({0, 0, 1}, 0.5, 0.4, 3e-3, true),
+               lateral = left_in_rail({0, 1, 0}, 0.5, 0.4, 4e-3, true);
+  UNSCOPED_INFO("left in the rail: axial " << axial << ", vertical bending " << vertical << ", lateral bending "
+                                           << lateral);
   // Uniform over the section, the axial packet is not a pure bar wave: some of it bends and thickens the rail.
   CHECK(axial < 0.05);
   CHECK(vertical < 0.1);

@@ -62,8 +62,10 @@ TEST_CASE("a bar under traction settles to its uniaxial stress, whatever its den
     CHECK_THAT(found.back(), WithinRel(0.5 * 21e6 / 210e9, 1e-3));
     const auto stress = element_stress(model, all_elements(model)).values;
     for (std::size_t k = 0; k < stress.size(); ++k) {
-      if (k % 6 == 2) CHECK_THAT(stress[k], WithinRel(21e6, 1e-3));
-      else CHECK(std::fabs(stress[k]) < 1e-3 * 21e6);
+      if (k % 6 == 2)
+        CHECK_THAT(stress[k], WithinRel(21e6, 1e-3));
+      else
+        CHECK(std::fabs(stress[k]) < 1e-3 * 21e6);
     }
   }
   CHECK_THAT(found[1], WithinRel(found[0], 1e-5));
@@ -91,7 +93,8 @@ TEST_CASE("a body that will rotate settles under its centrifugal field") {
     mean_yy += stress[6 * e + 1] / model.element_count();
   }
   // Integral of stress_xx over the volume = integral of rho omega^2 (x - c)^2 (virial theorem), with the lumped masses.
-  for (int n = 0; n < model.nodes.count; ++n) second_moment += model.mass[n] * std::pow(model.assembly.nodes[n][0] - 5.1, 2);
+  for (int n = 0; n < model.nodes.count; ++n)
+    second_moment += model.mass[n] * std::pow(model.assembly.nodes[n][0] - 5.1, 2);
   const double expected = 300.0 * 300.0 * second_moment / (0.2 * 0.2 * 0.02);
   CHECK_THAT(mean_xx, WithinRel(expected, 1e-3));
   CHECK_THAT(mean_yy, WithinRel(expected, 1e-3));

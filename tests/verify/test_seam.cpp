@@ -12,7 +12,7 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 constexpr int columns = 8, rows = 3, layers = 8;  // along x, y, z
-constexpr double size = 0.01;  // of an element
+constexpr double size = 0.01;                     // of an element
 
 scene::Scene slit_scene(double end, double friction) {
   scene::Scene scene = block_scene({columns * size, rows * size, layers * size}, {columns, rows, layers}, end);
@@ -75,7 +75,8 @@ TEST_CASE("a closed seam at rest has no forces, at the first step and after a th
     march(model, 1000, [&] {
       if (model.step % 100 != 0) return;
       largest = std::max(largest, largest_force(model));
-      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values) fastest = std::max(fastest, std::fabs(v));
+      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+        fastest = std::max(fastest, std::fabs(v));
     });
     INFO("symmetric " << symmetric << ", largest force " << largest << " N, fastest " << fastest << " m/s");
     CHECK(largest < 1e-5);
@@ -115,7 +116,8 @@ TEST_CASE("a seam passes pressure on, and opens under a pull") {
         most_gap = std::max(most_gap, state.gap[s]);
       }
       const ContactTotals totals = contact_totals(model, model.contacts[0]);
-      WARN((symmetric ? "symmetric seam" : "seam") << (sign < 0 ? ", pressed" : ", pulled") << ": force " << totals.normal_force[2] << " N of "
+      WARN((symmetric ? "symmetric seam" : "seam")
+           << (sign < 0 ? ", pressed" : ", pulled") << ": force " << totals.normal_force[2] << " N of "
            << 0.5 * area * stress << " N on its half, gaps " << least_gap << " to " << most_gap << " m, imbalance "
            << imbalance / largest_energy(last));
       CHECK(reaction_error(totals) < 1e-9);

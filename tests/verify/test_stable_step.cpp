@@ -59,7 +59,8 @@ scene::Scene columns(int length, double penalty_scale) {
 
 TEST_CASE("a cube's eigenvalue step is that of its volume mode, 0.734 of the height's") {
   const double h = 0.01, density = steel().density;
-  const HexahedronCorners cube{{{0, 0, 0}, {h, 0, 0}, {h, h, 0}, {0, h, 0}, {0, 0, h}, {h, 0, h}, {h, h, h}, {0, h, h}}};
+  const HexahedronCorners cube{
+      {{0, 0, 0}, {h, 0, 0}, {h, h, 0}, {0, h, 0}, {0, 0, h}, {h, 0, h}, {h, h, h}, {0, h, h}}};
   const double mu = steel().shear_modulus(), lambda = steel().dilatational_modulus() - 2 * mu;
   const double step = element_eigenvalue_step(cube, steel(), scene::HourglassType::stiffness, 0.05).step;
   CHECK_THAT(step, WithinRel(h * std::sqrt(density / (3 * lambda + 2 * mu)), 1e-12));
@@ -69,7 +70,8 @@ TEST_CASE("a cube's eigenvalue step is that of its volume mode, 0.734 of the hei
   const double k = 4 * steel().dilatational_modulus() * h / 16, m = density * h * h * h / 8;
   CHECK_THAT(strong, WithinRel(2 / std::sqrt(8 * k / m), 1e-12));
   const double c = 0.25 * 3 * density * steel().dilatational_speed() * h * h;
-  CHECK_THAT(element_eigenvalue_step(cube, steel(), scene::HourglassType::viscous, 3).step, WithinRel(2 / (8 * c / m), 1e-12));
+  CHECK_THAT(element_eigenvalue_step(cube, steel(), scene::HourglassType::viscous, 3).step,
+             WithinRel(2 / (8 * c / m), 1e-12));
 }
 
 TEST_CASE("the step of one warped element: never above that of its own highest frequency, and near it") {
@@ -80,7 +82,8 @@ TEST_CASE("the step of one warped element: never above that of its own highest f
       warp(assembly, 0.01, 0.25, seed);
       Model model;
       build_model(scene, assembly, model);
-      INFO("seed " << seed << ", eigenvalue " << model.stable_step.eigenvalue << " s, global " << model.stable_step.global << " s");
+      INFO("seed " << seed << ", eigenvalue " << model.stable_step.eigenvalue << " s, global "
+                   << model.stable_step.global << " s");
       // The global estimate of a lone element is exact: there are fewer motions than iterations.
       GlobalStep exact = (*model.global_estimate)(model, 0, model.stable_step.eigenvalue);
       CHECK(model.stable_step.eigenvalue <= exact.step * (1 + 1e-6));
@@ -106,8 +109,10 @@ TEST_CASE("the global step is the true limit: calm at 0.99 of it, not at 1.03, a
     std::array<int, 3> divisions;
     scene::HourglassType hourglass;
     double limit;
-  } bodies[] = {{{1, 1, 1}, scene::HourglassType::stiffness, 0.734}, {{12, 1, 1}, scene::HourglassType::viscous, 0.79},
-                {{10, 10, 1}, scene::HourglassType::viscous, 0.86},  {{12, 1, 1}, scene::HourglassType::stiffness, 0.81},
+  } bodies[] = {{{1, 1, 1}, scene::HourglassType::stiffness, 0.734},
+                {{12, 1, 1}, scene::HourglassType::viscous, 0.79},
+                {{10, 10, 1}, scene::HourglassType::viscous, 0.86},
+                {{12, 1, 1}, scene::HourglassType::stiffness, 0.81},
                 {{10, 10, 1}, scene::HourglassType::stiffness, 0.90}};
   for (const auto& [divisions, hourglass, limit] : bodies) {
     const scene::Scene scene = body(divisions, scene::StepEstimate::global, hourglass);
@@ -134,7 +139,8 @@ TEST_CASE("viscous hourglass control is in the global step as the damping it is"
     warp(assembly, 0.01, 0.2, 5);
     Model model;
     build_model(scene, assembly, model);
-    INFO("Q_hg " << coefficient << ": global / eigenvalue step " << model.stable_step.global / model.stable_step.eigenvalue);
+    INFO("Q_hg " << coefficient << ": global / eigenvalue step "
+                 << model.stable_step.global / model.stable_step.eigenvalue);
     CHECK(model.stable_step.global >= model.stable_step.eigenvalue);
     CHECK(largest_speed(model, 20000) < 0.01);
     Model beyond;
@@ -158,8 +164,10 @@ TEST_CASE("strong viscous hourglass control shortens the element estimate to wha
     Model by_heights;
     build_model(scene, by_heights);
     by_heights.step_size = 0.9 * 0.01 / scene.materials[0].dilatational_speed();
-    if (coefficient > 0.15) CHECK(!(largest_speed(by_heights, 5000) < 1));
-    else CHECK_THAT(model.stable_step.elements, WithinRel(0.01 / scene.materials[0].dilatational_speed(), 1e-6));
+    if (coefficient > 0.15)
+      CHECK(!(largest_speed(by_heights, 5000) < 1));
+    else
+      CHECK_THAT(model.stable_step.elements, WithinRel(0.01 / scene.materials[0].dilatational_speed(), 1e-6));
   }
 }
 
@@ -182,7 +190,8 @@ TEST_CASE("contact at f_SI = 1 in a chain of 1 mm elements allows 0.88 of the el
   Model damped;
   build_model(chain(0.1), damped);
   const double spring = 4 * steel().bulk_modulus() / steel().dilatational_modulus(), rate = 16 * 0.1;
-  CHECK_THAT(damped.stable_step.global / own, WithinRel(2 / (std::sqrt(spring + 0.25 * rate * rate) + 0.5 * rate), 0.5 * tolerance + 1e-3));
+  CHECK_THAT(damped.stable_step.global / own,
+             WithinRel(2 / (std::sqrt(spring + 0.25 * rate * rate) + 0.5 * rate), 0.5 * tolerance + 1e-3));
 
   // Apart, the same columns have their elements' own step.
   scene::Scene apart = chain(0);
@@ -217,12 +226,16 @@ TEST_CASE("pressed columns stay calm at 0.99 of the global step, not at 1.03") {
     });
     INFO("scale " << scale << ", fastest " << fastest);
     // Beyond the limit the surfaces rattle apart and together instead of growing without bound.
-    if (scale < 1) CHECK(fastest < 0.1);
-    else CHECK(fastest > 1);
+    if (scale < 1)
+      CHECK(fastest < 0.1);
+    else
+      CHECK(fastest > 1);
   }
 }
 
-TEST_CASE("springs and dashpots on a point mass: the global step is 2/omega (sqrt(1 + zeta^2) - zeta), a dashpot's alone 2 m/c") {
+TEST_CASE(
+    "springs and dashpots on a point mass: the global step is 2/omega (sqrt(1 + zeta^2) - zeta), a dashpot's alone 2 "
+    "m/c") {
   const double mass = 2;
   for (double k : {0.0, 8e4})
     for (double c : {0.0, 300.0}) {
@@ -245,12 +258,14 @@ TEST_CASE("springs and dashpots on a point mass: the global step is 2/omega (sqr
       build_model(scene, model);
       const double squared = k / mass, half_rate = 0.5 * c / mass;
       INFO("k " << k << ", c " << c);
-      CHECK_THAT(model.stable_step.global, WithinRel(2 / (std::sqrt(squared + half_rate * half_rate) + half_rate), tolerance));
+      CHECK_THAT(model.stable_step.global,
+                 WithinRel(2 / (std::sqrt(squared + half_rate * half_rate) + half_rate), tolerance));
     }
 }
 
 TEST_CASE("whatever estimates the step, bodies that strike undamped contact springs take nine tenths of it") {
-  for (const auto choice : {scene::StepEstimate::element, scene::StepEstimate::eigenvalue, scene::StepEstimate::global}) {
+  for (const auto choice :
+       {scene::StepEstimate::element, scene::StepEstimate::eigenvalue, scene::StepEstimate::global}) {
     TwoBlocks blocks;
     blocks.gap = 1e-6;
     scene::Scene scene = blocks.scene(1e-3);

@@ -46,7 +46,7 @@ Course course_of(Model& model, const std::string& moving, const Vec3& direction)
 /// A block on a slope, both meshes turned about y; its weight grows along a ramp, and with it all forces alike.
 struct Incline {
   double angle = 20 * M_PI / 180, weight = 1e5;  // m/s2
-  double share = 1;  ///< friction over tan(angle)
+  double share = 1;                              ///< friction over tan(angle)
 
   double friction() const { return share * std::tan(angle); }
   Vec3 downhill() const { return {std::cos(angle), 0, -std::sin(angle)}; }
@@ -109,12 +109,15 @@ TEST_CASE("a block on a slope stays at a friction of 1.01 tan(angle)") {
   incline.build(model);
   const Course course = course_of(model, "upper", incline.downhill());
   const double free_way = 0.5 * incline.weight * std::sin(incline.angle) * end_time * end_time;
-  WARN("slope, friction 1.01 tan: way " << course.way << " m, after the ramp " << course.late_way << " m; free fall along the slope "
-                                        << free_way << " m; heat " << course.friction_energy << " J");
+  WARN("slope, friction 1.01 tan: way " << course.way << " m, after the ramp " << course.late_way
+                                        << " m; free fall along the slope " << free_way << " m; heat "
+                                        << course.friction_energy << " J");
   CHECK(std::fabs(course.late_way) < 1e-4 * free_way);
 }
 
-TEST_CASE("a block on a slope slides at a friction of 0.99 tan(angle) with g (sin - mu cos), and friction's work becomes heat") {
+TEST_CASE(
+    "a block on a slope slides at a friction of 0.99 tan(angle) with g (sin - mu cos), and friction's work becomes "
+    "heat") {
   for (double share : {0.99, 0.5}) {
     Incline incline;
     incline.share = share;

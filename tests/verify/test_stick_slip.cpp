@@ -21,17 +21,20 @@ struct Dragged {
     double period, farthest;  ///< s from one slip to the next, m
   };
 
-  /// Of the one mass, by Runge and Kutta's formula in steps of 10 ns. Each slip begins alike, so that every cycle is the
-  /// limit cycle.
+  /// Of the one mass, by Runge and Kutta's formula in steps of 10 ns. Each slip begins alike, so that every cycle is
+  /// the limit cycle.
   Cycle exact() const {
     const double from = at_rest * pressing / spring;  // m, where the spring overcomes friction
     double x = from, v = belt, time = 0;
     const double dt = 1e-8;
-    const auto pull = [&](double at, double velocity) { return (friction(belt - velocity) * pressing - spring * at) / mass; };
+    const auto pull = [&](double at, double velocity) {
+      return (friction(belt - velocity) * pressing - spring * at) / mass;
+    };
     double farthest = x;
     do {
       const double a1 = pull(x, v), v2 = v + 0.5 * dt * a1, a2 = pull(x + 0.5 * dt * v, v2);
-      const double v3 = v + 0.5 * dt * a2, a3 = pull(x + 0.5 * dt * v2, v3), v4 = v + dt * a3, a4 = pull(x + dt * v3, v4);
+      const double v3 = v + 0.5 * dt * a2, a3 = pull(x + 0.5 * dt * v2, v3), v4 = v + dt * a3,
+                   a4 = pull(x + dt * v3, v4);
       x += dt / 6 * (v + 2 * v2 + 2 * v3 + v4);
       v += dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
       time += dt;
@@ -95,8 +98,8 @@ TEST_CASE("a block on a spring dragged by a belt sticks and slips with the perio
   }
   REQUIRE(slips.size() >= 4);
   const double period = (slips.back() - slips[1]) / static_cast<double>(slips.size() - 2);
-  WARN("stick-slip period " << period << " s, exact " << exact.period << " s (" << 100 * (period / exact.period - 1) << " %), slips "
-                            << slips.size() << ", farthest " << farthest << " m, exact "
+  WARN("stick-slip period " << period << " s, exact " << exact.period << " s (" << 100 * (period / exact.period - 1)
+                            << " %), slips " << slips.size() << ", farthest " << farthest << " m, exact "
                             << exact.farthest << " m, steps " << model.step);
   CHECK_THAT(period, WithinRel(exact.period, 0.02));
   CHECK_THAT(farthest, WithinRel(exact.farthest, 0.02));
@@ -124,8 +127,10 @@ TEST_CASE("the coefficient told beside the forces is that of the instant, and bo
       const double speed = std::hypot(now[2 * s] - place[2 * s], now[2 * s + 1] - place[2 * s + 1]) / model.step_size;
       const double friction = state.friction_at(s);
       worst = std::max(worst, std::fabs(friction - dragged.friction(speed)));
-      const double normal = norm(Vec3{state.slave.normal_force[3 * s], state.slave.normal_force[3 * s + 1], state.slave.normal_force[3 * s + 2]});
-      const double tangential = norm(Vec3{state.slave.tangential_force[3 * s], state.slave.tangential_force[3 * s + 1], state.slave.tangential_force[3 * s + 2]});
+      const double normal = norm(Vec3{state.slave.normal_force[3 * s], state.slave.normal_force[3 * s + 1],
+                                      state.slave.normal_force[3 * s + 2]});
+      const double tangential = norm(Vec3{state.slave.tangential_force[3 * s], state.slave.tangential_force[3 * s + 1],
+                                          state.slave.tangential_force[3 * s + 2]});
       const double used = tangential / (friction * normal);
       largest = std::max(largest, used);
       if (state.slipping[s] == 2) least_slipping = std::min(least_slipping, used);
@@ -134,8 +139,9 @@ TEST_CASE("the coefficient told beside the forces is that of the instant, and bo
     }
     place = now;
   });
-  INFO("coefficients " << lowest << " to " << highest << ", at most " << worst << " from the law; tangential force at most "
-                       << largest << " of the bound, slipping at least " << least_slipping);
+  INFO("coefficients " << lowest << " to " << highest << ", at most " << worst
+                       << " from the law; tangential force at most " << largest << " of the bound, slipping at least "
+                       << least_slipping);
   CHECK(lowest < dragged.at_speed + 0.01);
   CHECK(highest > dragged.at_rest - 1e-6);
   CHECK(worst < 1e-6);

@@ -65,8 +65,8 @@ Sliding slide(bool subcycling) {
   return result;
 }
 
-/// What a pulse of `share` of the yield strain has spent in plastic flow after its way through the graded bar, J; with the
-/// energy that came with it, and what the account misses.
+/// What a pulse of `share` of the yield strain has spent in plastic flow after its way through the graded bar, J; with
+/// the energy that came with it, and what the account misses.
 struct Flow {
   double plastic = 0, first = 0, imbalance = 0, gain = 0;
 };
@@ -108,9 +108,10 @@ TEST_CASE("contact forces and friction of a sliding block are the same with subc
     difference = std::max(difference, norm(subcycled.force[k] - plain.at(subcycled.time[k])));
   }
   const double elastic = plain.last.internal + plain.last.contact;
-  INFO("force " << largest << " N, difference " << difference << "; updates " << subcycled.gain << " times fewer; friction "
-                << plain.last.friction << " and " << subcycled.last.friction << " J, elastic " << elastic << " J, imbalance "
-                << plain.imbalance << " and " << subcycled.imbalance << " J");
+  INFO("force " << largest << " N, difference " << difference << "; updates " << subcycled.gain
+                << " times fewer; friction " << plain.last.friction << " and " << subcycled.last.friction
+                << " J, elastic " << elastic << " J, imbalance " << plain.imbalance << " and " << subcycled.imbalance
+                << " J");
   CHECK(largest > 2e4);
   CHECK(difference < 5e-3 * largest);
   CHECK(std::fabs(subcycled.last.friction - plain.last.friction) < 1e-3 * plain.last.friction);
@@ -144,8 +145,9 @@ TEST_CASE("a pulse that yields loses as much in plastic flow with subcycling, an
   // Of the same pulse on even meshes; those of 2.5 mm elements lose 1140 J at 0.1 and 1142 J at 0.9 of the stable step.
   const double exact = 1141;
   const Flow plain = flow(1.5, false), subcycled = flow(1.5, true), elastic = flow(0.9, true);
-  INFO("plastic " << plain.plastic << " and " << subcycled.plastic << " J of " << plain.first << " J; imbalance " << plain.imbalance
-                  << " and " << subcycled.imbalance << " J; below yield " << elastic.plastic << " J");
+  INFO("plastic " << plain.plastic << " and " << subcycled.plastic << " J of " << plain.first << " J; imbalance "
+                  << plain.imbalance << " and " << subcycled.imbalance << " J; below yield " << elastic.plastic
+                  << " J");
   CHECK(subcycled.gain > 2);
   CHECK(std::fabs(subcycled.plastic - exact) < 1.05 * std::fabs(plain.plastic - exact));
   CHECK(std::fabs(plain.plastic - exact) < 0.15 * exact);
@@ -166,7 +168,8 @@ TEST_CASE("the eigenvalue estimate gives the paces of a graded bar one element t
   run(model, {&recorder});
   const double first = balance_total(recorder.samples.front().energy);
   double worst = 0;
-  for (const HistorySample& sample : recorder.samples) worst = std::max(worst, std::fabs(sample.energy.balance_error) / first);
+  for (const HistorySample& sample : recorder.samples)
+    worst = std::max(worst, std::fabs(sample.energy.balance_error) / first);
   INFO("energy off by " << worst);
   CHECK(worst < 0.05);
 }

@@ -12,8 +12,8 @@ struct PulseRun {
   double error = 0, gain = 0;
 };
 
-/// A pulse that has run from one coarse end through the fine middle into the other: error of the displacement against the
-/// exact one, over the exact one, in the mean square.
+/// A pulse that has run from one coarse end through the fine middle into the other: error of the displacement against
+/// the exact one, over the exact one, in the mean square.
 PulseRun pulse_run(double width, scene::Precision precision, bool subcycling) {
   GradedBar bar(40, 30, 1);
   const Pulse pulse{width, 1e-6, 5 * width, bar.wave_speed()};
@@ -45,12 +45,14 @@ Vec3 momentum(const Model& model) {
 
 }  // namespace
 
-TEST_CASE("a pulse through a mesh graded from 30 mm to 1 mm and back is as exact with subcycling, for half the updates or less") {
+TEST_CASE(
+    "a pulse through a mesh graded from 30 mm to 1 mm and back is as exact with subcycling, for half the updates or "
+    "less") {
   for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed})
     for (double width : {0.06, 0.08, 0.12}) {
       const PulseRun plain = pulse_run(width, precision, false), subcycled = pulse_run(width, precision, true);
-      INFO("pulse " << width << " m: error " << plain.error << " plain, " << subcycled.error << " subcycled; updates " << subcycled.gain
-                    << " times fewer");
+      INFO("pulse " << width << " m: error " << plain.error << " plain, " << subcycled.error << " subcycled; updates "
+                    << subcycled.gain << " times fewer");
       CHECK(plain.gain == 1);
       CHECK(subcycled.gain > 2);
       CHECK(subcycled.error < 1.05 * plain.error);
@@ -58,7 +60,8 @@ TEST_CASE("a pulse through a mesh graded from 30 mm to 1 mm and back is as exact
     }
 }
 
-TEST_CASE("subcycling keeps the energy over 60 000 steps of free vibration in all modes, and the momentum to rounding") {
+TEST_CASE(
+    "subcycling keeps the energy over 60 000 steps of free vibration in all modes, and the momentum to rounding") {
   for (double scale : {0.9, 0.8}) {
     GradedBar bar(6, 12, 1);
     bar.scene.time.step_scale = scale;
@@ -101,8 +104,10 @@ TEST_CASE("a coarse region one element thick, which heights call stable with its
     shake(model);
     Recorder recorder;
     run(model, {&recorder});
-    const double first = balance_total(recorder.samples.front().energy), last = balance_total(recorder.samples.back().energy);
-    INFO("cubes of " << largest << " m at the ends: " << model.subcycling.levels << " levels, energy " << last / first << " of what it was");
+    const double first = balance_total(recorder.samples.front().energy),
+                 last = balance_total(recorder.samples.back().energy);
+    INFO("cubes of " << largest << " m at the ends: " << model.subcycling.levels << " levels, energy " << last / first
+                     << " of what it was");
     CHECK(std::fabs(last / first - 1) < 0.05);
     CHECK(recorder.samples.back().step >= 10000);
   }
@@ -119,7 +124,8 @@ TEST_CASE("looking at every round changes nothing, nor does computing at nodes w
   run(one, {});
   march(other, other.step_count, [] {});
   const auto nodes = all_nodes(one);
-  const auto a = node_field(one, NodeField::displacement, nodes).values, b = node_field(other, NodeField::displacement, nodes).values;
+  const auto a = node_field(one, NodeField::displacement, nodes).values,
+             b = node_field(other, NodeField::displacement, nodes).values;
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     difference = std::max(difference, std::fabs(a[i] - b[i]));

@@ -14,7 +14,8 @@ namespace {
 constexpr double pressing = 1e6;  // m/s2
 
 /// A block of `upper` divisions that rests on a held one of `lower` divisions, stiffness hourglass control, settled.
-void build_resting(Model& model, bool symmetric, std::array<int, 3> upper, std::array<int, 3> lower, double friction = 0) {
+void build_resting(Model& model, bool symmetric, std::array<int, 3> upper, std::array<int, 3> lower,
+                   double friction = 0) {
   TwoBlocks blocks;
   blocks.upper_size = {0.04, 0.04, 0.02};
   blocks.lower_size = {friction > 0 ? 0.08 : 0.04, 0.04, 0.02};  // room to slide
@@ -56,7 +57,9 @@ double spread_of(const std::vector<double>& pressure, const std::vector<double>&
 }  // namespace
 
 TEST_CASE("a symmetric contact presses with the whole weight, shared by both surfaces' nodes, equal and opposite") {
-  for (auto [upper, lower] : {std::pair{std::array<int, 3>{4, 4, 2}, std::array<int, 3>{4, 4, 2}}, {{3, 3, 2}, {8, 8, 3}}, {{8, 7, 3}, {3, 4, 2}}}) {
+  for (auto [upper, lower] : {std::pair{std::array<int, 3>{4, 4, 2}, std::array<int, 3>{4, 4, 2}},
+                              {{3, 3, 2}, {8, 8, 3}},
+                              {{8, 7, 3}, {3, 4, 2}}}) {
     Model model;
     build_resting(model, true, upper, lower);
     REQUIRE(model.contacts.size() == 2);
@@ -80,13 +83,16 @@ TEST_CASE("a symmetric contact presses with the whole weight, shared by both sur
     CHECK_THAT(slave, WithinRel(totals.normal_force[2], 1e-10));
     CHECK_THAT(master, WithinRel(-totals.normal_force[2], 1e-10));
     const double reversed_share = std::fabs(contact_state(model, 1).slave.normal_force[2]);
-    WARN("upper " << upper[0] << ", lower " << lower[0] << " elements across: largest over least nodal pressure on the slave "
-                  << spread_of(by_slave, state.slave.area) << ", on the master " << spread_of(by_master, state.master.area));
+    WARN("upper " << upper[0] << ", lower " << lower[0]
+                  << " elements across: largest over least nodal pressure on the slave "
+                  << spread_of(by_slave, state.slave.area) << ", on the master "
+                  << spread_of(by_master, state.master.area));
     CHECK(reversed_share > 0);
   }
 }
 
-TEST_CASE("a symmetric contact lets a finer master enter a coarse slave no deeper than the springs need, a plain one does") {
+TEST_CASE(
+    "a symmetric contact lets a finer master enter a coarse slave no deeper than the springs need, a plain one does") {
   const auto deepest = [](bool symmetric) {
     Model model;
     build_resting(model, symmetric, {3, 3, 2}, {8, 8, 3});
@@ -94,7 +100,8 @@ TEST_CASE("a symmetric contact lets a finer master enter a coarse slave no deepe
     const auto x = to_host(model.nodes.position);
     double highest = -1, slave = 0;
     for (int n : model.contacts[0].master_nodes) highest = std::max(highest, x(n, 2));
-    for (int n : model.contacts[0].slave_nodes) slave += x(n, 2) / static_cast<double>(model.contacts[0].slave_nodes.size());
+    for (int n : model.contacts[0].slave_nodes)
+      slave += x(n, 2) / static_cast<double>(model.contacts[0].slave_nodes.size());
     return highest - slave;
   };
   const double plain = deepest(false), both = deepest(true);
@@ -123,7 +130,8 @@ TEST_CASE("friction of a symmetric contact holds a pull up to mu N in all, and l
   std::size_t a = 0;
   while (time[a] < 2.5e-4) ++a;
   const double acceleration = (speed.back() - speed[a]) / (time.back() - time[a]);
-  INFO("acceleration " << acceleration << ", friction energy " << last.friction << ", way " << way << ", imbalance " << imbalance);
+  INFO("acceleration " << acceleration << ", friction energy " << last.friction << ", way " << way << ", imbalance "
+                       << imbalance);
   CHECK_THAT(acceleration, WithinRel(0.1 * friction * total_pressing() / mass, 0.02));
   CHECK_THAT(last.friction, WithinRel(friction * total_pressing() * way, 0.02));
   CHECK(imbalance < 0.01 * largest_energy(last));
@@ -153,12 +161,14 @@ TEST_CASE("a block in a corner presses on floor and wall with its two loads, tho
   build_model(scene, model);
   REQUIRE(settle_whole(model).settled);
   std::vector<int> on_both;
-  std::set_intersection(model.contacts[0].slave_nodes.begin(), model.contacts[0].slave_nodes.end(), model.contacts[1].slave_nodes.begin(),
-                        model.contacts[1].slave_nodes.end(), std::back_inserter(on_both));
+  std::set_intersection(model.contacts[0].slave_nodes.begin(), model.contacts[0].slave_nodes.end(),
+                        model.contacts[1].slave_nodes.begin(), model.contacts[1].slave_nodes.end(),
+                        std::back_inserter(on_both));
   REQUIRE(on_both.size() == 5);
   march(model, 500, [&] {
     if (model.step % 50 != 0) return;
-    const ContactTotals floor = contact_totals(model, model.contacts[0]), wall = contact_totals(model, model.contacts[1]);
+    const ContactTotals floor = contact_totals(model, model.contacts[0]),
+                        wall = contact_totals(model, model.contacts[1]);
     CHECK_THAT(floor.normal_force[2], WithinRel(3e4, 2e-3));
     CHECK_THAT(wall.normal_force[0], WithinRel(2e4, 2e-3));
     CHECK(reaction_error(floor) < 1e-12);

@@ -14,7 +14,8 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
   CHECK(complaint_of_building(scene).empty());
   SECTION("too far") {
     scene.parts[1].position[2] += 0.004;
-    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("100 of the 100 nodes of 'fine.z_min' have no face of 'coarse.z_max' near enough"));
+    CHECK_THAT(complaint_of_building(scene),
+               ContainsSubstring("100 of the 100 nodes of 'fine.z_min' have no face of 'coarse.z_max' near enough"));
     CHECK_THAT(complaint_of_building(scene), ContainsSubstring("0, 0.064) m, 0.004 m from it (allowed: 0.00283 m); ("));
     scene.ties[0].max_distance = 0.005;
     CHECK(complaint_of_building(scene).empty());
@@ -26,7 +27,8 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
   SECTION("tied twice") {
     scene.ties.push_back(scene.ties[0]);
     scene.ties[1].name = "again";
-    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("0.06) m is tied by [ties.grown] already; name surfaces without common nodes"));
+    CHECK_THAT(complaint_of_building(scene),
+               ContainsSubstring("0.06) m is tied by [ties.grown] already; name surfaces without common nodes"));
   }
   SECTION("each other's slave") {
     scene.meshes[1].box.divisions = {3, 3, 3};
@@ -40,7 +42,8 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
   }
   SECTION("held") {
     hold(scene, "fine.x_min", {true, false, false});
-    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("is held by a constraint that does not hold the face under it"));
+    CHECK_THAT(complaint_of_building(scene),
+               ContainsSubstring("is held by a constraint that does not hold the face under it"));
     hold(scene, "coarse.x_min", {true, false, false});
     CHECK(complaint_of_building(scene).empty());
   }

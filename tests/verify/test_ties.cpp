@@ -21,7 +21,8 @@ double patch_error(const TiedBlocks& blocks) {
   CHECK(report.settled);
   const auto stress = element_stress(model, all_elements(model)).values;
   double worst = 0;
-  for (std::size_t k = 0; k < stress.size(); ++k) worst = std::fmax(worst, std::fabs(stress[k] - (k % 6 == 2 ? 1e6 : 0)) / 1e6);
+  for (std::size_t k = 0; k < stress.size(); ++k)
+    worst = std::fmax(worst, std::fabs(stress[k] - (k % 6 == 2 ? 1e6 : 0)) / 1e6);
   return worst;
 }
 
@@ -44,7 +45,8 @@ TEST_CASE("patch test: where nodes of the meshes do not fall on each other, stre
 
 namespace {
 
-/// Largest velocity that a pulse from one block leaves in it after it has gone over into the other, relative to its own.
+/// Largest velocity that a pulse from one block leaves in it after it has gone over into the other, relative to its
+/// own.
 double reflected(TiedBlocks blocks, bool from_coarse) {
   blocks.axis = 0;
   blocks.size = {0.4, 0.01, 0.01};
@@ -53,13 +55,16 @@ double reflected(TiedBlocks blocks, bool from_coarse) {
   const double deviation = 0.03, amplitude = 1e-6;
   scene::Scene scene = blocks.scene(1);
   for (const char* part : {"coarse", "fine"}) hold(scene, part, {false, true, true});
-  const double c = scene.materials[0].dilatational_speed(), sign = from_coarse ? 1 : -1, from = from_coarse ? 0.25 : 0.55;
+  const double c = scene.materials[0].dilatational_speed(), sign = from_coarse ? 1 : -1,
+               from = from_coarse ? 0.25 : 0.55;
   scene.time.end = 0.3 / c;
   Model model;
   build_model(scene, model);
   const auto shape = [&](double x) { return amplitude * std::exp(-0.5 * std::pow((x - from) / deviation, 2)); };
   set_position(model, [&](const Vec3& x, int) { return Vec3{x[0] + shape(x[0]), x[1], x[2]}; });
-  set_velocity(model, [&](const Vec3& x, int) { return Vec3{sign * c * (x[0] - from) / (deviation * deviation) * shape(x[0]), 0, 0}; });
+  set_velocity(model, [&](const Vec3& x, int) {
+    return Vec3{sign * c * (x[0] - from) / (deviation * deviation) * shape(x[0]), 0, 0};
+  });
   const auto fastest = [&](const std::string& part) {
     const auto v = node_field(model, NodeField::velocity, model.assembly.node_sets.at(part)).values;
     double largest = 0;
@@ -78,12 +83,14 @@ double reflected(TiedBlocks blocks, bool from_coarse) {
 }  // namespace
 
 TEST_CASE("a P pulse goes through a tie of meshes 3:1 with less than 2 % thrown back") {
-  for (auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision})
+  for (auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision})
     for (bool from_coarse : {true, false}) {
       TiedBlocks blocks;
       blocks.precision = precision;
       const double share = reflected(blocks, from_coarse);
-      INFO("precision " << static_cast<int>(precision) << (from_coarse ? ", into the fine" : ", into the coarse") << ": amplitude thrown back " << share);
+      INFO("precision " << static_cast<int>(precision) << (from_coarse ? ", into the fine" : ", into the coarse")
+                        << ": amplitude thrown back " << share);
       CHECK(share < 0.02);
     }
 }
@@ -114,7 +121,9 @@ TEST_CASE("ties keep linear and angular momentum to rounding, and energy in bala
     scene.parts[0].hourglass = scene.parts[1].hourglass = scene::HourglassType::stiffness;
     Model model;
     build_model(scene, model);
-    set_velocity(model, [](const Vec3& x, int) { return Vec3{10 * std::sin(40 * x[2]), 20 * x[0] - 5, 8 * std::cos(50 * x[1])}; });
+    set_velocity(model, [](const Vec3& x, int) {
+      return Vec3{10 * std::sin(40 * x[2]), 20 * x[0] - 5, 8 * std::cos(50 * x[1])};
+    });
     march(model, 1, [] {});
     const Momentum before(model);
     march(model, 500, [] {});
@@ -126,11 +135,14 @@ TEST_CASE("ties keep linear and angular momentum to rounding, and energy in bala
 
     Model again;
     build_model(scene, again);
-    set_velocity(again, [](const Vec3& x, int) { return Vec3{10 * std::sin(40 * x[2]), 20 * x[0] - 5, 8 * std::cos(50 * x[1])}; });
+    set_velocity(again, [](const Vec3& x, int) {
+      return Vec3{10 * std::sin(40 * x[2]), 20 * x[0] - 5, 8 * std::cos(50 * x[1])};
+    });
     Recorder recorder;
     run(again, {&recorder});
     double worst = 0;
-    for (const HistorySample& sample : recorder.samples) worst = std::fmax(worst, std::fabs(sample.energy.balance_error));
+    for (const HistorySample& sample : recorder.samples)
+      worst = std::fmax(worst, std::fabs(sample.energy.balance_error));
     const double largest = largest_energy(recorder.samples.back().energy);
     INFO("gap " << gap << ": worst imbalance " << worst / largest);
     CHECK(worst < 1e-4 * largest);
@@ -160,7 +172,8 @@ TEST_CASE("tied bodies fall freely, and settle under their weight as one") {
     CHECK(settle_whole(model).settled);
     // rho g L^2 / 2 M for a column that cannot widen.
     const double expected = -7800 * 9.81e3 * 0.12 * 0.12 / (2 * steel().dilatational_modulus());
-    CHECK_THAT(mean(model, NodeField::displacement, model.assembly.node_sets.at("fine.z_max"))[2], WithinRel(expected, 2e-3));
+    CHECK_THAT(mean(model, NodeField::displacement, model.assembly.node_sets.at("fine.z_max"))[2],
+               WithinRel(expected, 2e-3));
   }
 }
 
@@ -210,7 +223,8 @@ TEST_CASE("a contact may press on tied nodes: forces go over the tie, momentum i
   march(model, 1, [] {});
   const Momentum before(model);
   double most = 0;
-  march(model, model.step_count, [&] { most = std::fmax(most, norm(contact_totals(model, model.contacts[0]).normal_force)); });
+  march(model, model.step_count,
+        [&] { most = std::fmax(most, norm(contact_totals(model, model.contacts[0]).normal_force)); });
   const Momentum after(model);
   CHECK(most > 1e4);
   CHECK(norm(after.linear - before.linear) < 1e-11 * norm(before.linear));

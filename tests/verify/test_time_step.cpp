@@ -78,7 +78,8 @@ TEST_CASE("matched blocks pressed together stay calm for 20000 steps of the prog
     blocks.upper_divisions = blocks.lower_divisions = {3, 3, 2};
     blocks.friction = 0.3;
     scene::Scene scene = blocks.scene(1);
-    for (scene::Part& part : scene.parts) set_hourglass(part, hourglass, hourglass == scene::HourglassType::viscous ? 0.1 : 0.05);
+    for (scene::Part& part : scene.parts)
+      set_hourglass(part, hourglass, hourglass == scene::HourglassType::viscous ? 0.1 : 0.05);
     scene.gravity = {0, 0, -1e7};
     hold(scene, "lower.z_min", {true, true, true});
     scene.settle.active = true;
@@ -95,8 +96,9 @@ TEST_CASE("matched blocks pressed together stay calm for 20000 steps of the prog
       fastest = std::max(fastest, largest_speed(model));
       mean_force = mean_force + (1.0 / (steps / 100 + 1)) * contact_totals(model, model.contacts[0]).normal_force;
     });
-    INFO("hourglass type " << static_cast<int>(hourglass) << ": fastest node " << fastest << " m/s, mean contact force / weight "
-                           << mean_force[2] / weight << ", contact step / element step "
+    INFO("hourglass type " << static_cast<int>(hourglass) << ": fastest node " << fastest
+                           << " m/s, mean contact force / weight " << mean_force[2] / weight
+                           << ", contact step / element step "
                            << model.stable_step.contact / model.stable_step.elements);
     // What the shake and the end of the settling's hourglass support set in motion; an instability passes any bound.
     CHECK(fastest < 0.1);

@@ -86,15 +86,16 @@ double relative_speed(scene::Scene scene, Wave wave) {
 TEST_CASE("bar, P and S waves of 20 elements run within 0.5 % of their speeds") {
   for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
     for (Wave wave : {Wave::bar, Wave::dilatational, Wave::shear}) {
-      // A bar wave has the bar's speed only where the bar is thin: lateral inertia slows it by (nu k r)^2 / 2, here 0.06 %.
+      // A bar wave has the bar's speed only where the bar is thin: lateral inertia slows it by (nu k r)^2 / 2, here
+      // 0.06 %.
       const double width = wave == Wave::bar ? 0.005 : 0.01;
       scene::Scene scene = block_scene({0.4, width, width}, {40, 1, 1}, 1);
       // A bar of one free element across has higher frequencies than V / A_max tells.
       scene.time.step_scale = wave == Wave::bar ? 0.6 : 0.9;
       set_hourglass(scene.parts[0], hourglass, hourglass == scene::HourglassType::viscous ? 0.1 : 0.05);
       const double ratio = relative_speed(scene, wave);
-      INFO("wave " << static_cast<int>(wave) << ", hourglass type " << static_cast<int>(hourglass) << ": speed / theory "
-                   << ratio);
+      INFO("wave " << static_cast<int>(wave) << ", hourglass type " << static_cast<int>(hourglass)
+                   << ": speed / theory " << ratio);
       check_speed(ratio, find_bar(assemble(scene)));
     }
 }

@@ -6,10 +6,10 @@ namespace railwave::verify {
 
 /// Two blocks, "coarse" below "fine" or beside it along x, tied over a plane where their meshes do not match.
 struct TiedBlocks {
-  Vec3 size{0.06, 0.06, 0.06};         ///< m, of each
+  Vec3 size{0.06, 0.06, 0.06};  ///< m, of each
   std::array<int, 3> coarse{3, 3, 3}, fine{9, 9, 9};
-  int axis = 2;                        ///< along which they follow each other
-  double gap = 0;                      ///< m, that the tie keeps
+  int axis = 2;    ///< along which they follow each other
+  double gap = 0;  ///< m, that the tie keeps
   scene::Precision precision = scene::Precision::double_precision;
 
   std::string end(int side) const { return std::string(".") + "xyz"[axis] + (side < 0 ? "_min" : "_max"); }

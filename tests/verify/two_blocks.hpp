@@ -10,12 +10,12 @@ inline const char* name_of(scene::ContactAlgorithm algorithm) {
   return algorithm == scene::ContactAlgorithm::penalty ? "penalty" : "multiplier";
 }
 
-/// A block on a larger one, both about the z axis: "upper" on "lower", touching planes at z = 0, contact "touch" with the
-/// upper block as slave.
+/// A block on a larger one, both about the z axis: "upper" on "lower", touching planes at z = 0, contact "touch" with
+/// the upper block as slave.
 struct TwoBlocks {
   Vec3 upper_size{0.04, 0.04, 0.01}, lower_size{0.08, 0.08, 0.02};
   std::array<int, 3> upper_divisions{8, 8, 2}, lower_divisions{16, 16, 4};
-  double gap = 0;       ///< m, before the run
+  double gap = 0;  ///< m, before the run
   double friction = 0;
   scene::ContactAlgorithm algorithm = scene::ContactAlgorithm::penalty;
 
@@ -49,7 +49,8 @@ inline void hold(scene::Scene& scene, const std::string& target, std::array<bool
   scene.constraints.push_back(held);
 }
 
-inline scene::Load& add_force(scene::Scene& scene, const std::string& target, const Vec3& force, const std::string& curve) {
+inline scene::Load& add_force(scene::Scene& scene, const std::string& target, const Vec3& force,
+                              const std::string& curve) {
   scene::Load load;
   load.name = "force on " + target;
   load.type = scene::LoadType::nodal_force;

@@ -9,10 +9,10 @@
 namespace railwave::verify {
 
 struct Seed {
-  std::string what, cause;                     ///< what is wrong, and the name by which the watch must call it
+  std::string what, cause;  ///< what is wrong, and the name by which the watch must call it
   scene::Scene scene;
-  std::function<void(Model&)> spoil = {};      ///< after building
-  std::function<void(Assembly&)> mesh = {};    ///< before
+  std::function<void(Model&)> spoil = {};    ///< after building
+  std::function<void(Assembly&)> mesh = {};  ///< before
 };
 
 /// As if the estimate had been wrong: the case reader and the builder refuse such a step.
@@ -20,7 +20,9 @@ inline std::function<void(Model&)> step(double factor, double (*of)(const Model&
   return [=](Model& model) { model.step_size = factor * of(model); };
 }
 inline double element_height(const Model& model) { return model.stable_step.elements; }
-inline double element_free(const Model& model) { return model.element_length[0] / model.scene.materials[0].dilatational_speed(); }
+inline double element_free(const Model& model) {
+  return model.element_length[0] / model.scene.materials[0].dilatational_speed();
+}
 inline double allowed(const Model& model) { return model.stable_step.limit; }
 
 inline scene::Load& press(scene::Scene& scene, const std::string& target, double pressure) {
@@ -108,8 +110,10 @@ inline std::vector<Seed> seeds() {
   std::vector<Seed> all;
   all.push_back({"step 1.05 times the elements'", "step beyond elements", pressed_block(), step(1.05, element_height)});
   all.push_back({"step 3 times the elements'", "step beyond elements", pressed_block(), step(3, element_height)});
-  all.push_back({"step 1.3 times the contact springs'", "step beyond contact springs", pressed_blocks(20), step(1.3, allowed)});
-  all.push_back({"penalty scale 100 with the step of 1", "step beyond contact springs", pressed_blocks(100), step(0.9, element_height)});
+  all.push_back(
+      {"step 1.3 times the contact springs'", "step beyond contact springs", pressed_blocks(20), step(1.3, allowed)});
+  all.push_back({"penalty scale 100 with the step of 1", "step beyond contact springs", pressed_blocks(100),
+                 step(0.9, element_height)});
   all.push_back({"step 1.2 times a spring's", "step beyond spring", sprung_mass(1e12, 0), step(1.2, allowed)});
   all.push_back({"step 1.5 times a dashpot's", "step beyond dashpot", sprung_mass(1e6, 1e5), step(1.5, allowed)});
   all.push_back({"step 1.5 times the beams'", "step beyond beams", bent_beam(), step(1.5, allowed)});
@@ -118,8 +122,10 @@ inline std::vector<Seed> seeds() {
   all.push_back({"stiffness hourglass coefficient 5", "hourglass control too strong",
                  changed(pressed_block(), part(scene::HourglassType::stiffness, 5)), step(0.9, element_free)});
   all.push_back({"stiffness damping with the undamped step", "damping of a part",
-                 changed(pressed_block(), [](Scene& scene) { scene.parts[0].stiffness_damping = 1e-4; }), step(0.9, element_free)});
-  all.push_back({"no hourglass control under a point load", "no hourglass control", changed(block_scene({0.1, 0.1, 0.02}, {10, 10, 2}, 1), [](Scene& scene) {
+                 changed(pressed_block(), [](Scene& scene) { scene.parts[0].stiffness_damping = 1e-4; }),
+                 step(0.9, element_free)});
+  all.push_back({"no hourglass control under a point load", "no hourglass control",
+                 changed(block_scene({0.1, 0.1, 0.02}, {10, 10, 2}, 1), [](Scene& scene) {
                    set_hourglass(scene.parts[0], scene::HourglassType::viscous, 0);
                    hold(scene, "block.x_min", {true, true, true});
                    scene::NodeSet corner;
@@ -140,9 +146,11 @@ inline std::vector<Seed> seeds() {
                    Vec3 mean{};
                    for (int k : {1, 3, 4})
                      for (int i = 0; i < 3; ++i) mean[i] += assembly.nodes[element[k]][i] / 3;
-                   for (int i = 0; i < 3; ++i) assembly.nodes[element[0]][i] += 0.985 * (mean[i] - assembly.nodes[element[0]][i]);
+                   for (int i = 0; i < 3; ++i)
+                     assembly.nodes[element[0]][i] += 0.985 * (mean[i] - assembly.nodes[element[0]][i]);
                  }});
-  all.push_back({"half a face of initial penetration", "initial penetration", changed(pressed_blocks(1), [](Scene& scene) { scene.parts[0].position[2] = -0.004; })});
+  all.push_back({"half a face of initial penetration", "initial penetration",
+                 changed(pressed_blocks(1), [](Scene& scene) { scene.parts[0].position[2] = -0.004; })});
   all.push_back({"springs of contact a thousandth as stiff", "soft penalty", pressed_blocks(1e-4, 2e8)});
   all.push_back({"velocity in mm/s", "speed", changed(pressed_block(), [](Scene& scene) {
                    scene.constraints.clear();
@@ -160,7 +168,8 @@ inline std::vector<Seed> seeds() {
                    scene.curves.push_back(curve);
                    scene.loads[0].curve = "measured";
                  })});
-  all.push_back({"density in tonnes per mm3", "material", changed(pressed_block(), [](Scene& scene) { scene.materials[0].density = 7.8e-9; })});
+  all.push_back({"density in tonnes per mm3", "material",
+                 changed(pressed_block(), [](Scene& scene) { scene.materials[0].density = 7.8e-9; })});
   all.push_back({"torque on a block that nothing holds", "unheld", spun_block()});
   return all;
 }

@@ -1,12 +1,13 @@
-#include <catch2/catch_test_macros.hpp>
 #include <fmt/format.h>
+#include <catch2/catch_test_macros.hpp>
 
 #include "tests/watch/seeded.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
 
-/// The check of the energy balance: what is done here to a run's state from outside stands for whatever defect makes or loses energy.
+/// The check of the energy balance: what is done here to a run's state from outside stands for whatever defect makes or
+/// loses energy.
 namespace {
 
 /// Changes a run's state at the first look from a step on, or at each, and remembers what the watch said.
@@ -70,7 +71,8 @@ scene::Scene pressed_pair(scene::ContactAlgorithm algorithm) {
 
 constexpr long steps = 4000;
 
-Meddler run_with(const scene::Scene& scene, const std::function<void(Model&)>& meddle, long of_steps = steps, bool again = false) {
+Meddler run_with(const scene::Scene& scene, const std::function<void(Model&)>& meddle, long of_steps = steps,
+                 bool again = false) {
   Model model;
   build_model(scene, model);
   Meddler meddler;
@@ -84,7 +86,8 @@ Meddler run_with(const scene::Scene& scene, const std::function<void(Model&)>& m
   return meddler;
 }
 
-/// Stopped by the energy check, before a twentieth of the run was wasted, or between two of the looks that the least of runs has.
+/// Stopped by the energy check, before a twentieth of the run was wasted, or between two of the looks that the least of
+/// runs has.
 void check_stopped(const Meddler& meddler, long of_steps = steps) {
   INFO("meddled with at step " << meddler.done_at << "; " << meddler.said());
   REQUIRE(meddler.done_at > 0);
@@ -165,7 +168,9 @@ TEST_CASE("energy that is made beside a fast heavy mass ends the run within a tw
     energy = 1.5 * deformation(quiet);
     CHECK(energy < 1e-5 * quiet.before.kinetic);
     check_stopped(run_with(scene, [&](Model& model) { shake(model, "upper", energy); }));
-    check_stopped(run_with(scene, [&](Model& model) { shake(model, "upper", energy); }, 400), 400);
+    check_stopped(run_with(
+                      scene, [&](Model& model) { shake(model, "upper", energy); }, 400),
+                  400);
     // One node is found deep in the other body, as a wrong projection leaves it.
     check_stopped(run_with(scene, [&](Model& model) {
       const auto position = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), model.nodes.position);
@@ -173,13 +178,15 @@ TEST_CASE("energy that is made beside a fast heavy mass ends the run within a tw
       Kokkos::deep_copy(model.nodes.position, position);
     }));
     // Little by little, a tenth of what deforms at each look: it ends once half is made, a few looks later at most.
-    const Meddler slow = run_with(scene, [&](Model& model) { shake(model, "upper", energy / 15); }, 10 * steps, true);
+    const Meddler slow = run_with(
+        scene, [&](Model& model) { shake(model, "upper", energy / 15); }, 10 * steps, true);
     INFO(slow.said());
     REQUIRE(slow.summary.fault);
     CHECK(slow.summary.fault->kind == FaultKind::energy);
     CHECK(slow.summary.fault->value < 1);
     // Energy that is lost: all that both bodies hold.
-    check_stopped(run_with(scene, [&](Model& model) { Kokkos::deep_copy(model.nodes.position, model.nodes.reference); }));
+    check_stopped(
+        run_with(scene, [&](Model& model) { Kokkos::deep_copy(model.nodes.position, model.nodes.reference); }));
   }
 }
 
@@ -204,7 +211,8 @@ TEST_CASE("a body that is carried along by a prescribed motion is no error") {
 }
 
 TEST_CASE("what only travels is no error: bodies in flight, spun and in free fall, beside a fast heavy mass") {
-  for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
+  for (const auto precision :
+       {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {
     scene::Scene scene = block_scene({0.05, 0.05, 0.05}, {3, 3, 3}, 1);
     scene.solver.precision = precision;
     scene.parts[0].take_hourglass(scene::HourglassType::stiffness);

@@ -1,5 +1,5 @@
-#include <catch2/catch_test_macros.hpp>
 #include <fmt/format.h>
+#include <catch2/catch_test_macros.hpp>
 
 #include <iostream>
 
@@ -24,8 +24,10 @@ struct Witness : RunObserver {
   }
   /// A hundredth of what the run was given is no rounding.
   void progress(const Model& model, const HistorySample& sample) override {
-    given = std::max({given, std::fabs(sample.energy.external_work), sample.energy.kinetic - sample.energy.balance_error});
-    const bool good = std::isfinite(sample.energy.balance_error) && std::fabs(sample.energy.balance_error) <= 0.01 * given;
+    given =
+        std::max({given, std::fabs(sample.energy.external_work), sample.energy.kinetic - sample.energy.balance_error});
+    const bool good =
+        std::isfinite(sample.energy.balance_error) && std::fabs(sample.energy.balance_error) <= 0.01 * given;
     if (good) last_good = model.step;
     odd_since = good ? -1 : last_good;
   }
@@ -37,7 +39,8 @@ constexpr long steps = 40000;
 
 struct Outcome {
   std::string told, cause;
-  double wasted = 0;  ///< share of the run between the last good look and the stop, or the first warning where it goes on
+  double wasted =
+      0;  ///< share of the run between the last good look and the stop, or the first warning where it goes on
   Witness witness;
 };
 
@@ -56,18 +59,25 @@ Outcome outcome_of(const Seed& seed, long limit = steps) {
   Outcome outcome;
   run(model, {&outcome.witness});
   const RunSummary& summary = outcome.witness.summary;
-  if (const Fault* fault = summary.fault ? &*summary.fault : outcome.witness.warnings.empty() ? nullptr : &outcome.witness.warnings.front()) {
+  if (const Fault* fault = summary.fault                      ? &*summary.fault
+                           : outcome.witness.warnings.empty() ? nullptr
+                                                              : &outcome.witness.warnings.front()) {
     outcome.told = fault->told();
     outcome.cause = fault->causes.at(0).name;
   }
   const long until = summary.fault ? summary.steps : outcome.witness.first_warning;
-  outcome.wasted = outcome.witness.odd_since < 0 ? 0 : static_cast<double>(std::max(0L, until - outcome.witness.odd_since)) / static_cast<double>(limit);
+  outcome.wasted =
+      outcome.witness.odd_since < 0
+          ? 0
+          : static_cast<double>(std::max(0L, until - outcome.witness.odd_since)) / static_cast<double>(limit);
   return outcome;
 }
 
 }  // namespace
 
-TEST_CASE("twenty seeded instabilities are all named with the true cause first and before a twentieth of the run is wasted", "[table]") {
+TEST_CASE(
+    "twenty seeded instabilities are all named with the true cause first and before a twentieth of the run is wasted",
+    "[table]") {
   // What docs/watch.md shows.
   std::cout << "| seeded | named first | run until step | wasted |\n|---|---|---|---|\n";
   int named = 0, right = 0, timely = 0, count = 0;
@@ -80,7 +90,9 @@ TEST_CASE("twenty seeded instabilities are all named with the true cause first a
     const std::string cause = outcome.cause;
     named += is_named;
     right += cause == seed.cause;
-    std::cout << fmt::format("| {} | {} | {} | {:.3f} % |\n", seed.what, cause, outcome.witness.summary.steps, 100 * outcome.wasted) << std::flush;
+    std::cout << fmt::format("| {} | {} | {} | {:.3f} % |\n", seed.what, cause, outcome.witness.summary.steps,
+                             100 * outcome.wasted)
+              << std::flush;
     INFO(seed.what << ": " << told);
     CHECK(is_named);
     timely += outcome.wasted < 0.05;

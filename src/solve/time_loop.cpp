@@ -3,17 +3,14 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <chrono>
-#include <cmath>
 #include <functional>
 
 #include "model/doubts.hpp"
-#include "model/place_element_sets.hpp"
-#include "model/place_sets.hpp"
-#include "model/stable_step.hpp"
 #include "solve/account.hpp"
-#include "solve/contact_window.hpp"
 #include "solve/force_swing.hpp"
+#include "solve/output_schedule.hpp"
+#include "solve/run_summary.hpp"
+#include "solve/run_timing.hpp"
 #include "solve/stages.hpp"
 #include "solve/static_start.hpp"
 #include "solve/step_control.hpp"
@@ -22,41 +19,9 @@
 namespace railwave {
 namespace {
 
-/// Asked for by signal handlers, and by the thread that writes.
+/// Set by signal handlers and by the thread that writes.
 std::atomic<int> stop_requested{0};
 static_assert(std::atomic<int>::is_always_lock_free);
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// When the loop has to stop for the outside.
-class Schedule {
- public:
-  explicit Schedule(const Model& model)
-      : model_(model),
-        history_(model.output_times.history, model.step_size, model.subcycling.round()),
-        fields_(model.output_times.fields, model.step_size, model.subcycling.round()) {}
-
-  bool last() const { return model_.step == model_.step_count; }
-  bool history() const { return history_.due(model_.step) || last(); }
-  bool fields() const { return fields_.due(model_.step) || last(); }
-
-  void step_changed(double from) {
-    history_.step_changed(model_.step, from, model_.step_size);
-    fields_.step_changed(model_.step, from, model_.step_size);
-  }
-
-  template <class Archive>
-  void archive(Archive& archive) {
-    history_.archive(archive, "history_due");
-    fields_.archive(archive, "fields_due");
-  }
-
- private:
-  const Model& model_;
-  EverySoOften history_, fields_;
-};
 
 /// @return whether the run begins in equilibrium
 bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
@@ -84,7 +49,7 @@ std::string while_settling(const Model& model, bool out_of_time) {
 /// What the loop itself remembers from one step to the next.
 struct LoopMemory {
   StepControl control;
-  Schedule due;
+  OutputSchedule due;
   std::vector<ForceSwing> swings;
   Watch watch;
   double total_at_start = 0;
@@ -107,59 +72,193 @@ struct LoopMemory {
   }
 };
 
-/// What looks of the watch cost: a step that nothing else asked to look at, less what a step takes anyhow; where
-/// something else did, the watch's own part alone.
-class LookTime {
+/// A run from its beginning, or from a checkpoint, to its end (thesis table 2.1).
+class TimeLoop {
  public:
-  void begin() {
-    ExecutionSpace().fence();
-    from_ = Clock::now();
+  TimeLoop(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping)
+      : model_(model),
+        observers_(observers),
+        keeping_(keeping),
+        doubts_(report_beginning()),
+        in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
+        prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
+        memory_{StepControl(model), OutputSchedule(model),
+                std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()), Watch(model)},
+        stages_(force_stages(model)) {
+    if (keeping.from) restore();
+    summary_.first_step = model.step;
+    instant_.elapsed = memory_.elapsed;
+    since_first_step_.restart();
   }
-  void end(bool whole_step) {
-    ExecutionSpace().fence();
-    seconds_ += seconds_since(from_);
-    whole_steps_ += whole_step;
-  }
-  double seconds(double of_run, long steps) const {
-    const long others = steps - whole_steps_;
-    const double usual = others > 0 ? std::max(0.0, of_run - seconds_) / static_cast<double>(others) : 0;
-    return std::max(0.0, seconds_ - static_cast<double>(whole_steps_) * usual);
+
+  RunSummary run() {
+    while (true) {
+      begin_step();
+      checkpoint_if_due();
+      plan_step();
+      compute_forces();
+      if (sampled_) monitor_and_output();
+      if (ends()) break;
+      advance_clock();
+    }
+    return summary();
   }
 
  private:
-  Clock::time_point from_;
-  double seconds_ = 0;
-  long whole_steps_ = 0;
-};
+  bool out_of_time() const { return keeping_.time_left > 0 && since_call_.seconds() >= keeping_.time_left; }
+  bool may_go_on() const { return stop_requested == 0 && !out_of_time(); }
 
-/// When states are kept and when the wall time is spent.
-class Keeper {
- public:
-  explicit Keeper(const RunKeeping& keeping) : keeping_(keeping), began_(Clock::now()), last_(began_) {}
-
-  bool out_of_time() const { return keeping_.time_left > 0 && seconds_since(began_) >= keeping_.time_left; }
-  bool due() const {
-    return keeping_.checkpoints && keeping_.interval > 0 && seconds_since(last_) >= keeping_.interval;
+  std::vector<std::string> report_beginning() {
+    for (RunObserver* observer : observers_) observer->begin(model_);
+    std::vector<std::string> doubts = scene_doubts(model_);
+    for (RunObserver* observer : observers_) observer->doubts(doubts);
+    return doubts;
   }
 
-  void keep(Model& model, LoopMemory& memory, RunSummary& summary) {
-    if (!keeping_.checkpoints) return;
-    const auto from = Clock::now();
+  void restore() {
+    lay_model_state(model_, *keeping_.from);
+    StateLayer layer(*keeping_.from);
+    memory_.archive(layer);
+    memory_.control.move_end();
+  }
+
+  /// The time comes first: a checkpoint holds that of its step.
+  void begin_step() {
+    instant_.time = model_.time = memory_.control.time();
+    stopping_ = false;
+    if (!model_.subcycling.in_phase(model_.step)) return;
+    summary_.out_of_time = out_of_time();
+    stopping_ = summary_.out_of_time || stop_requested != 0;
+  }
+
+  void checkpoint_if_due() {
+    // A scene that was stopped while it settled has nothing to go on from.
+    if (!keeping_.checkpoints || !model_.subcycling.in_phase(model_.step) || !prepared_) return;
+    if (model_.step <= summary_.first_step) return;
+    const bool interval_is_over = keeping_.interval > 0 && since_checkpoint_.seconds() >= keeping_.interval;
+    if (memory_.due.last() ? keeping_.at_end : stopping_ || interval_is_over) checkpoint();
+  }
+
+  void checkpoint() {
+    const WallClock clock;
     RunState state;
-    take_model_state(model, state);
+    take_model_state(model_, state);
     StateTaker taker(state);
-    memory.archive(taker);
-    state.history_rows = memory.history_rows;
-    state.field_outputs = memory.field_outputs;
+    memory_.archive(taker);
+    state.history_rows = memory_.history_rows;
+    state.field_outputs = memory_.field_outputs;
     keeping_.checkpoints->keep(std::move(state));
-    ++summary.checkpoints;
-    last_ = Clock::now();
-    summary.checkpoint_seconds += std::chrono::duration<double>(last_ - from).count();
+    ++summary_.checkpoints;
+    since_checkpoint_.restart();
+    summary_.checkpoint_seconds += clock.seconds();
   }
 
- private:
+  /// The size of this step, and whether anybody looks at its instant.
+  void plan_step() {
+    const double size_before = model_.step_size;
+    if (memory_.control.renew()) memory_.due.step_changed(size_before);
+    instant_.step = model_.step_size;
+    // A run that goes on with a model that has run before begins at a later step.
+    first_ = !keeping_.from && model_.step == summary_.first_step;
+    output_due_ = memory_.due.history() || memory_.due.fields() || stopping_;
+    const bool monitor_due = memory_.watch.due(model_.step) && model_.subcycling.in_phase(model_.step);
+    sampled_ = output_due_ || first_ || monitor_due;
+    instant_.advancing = !sampled_;
+    if (sampled_ && !output_due_) monitor_timing_.begin();
+  }
+
+  /// A region for profilers around each stage (Kokkos Tools).
+  void compute_forces() {
+    for (const Stage& stage : stages_) {
+      Kokkos::Profiling::pushRegion(stage.name);
+      stage.run(instant_);
+      Kokkos::Profiling::popRegion();
+    }
+    memory_.watch.glance();
+  }
+
+  void monitor_and_output() {
+    HistorySample sample =
+        (output_due_ ? take_sample : take_look)(model_, model_.step_size, memory_.watch.part_energies(model_.step));
+    if (first_) memory_.total_at_start = balance_total(sample.energy);
+    sample.energy.balance_error = balance_total(sample.energy) - memory_.total_at_start;
+    monitor(sample);
+    for (std::size_t c = 0; c < memory_.swings.size(); ++c)
+      memory_.swings[c].add(sample.time, sample.contacts[c].normal_force);
+    output(sample);
+  }
+
+  /// Looks for faults and reports them.
+  void monitor(HistorySample& sample) {
+    if (output_due_) monitor_timing_.begin();
+    const std::vector<Fault> found = memory_.watch.look(sample);
+    if (output_due_) monitor_timing_.end(false);
+    for (const Fault& fault : found)
+      for (RunObserver* observer : observers_) observer->warning(model_, fault);
+    const Fault* fault = memory_.watch.fatal();
+    if (!fault) return;
+    summary_.fault = *fault;
+    summary_.reason = fault->told();
+    if (!output_due_) add_what_histories_tell(model_, sample);
+  }
+
+  void output(const HistorySample& sample) {
+    const bool last_chance = stopping_ || summary_.fault;
+    for (RunObserver* observer : observers_) {
+      if (memory_.due.history() || last_chance) observer->history(model_, sample);
+      if (memory_.due.fields() || last_chance) observer->fields(model_, sample);
+      observer->progress(model_, sample);
+    }
+    if (memory_.due.history()) ++memory_.history_rows;
+    if (memory_.due.fields()) ++memory_.field_outputs;
+  }
+
+  bool ends() {
+    if (summary_.fault || memory_.due.last()) return true;
+    if (!stopping_) return false;
+    summary_.reason = prepared_ ? fmt::format("{} at step {} of {}, t = {:.6g} s",
+                                              summary_.out_of_time ? "the wall time is spent" : "interrupted",
+                                              model_.step, model_.step_count, model_.time)
+                                : while_settling(model_, summary_.out_of_time);
+    return true;
+  }
+
+  void advance_clock() {
+    Kokkos::Profiling::pushRegion("node update");
+    advance(model_, model_.step_size);
+    Kokkos::Profiling::popRegion();
+    instant_.elapsed = memory_.elapsed = model_.step_size;
+    if (sampled_ && !output_due_) monitor_timing_.end(true);
+  }
+
+  RunSummary summary() {
+    const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
+    if (!trouble.empty()) summary_.warnings.push_back(trouble);
+    summary_.wall_seconds = since_first_step_.seconds();  // until all is written
+    summary_.watch_seconds =
+        monitor_timing_.seconds(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
+    summarize_run(model_, memory_.control, memory_.watch, memory_.swings, doubts_, summary_);
+    for (RunObserver* observer : observers_) observer->end(model_, summary_);
+    return summary_;
+  }
+
+  const WallClock since_call_;
+  WallClock since_checkpoint_, since_first_step_;
+  Model& model_;
+  const std::vector<RunObserver*>& observers_;
   const RunKeeping& keeping_;
-  Clock::time_point began_, last_;
+  const std::vector<std::string> doubts_;
+  const bool in_equilibrium_;
+  const bool prepared_;  ///< false: stopped while it settled
+  LoopMemory memory_;
+  const std::vector<Stage> stages_;
+  RunSummary summary_;
+  MonitorTiming monitor_timing_;
+  Instant instant_;
+  bool first_ = false;       ///< of all steps of the run, not of one that goes on from a checkpoint
+  bool stopping_ = false;    ///< after this step
+  bool output_due_ = false;  ///< histories or fields
+  bool sampled_ = false;     ///< the instant's forces and energies are looked at
 };
 
 }  // namespace
@@ -168,128 +267,7 @@ void request_stop() { stop_requested = 1; }
 
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
                const RunKeeping& keeping) {
-  Keeper keeper(keeping);
-  for (RunObserver* observer : observers) observer->begin(model);
-  const std::vector<std::string> doubts = scene_doubts(model);
-  for (RunObserver* observer : observers) observer->doubts(doubts);
-  const auto go_on = [&] { return stop_requested == 0 && !keeper.out_of_time(); };
-  const bool in_equilibrium = keeping.from || prepare(model, observers, settled, go_on);
-  const bool prepared = keeping.from || !model.scene.settle.active || go_on();
-
-  LoopMemory memory{StepControl(model), Schedule(model),
-                    std::vector<ForceSwing>(in_equilibrium ? 0 : model.scene.contacts.size()), Watch(model)};
-  auto& [control, due, swings, watch, total_at_start, history_rows, field_outputs, elapsed] = memory;
-  const auto stages = force_stages(model);
-  if (keeping.from) {
-    lay_model_state(model, *keeping.from);
-    StateLayer layer(*keeping.from);
-    memory.archive(layer);
-    control.move_end();
-  }
-  RunSummary summary;
-  summary.left_out = model.left_out;
-  summary.first_step = model.step;
-  const auto began = Clock::now();
-  LookTime looks;
-
-  Instant instant;
-  instant.elapsed = elapsed;
-  while (true) {
-    bool stopping = false;
-    instant.time = model.time = control.time();  // before a state is kept: it tells the time of its step
-    if (model.subcycling.in_phase(model.step)) {
-      summary.out_of_time = keeper.out_of_time();
-      stopping = summary.out_of_time || stop_requested != 0;
-      // A scene that was stopped while it settled has nothing to go on from.
-      const bool worth_it = prepared && model.step > summary.first_step;
-      if (worth_it && (due.last() ? keeping.at_end : stopping || keeper.due())) keeper.keep(model, memory, summary);
-    }
-    const double step_before = model.step_size;
-    if (control.renew()) due.step_changed(step_before);
-    instant.step = model.step_size;
-    const bool asked_for = due.history() || due.fields() || stopping;
-    // A run that goes on with a model that has run before begins at a later step.
-    const bool first = !keeping.from && model.step == summary.first_step;
-    const bool looked_at = asked_for || first || (watch.due(model.step) && model.subcycling.in_phase(model.step));
-    instant.advancing = !looked_at;
-    if (looked_at && !asked_for) looks.begin();
-    for (const Stage& stage : stages) stage.run(instant);
-    watch.glance();
-
-    if (looked_at) {
-      HistorySample sample =
-          (asked_for ? take_sample : take_look)(model, model.step_size, watch.part_energies(model.step));
-      if (first) total_at_start = balance_total(sample.energy);
-      sample.energy.balance_error = balance_total(sample.energy) - total_at_start;
-      if (asked_for) looks.begin();
-      const std::vector<Fault> found = watch.look(sample);
-      if (asked_for) looks.end(false);
-      for (const Fault& fault : found)
-        for (RunObserver* observer : observers) observer->warning(model, fault);
-      if (const Fault* fault = watch.fatal()) {
-        summary.fault = *fault;
-        summary.reason = fault->told();
-      }
-      const bool broken = summary.fault.has_value();
-      if (broken && !asked_for) add_what_histories_tell(model, sample);
-      for (std::size_t c = 0; c < swings.size(); ++c) swings[c].add(sample.time, sample.contacts[c].normal_force);
-      for (RunObserver* observer : observers) {
-        if (due.history() || stopping || broken) observer->history(model, sample);
-        if (due.fields() || stopping || broken) observer->fields(model, sample);
-        observer->progress(model, sample);
-      }
-      if (broken) break;
-      if (due.history()) ++history_rows;
-      if (due.fields()) ++field_outputs;
-    }
-    if (due.last()) break;
-    if (stopping) {
-      if (!prepared)
-        summary.reason = while_settling(model, summary.out_of_time);
-      else
-        summary.reason = fmt::format("{} at step {} of {}, t = {:.6g} s",
-                                     summary.out_of_time ? "the wall time is spent" : "interrupted", model.step,
-                                     model.step_count, model.time);
-      break;
-    }
-    advance(model, model.step_size);
-    instant.elapsed = elapsed = model.step_size;
-    if (looked_at && !asked_for) looks.end(true);
-  }
-
-  summary.step_size = model.step_size;
-  summary.smallest_step = control.smallest();
-  summary.largest_step = control.largest();
-  summary.step_renewals = control.renewals();
-  summary.step_estimates = describe_stable_step(model);
-  summary.subcycling = describe_subcycling(model);
-  summary.warnings = watch.told();
-  summary.account = watch.account_told();
-  summary.watched = watch.worst_told();
-  for (const std::string& apart : watch.never_closed()) summary.warnings.push_back(apart);
-  for (const std::string& late : late_contacts(model)) summary.warnings.push_back(late);
-  if (keeping.checkpoints)
-    if (const std::string trouble = keeping.checkpoints->trouble(); !trouble.empty())
-      summary.warnings.push_back(trouble);
-  for (const PlacedSet& placed : placed_sets(model.scene, model.assembly))
-    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
-  summary.warnings.insert(summary.warnings.end(), doubts.begin(), doubts.end());
-  for (const PlacedElements& placed : placed_element_sets(model.scene, model.assembly))
-    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
-  for (std::size_t c = 0; c < swings.size(); ++c)
-    if (const std::string told = swings[c].told(model.scene.contacts[c].name); !told.empty())
-      summary.swings.push_back(told);
-  summary.completed = summary.reason.empty();
-  summary.time = model.time;
-  summary.steps = model.step;
-  summary.wall_seconds = seconds_since(began);
-  summary.watch_seconds =
-      looks.seconds(summary.wall_seconds - summary.checkpoint_seconds, model.step - summary.first_step);
-  const double updates = static_cast<double>(model.element_count()) *
-                         static_cast<double>(model.step - summary.first_step) / model.subcycling.gain();
-  summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
-  for (RunObserver* observer : observers) observer->end(model, summary);
-  return summary;
+  return TimeLoop(model, observers, settled, keeping).run();
 }
 
 }  // namespace railwave

@@ -5,6 +5,7 @@ multipliers. `--program FILE` takes another build, such as one for a GPU, and co
 
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -84,14 +85,17 @@ def at_common_times(first, second):
     return different, common
 
 
-def interrupted(case, folder, threads, overrides):
-    """Results of a run that was interrupted as often as its wall time asks, and taken up again."""
+def interrupted(case, folder, threads, overrides, settled):
+    """Results of a run that was interrupted as often as its wall time asks, and taken up again. It begins with the settled state of the folder `settled`:
+    settling that is interrupted ends elsewhere within its tolerance (docs/restart.md)."""
     folder.mkdir()
+    for state in settled.glob("settled-*.h5"):
+        shutil.copy(state, folder)
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads))
     parts = 0
     for attempt in range(200):
         restart = ["--restart"] if any(folder.glob("results.checkpoint.h5*")) else []
-        wall = ["--wall-time", f"{0.2 + 0.3 * attempt:g}"]
+        wall = ["--wall-time", f"{0.05 + 0.1 * attempt:g}"]
         code = subprocess.run([PROGRAM, "run", HERE / case, *overrides, *wall, *restart], cwd=folder, env=environment, stdout=subprocess.DEVNULL).returncode
         parts += 1
         if code == 0:
@@ -126,7 +130,7 @@ def same_whatever_is_told(case, *overrides):
         different, common = at_common_times(once_given, other)
         print(f"{' '.join([case, *overrides])}, other outputs: {len(different)} of {len(once)} arrays differ at {common} common times {different[:5]}")
         failed = failed or bool(different) or common < 4
-        other, parts = interrupted(case, folder / "interrupted", 2, overrides)
+        other, parts = interrupted(case, folder / "interrupted", 2, overrides, folder / "once")
         different = differences(once, other)
         print(f"{' '.join([case, *overrides])}, in {parts} parts on two threads: {len(different)} of {len(once)} datasets differ {different[:5]}")
         failed = failed or bool(different)

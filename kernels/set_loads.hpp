@@ -28,10 +28,10 @@ struct RowLoads {
   }
 
   /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
-  KOKKOS_INLINE_FUNCTION Vector3 without_torque(const RowShare& share) const {
+  KOKKOS_INLINE_FUNCTION WeightedVector without_torque(const RowShare& share) const {
     const bool torque = share.law >= connectors.count, connector = share.law >= 0 && !torque;
     const auto& from = connector ? connectors.force : extra.contribution;
-    return (torque ? 0.0 : share.weight) * row(from, connector ? share.law : share.contribution);
+    return {torque ? 0.0 : share.weight, row(from, connector ? share.law : share.contribution)};
   }
 
   /// Gives the contributions of torques their values.

@@ -145,8 +145,9 @@ struct AddSprings {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = springs.with_springs(i);
     const Vector3 f = add_in_batches<batch_of_few_threads>(
-        row(sum, n), springs.first_of_node(i), springs.first_of_node(i + 1),
-        [&](int k) { return springs.force(springs.spring_of_node(k)) * row(springs.share_of_node, k); });
+        row(sum, n), springs.first_of_node(i), springs.first_of_node(i + 1), [&](int k) {
+          return WeightedVector{springs.force(springs.spring_of_node(k)), row(springs.share_of_node, k)};
+        });
     for (int c = 0; c < 3; ++c) sum(n, c) = f[c];
   }
 };

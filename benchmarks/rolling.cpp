@@ -124,7 +124,7 @@ bool work(const Options& options, Records& records) {
   const Timing bare = repeat(options.repetitions, [&] { loop.steps(options.steps); });
   tell(records, "loop, no output", elements, options.steps, bare);
   double sum = 0;
-  const auto stages = loop.stage_seconds(std::min(options.steps, 500L));
+  const auto stages = loop.task_seconds(std::min(options.steps, 500L));
   for (const auto& entry : stages) sum += entry.second;
   fmt::print("stages, each with a fence after it, {:.2f} us in all:\n", 1e6 * sum);
   for (const auto& [stage, seconds] : stages) {

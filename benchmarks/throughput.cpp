@@ -85,7 +85,7 @@ void time_loop(Run& run, const Choice& choice) {
   auto& row = report(run, "loop", choice, elements, steps, timing, step_traffic(*model));
   row.set("device_bytes_per_element", static_cast<double>(device_bytes(*model)) / elements);
 
-  for (const auto& [stage, seconds] : loop.stage_seconds(std::max(1L, steps))) {
+  for (const auto& [stage, seconds] : loop.task_seconds(std::max(1L, steps))) {
     fmt::print("          {:8.1f} us  {}\n", 1e6 * seconds, stage);
     run.records.add()
         .set("what", "stage")

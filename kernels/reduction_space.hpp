@@ -10,8 +10,6 @@ struct ReductionSpace {
   Array<double*> blocks;  ///< of the reduction at work
   Array<double*> left;    ///< of all that are queued
   PinnedArray<double*> fetched;
-
-  std::size_t bytes() const { return (blocks.span() + left.span()) * sizeof(double); }
 };
 
 }  // namespace railwave

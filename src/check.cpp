@@ -15,7 +15,8 @@
 #include "model/place_element_sets.hpp"
 #include "model/place_sets.hpp"
 #include "model/stable_step.hpp"
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
+#include "solve/settle.hpp"
 
 namespace railwave {
 namespace {
@@ -108,6 +109,11 @@ void describe_motions(const Model& model, std::ostream& out) {
   for (const std::string& doubt : scene_doubts(model)) out << "warning: " << doubt << '\n';
 }
 
+void describe_tasks(const std::string& title, const std::vector<std::string>& lines, std::ostream& out) {
+  out << title << '\n';
+  for (const std::string& line : lines) out << "  " << line << '\n';
+}
+
 }  // namespace
 
 void tell(const char* kind, const std::vector<std::string>& lines, std::ostream& out) {
@@ -145,9 +151,13 @@ void describe_run(Model& model, std::ostream& out) {
                      1e6 * megabytes / static_cast<double>(model.element_count()));
   out << fmt::format("Runs on: {}, patches of {} elements, {} in a pack\n", ExecutionSpace::name(), patch_size,
                      lane_count<double>);
-  out << "A step computes\n";
-  for (const Stage& stage : force_stages(model)) out << "  " << stage.name << '\n';
-  out << "  nodes: gather, constraints, velocities, positions\n";
+  const StepPlans plans(model);
+  describe_tasks("A step computes (steps of table 2.1 of the thesis)", describe_plan(plans.of(StepKind::advancing)),
+                 out);
+  describe_tasks("A step that is sampled, for histories, fields and the monitor, computes",
+                 describe_plan(plans.of(StepKind::sampled)), out);
+  for (const SettlingTasks& settling : describe_settling(model))
+    describe_tasks("Settling by " + settling.method + " computes", settling.lines, out);
   out << "Left out\n";
   for (const std::string& what : model.left_out) out << "  " << what << '\n';
 }

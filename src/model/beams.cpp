@@ -211,10 +211,6 @@ void reset_beams(const Model& model) {
   for (int b = 0; b < beams.node_count; ++b)
     for (int k = 0; k < 4; ++k) rotation(b, k) = k == 0 ? 1 : 0;
   Kokkos::deep_copy(beams.rotation, rotation);
-  Kokkos::deep_copy(beams.spin, 0.0);
-  Kokkos::deep_copy(beams.moment, 0.0);
-  Kokkos::deep_copy(beams.work, 0.0);
-  Kokkos::deep_copy(beams.stretch, 0.0);
   tighten_beams(model, true);
 }
 
@@ -222,17 +218,6 @@ void tighten_beams(const Model& model, bool all) {
   if (!model.beams) return;
   const BeamArrays& beams = model.beams->arrays;
   Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position, all});
-}
-
-std::size_t beam_bytes(const Model& model) {
-  if (!model.beams) return 0;
-  const BeamArrays& b = model.beams->arrays;
-  const auto bytes = [](const auto&... views) {
-    return (std::size_t{0} + ... + (views.span() * sizeof(*views.data())));
-  };
-  return bytes(b.end, b.axes, b.length, b.stiffness, b.bending, b.stretch, b.pretension, b.tightened, b.node,
-               b.rotation, b.spin, b.inertia, b.constraint, b.projections, b.first_moment, b.moment_of_node, b.moment,
-               b.loaded, b.moment_axis, b.work, model.beams->relaxation_inertia, model.beams->arm);
 }
 
 std::string describe_beam_inertia(const Model& model) {

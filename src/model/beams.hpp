@@ -35,14 +35,12 @@ int beam_node_of(const Model& model, const std::vector<int>& nodes);
 /// Readies the moments from outside, which follow the loads. Their beam nodes have been found.
 void add_moments(Model& model);
 
-/// Rotations, spins and stresses as at the start.
+/// Rotations and stretches as at the start, where all else is zero.
 void reset_beams(const Model& model);
 
 /// Pretensions are kept by the stretch from here on.
 /// @param all false: only of the elements that held them while the scene settled
 void tighten_beams(const Model& model, bool all);
-
-std::size_t beam_bytes(const Model& model);
 
 /// A line on the beams' rotary inertia, where it had to be scaled; none otherwise.
 std::string describe_beam_inertia(const Model& model);

@@ -48,10 +48,6 @@ ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves) {
 }
 
 void reset_contact_law(const ContactLawArrays& law, double static_friction) {
-  if (law.damping_force.extent(0) > 0) {
-    Kokkos::deep_copy(law.damping_force, 0.0);
-    Kokkos::deep_copy(law.damping_energy, 0.0);
-  }
   if (law.friction_now.extent(0) > 0) Kokkos::deep_copy(law.friction_now, static_friction);
 }
 

@@ -171,16 +171,4 @@ void queue_element_means(const Model& model, std::vector<ElementMeans>& means, R
   }
 }
 
-std::size_t element_history_bytes(const Model& model) {
-  if (!model.element_histories) return 0;
-  const ElementHistories& h = *model.element_histories;
-  const auto bytes = [](const auto&... views) {
-    return (std::size_t{0} + ... + (views.span() * sizeof(typename std::decay_t<decltype(views)>::value_type)));
-  };
-  std::size_t total = bytes(h.item, h.weight, h.corner, h.stress, h.strain, h.plastic_strain);
-  for (const ListedElements& one : h.listed)
-    total += bytes(one.patches, one.places, one.stress_wide, one.stress_narrow, one.energy);
-  return total;
-}
-
 }  // namespace railwave

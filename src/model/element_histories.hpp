@@ -34,7 +34,4 @@ struct ElementHistories {
 /// elements to. Quantities that no set asks for stay zero.
 void queue_element_means(const Model& model, std::vector<ElementMeans>& means, Reductions& sums);
 
-/// Bytes of their device arrays.
-std::size_t element_history_bytes(const Model& model);
-
 }  // namespace railwave

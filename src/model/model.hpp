@@ -223,10 +223,7 @@ struct Model {
   std::vector<ElementGroup> elements;
   Subcycling subcycling;
   PartialForces partial;
-  Array<ListedNode*> listed_nodes;     ///< those that no patch advances by itself
-  bool patches_have_advanced = false;  ///< the last force phase moved the other nodes already
-  double rows_elapsed = 0;             ///< s since the step before, for their work
-  bool rows_are_due = false;           ///< and left the loads that follow from sets to the nodes that feel them
+  Array<ListedNode*> listed_nodes;  ///< those that no patch advances by itself
   ExtraForces extra;
   NodeSets sets;
   std::vector<int> first_of_set;  ///< host copy of sets.first
@@ -249,7 +246,6 @@ struct Model {
   double time = 0;
   long step = 0;
   double velocity_lag = 0;
-  bool contact_uncleared = false;  ///< contact forces are in the sum that no node update has used and cleared
 
   int node_count() const { return nodes.count; }
   long element_count() const { return static_cast<long>(assembly.elements.size()); }

@@ -16,7 +16,7 @@
 namespace railwave {
 namespace {
 
-constexpr const char* format_name = "Railwave checkpoint 1";
+constexpr const char* format_name = "Railwave checkpoint 2";
 
 /// All numbers of a state in one dataset, one after the other; `sizes` tells the arrays apart, `names` what they are.
 RunState read(const std::string& path, const std::string& key, const std::string& run) {

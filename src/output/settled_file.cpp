@@ -13,31 +13,7 @@
 namespace railwave {
 namespace {
 
-/// visit(name, vector) for every array of a state, in fixed order.
-template <class State, class Visit>
-void each_array(State& state, const Visit& visit) {
-  visit("position", state.position);
-  for (std::size_t p = 0; p < state.contacts.size(); ++p) {
-    auto& contact = state.contacts[p];
-    const std::string of_pair = fmt::format("contact_{}_", p);
-    visit(of_pair + "tracked", contact.tracked);
-    visit(of_pair + "status", contact.status);
-    visit(of_pair + "place", contact.place);
-    visit(of_pair + "gap", contact.gap);
-    visit(of_pair + "normal_force", contact.normal_force);
-    visit(of_pair + "tangential_force", contact.tangential_force);
-    visit(of_pair + "way_since_stuck", contact.way_since_stuck);
-  }
-  for (std::size_t g = 0; g < state.plastic.size(); ++g) {
-    visit(fmt::format("plastic_{}", g), state.plastic[g]);
-    visit(fmt::format("back_stress_{}", g), state.back_stress[g]);
-  }
-  visit("beam_rotation", state.beam_rotation);
-  visit("beam_stretch", state.beam_stretch);
-  visit("end_support", state.end_support);
-}
-
-constexpr const char* format_name = "Railwave settled state 1";
+constexpr const char* format_name = "Railwave settled state 2";
 
 StaticState read_state(const std::string& path, const std::string& key) {
   check_seal(path);
@@ -50,16 +26,8 @@ StaticState read_state(const std::string& path, const std::string& key) {
   state.unbalance = root.number_attribute("unbalance");
   state.steps = static_cast<int>(root.number_attribute("steps"));
   state.iterations = static_cast<int>(root.number_attribute("iterations"));
-  const double contacts = root.number_attribute("contacts"), groups = root.number_attribute("element_groups");
-  if (!(contacts >= 0 && contacts < 1e6 && groups >= 0 && groups < 1e6))
-    throw std::runtime_error("its numbers make no sense");
-  state.contacts.resize(static_cast<std::size_t>(contacts));
-  state.plastic.resize(static_cast<std::size_t>(groups));
-  state.back_stress.resize(state.plastic.size());
-  each_array(state, [&](const std::string& name, auto& values) {
-    if (root.has(name))
-      values = root.dataset(name).template read<typename std::decay_t<decltype(values)>::value_type>();
-  });
+  for (const std::string& name : root.names())
+    state.arrays.values.push_back({name, root.dataset(name).read<signed char>()});
   return state;
 }
 
@@ -74,11 +42,8 @@ void write_state(const std::string& path, const std::string& key, const std::str
   root.set_attribute("unbalance", state.unbalance);
   root.set_attribute("steps", static_cast<long>(state.steps));
   root.set_attribute("iterations", static_cast<long>(state.iterations));
-  root.set_attribute("contacts", static_cast<long>(state.contacts.size()));
-  root.set_attribute("element_groups", static_cast<long>(state.plastic.size()));
-  each_array(state, [&](const std::string& name, const auto& values) {
-    if (!values.empty()) root.write(name, values, {values.size()}, {}, hdf5::Check::by_seal);
-  });
+  for (const RunState::Values& one : state.arrays.values)
+    root.write(one.name, one.bytes, {one.bytes.size()}, {}, hdf5::Check::by_seal);
   file.close(seal);
 }
 

@@ -4,11 +4,11 @@
 
 namespace railwave {
 
-Stage beam_stage(Model& model) {
+Task beam_task(Model& model, StepKind kind) {
   const BeamStage& stage = *model.beams;
-  return {stage.moments.empty() ? "beams" : "beams, torques on points", [&model, &stage](const Instant& instant) {
-            BeamForce force{stage.arrays, model.nodes.position, model.extra.contribution, instant.settling,
-                            instant.elapsed};
+  return {stage.moments.empty() ? "beams" : "beams, torques on points", "a",
+          [&model, &stage, settling = kind == StepKind::settling](const Instant& instant) {
+            BeamForce force{stage.arrays, model.nodes.position, model.extra.contribution, settling, instant.elapsed};
             for (std::size_t l = 0; l < stage.moments.size(); ++l)
               force.given[l] = curve_value(stage.moments[l]->curve, instant.time) * stage.moments[l]->load->moment;
             Kokkos::parallel_for("beam_force", SpreadRange(0, stage.arrays.count + stage.arrays.moment_count), force);

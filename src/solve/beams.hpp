@@ -6,13 +6,10 @@
 #include "kernels/reductions.hpp"
 #include "model/beams.hpp"
 #include "solve/observer.hpp"
-#include "solve/stages.hpp"
+#include "solve/tasks.hpp"
 
 /// What a scene's beams add to a step, to settling and to the account. Only for models that have beams.
 namespace railwave {
-
-/// Forces and moments of the beams, and moments from outside.
-Stage beam_stage(Model& model);
 
 /// The rotations' step, at the same time as the nodes'.
 void advance_rotations(const Model& model, double step);

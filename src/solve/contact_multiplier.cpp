@@ -1,5 +1,3 @@
-#include "solve/contact_multiplier.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +7,15 @@
 #include "model/contact_law.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/element_forces.hpp"
+#include "solve/tasks.hpp"
 
 namespace railwave {
 namespace {
 
-FreeMotion free_motion(const Model& model, const Instant& instant) {
-  if (instant.relaxation != nullptr) {
-    const RelaxationUpdate& update = *instant.relaxation;
-    return {update.acceleration, instant.step, instant.step, update.relaxation_mass, update.body_acceleration};
-  }
+FreeMotion free_motion(const Model& model, const Instant& instant, const RelaxationUpdate* relaxation) {
+  if (relaxation != nullptr)
+    return {relaxation->acceleration, instant.step, instant.step, relaxation->relaxation_mass,
+            relaxation->body_acceleration};
   const NodeAdvance advance = node_advance(model, instant.step);
   return {model.acceleration(), advance.velocity_step, advance.step, {}, {}};
 }
@@ -26,20 +24,21 @@ using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<t
                                    ContactMultiplier<false, SmoothNormals>, ContactMultiplier<true, SmoothNormals>>;
 
 template <class Normals>
-AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const Instant& instant) {
+AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const FreeMotion& motion, double elapsed,
+                              bool friction) {
   const ContactSearch search{{pair.arrays, model.nodes.position}};
-  const FreeMotion motion = free_motion(model, instant);
-  if (pair.arrays.friction > 0)
+  if (friction)
     return ContactMultiplier<true, Normals>{search, pair.window,      model.extra.sum,
-                                            motion, pair.multipliers, first_touch(model, instant)};
+                                            motion, pair.multipliers, first_touch(model, elapsed)};
   return ContactMultiplier<false, Normals>{search, pair.window,      model.extra.sum,
-                                           motion, pair.multipliers, first_touch(model, instant)};
+                                           motion, pair.multipliers, first_touch(model, elapsed)};
 }
 
-AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const Instant& instant) {
+AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const FreeMotion& motion, double elapsed,
+                            bool friction) {
   if (pair.contact->normals == scene::ContactNormals::smooth)
-    return multiplier_with<SmoothNormals>(model, pair, instant);
-  return multiplier_with<FacetNormals>(model, pair, instant);
+    return multiplier_with<SmoothNormals>(model, pair, motion, elapsed, friction);
+  return multiplier_with<FacetNormals>(model, pair, motion, elapsed, friction);
 }
 
 template <class Phase>
@@ -70,24 +69,29 @@ void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
 
 }  // namespace
 
-Stage multiplier_stage(Model& model) {
-  std::string name = "multipliers of";
+std::vector<Task> multiplier_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
+  std::string names;
   int sweeps = 0;
   for (const ContactPair& pair : model.contacts) {
     if (pair.has_springs()) continue;
-    name += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact),
-                        describe_contact_law(*pair.contact));
+    names += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact),
+                         describe_contact_law(*pair.contact));
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
-  return {name, [&model, sweeps](const Instant& instant) {
-            std::vector<AnyMultiplier> pairs;
-            for (ContactPair& pair : model.contacts) {
-              if (pair.has_springs()) continue;
-              keep_window(model, pair, instant);
-              pairs.push_back(multiplier_of(model, pair, instant));
-            }
-            find_multipliers(pairs, sweeps);
-          }};
+  if (sweeps == 0) return {};
+  return {{"search of" + names, "d",
+           [&model, kind](const Instant& instant) {
+             for (ContactPair& pair : model.contacts)
+               if (!pair.has_springs()) keep_window(model, pair, instant.step, kind);
+           }},
+          {"multipliers of" + names, "d", [&model, kind, relaxation, sweeps](const Instant& instant) {
+             const FreeMotion motion = free_motion(model, instant, relaxation);
+             std::vector<AnyMultiplier> pairs;
+             for (const ContactPair& pair : model.contacts)
+               if (!pair.has_springs())
+                 pairs.push_back(multiplier_of(model, pair, motion, instant.elapsed, has_friction(model, pair, kind)));
+             find_multipliers(pairs, sweeps);
+           }}};
 }
 
 }  // namespace railwave

@@ -232,27 +232,27 @@ bool renew_window(Model& model, ContactPair& pair, double step, double sudden) {
 }
 
 /// m in a step.
-double sudden_motion(const Model& model, const ContactPair& pair, const Instant& instant) {
+double sudden_motion(const Model& model, const ContactPair& pair, double step, StepKind kind) {
   // Settling scales masses such that a wave travels a share of each element in a step.
-  if (instant.settling) return sudden_share * pair.segment_size;
+  if (kind == StepKind::settling) return sudden_share * pair.segment_size;
   double fastest = 0;
   for (const scene::Material& material : model.scene.materials)
     fastest = std::max(fastest, material.dilatational_speed());
-  return sudden_share * fastest * instant.step;
+  return sudden_share * fastest * step;
 }
 
 }  // namespace
 
-void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
+void keep_window(Model& model, ContactPair& pair, double step, StepKind kind) {
+  const bool settling = kind == StepKind::settling;
   const bool look = model.step >= pair.next_look;
   const bool near_look = look || model.step >= pair.next_near_look;
   if (!near_look && pair.boxed) return;
-  const double sudden = sudden_motion(model, pair, instant);
-  const long steps = instant.settling ? steps_between_near_looks_settling : steps_between_near_looks;
-  const double interval = static_cast<double>(steps) * instant.step,
-               sudden_until_then = static_cast<double>(steps) * sudden;
-  const bool first = pair.layouts == 0 || instant.settling;
-  const bool laid_out = look && renew_window(model, pair, instant.step, sudden);
+  const double sudden = sudden_motion(model, pair, step, kind);
+  const long steps = settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
+  const bool first = pair.layouts == 0 || settling;
+  const bool laid_out = look && renew_window(model, pair, step, sudden);
   const ContactSearch search{{pair.arrays, model.nodes.position}};
   lay_boxes(search, model.nodes.velocity, interval, sudden_until_then);
   pair.boxed = true;
@@ -265,9 +265,8 @@ void keep_window(Model& model, ContactPair& pair, const Instant& instant) {
                                  first || laid_out, pair.missed});
 }
 
-FirstTouch first_touch(const Model& model, const Instant& instant) {
-  return {{model.nodes.velocity, instant.settling ? 0.0 : instant.elapsed},
-          static_cast<double>(1L << (model.subcycling.levels - 1))};
+FirstTouch first_touch(const Model& model, double elapsed) {
+  return {{model.nodes.velocity, elapsed}, static_cast<double>(1L << (model.subcycling.levels - 1))};
 }
 
 std::vector<std::string> late_contacts(const Model& model) {

@@ -2,7 +2,7 @@
 
 #include "kernels/contact_track.hpp"
 #include "model/model.hpp"
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
 
 namespace railwave {
 
@@ -10,10 +10,12 @@ namespace railwave {
 /// next hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out
 /// of it the nodes that can touch in the next few dozen steps are picked on the device, nothing returning to the host.
 /// All others are surely apart, so the result does not depend on how often either is done.
-void keep_window(Model& model, ContactPair& pair, const Instant& instant);
+/// @param step s to the next instant
+void keep_window(Model& model, ContactPair& pair, double step, StepKind kind);
 
-/// What a node that begins to touch is judged by at an instant.
-FirstTouch first_touch(const Model& model, const Instant& instant);
+/// What a node that begins to touch is judged by.
+/// @param elapsed s since the instant before
+FirstTouch first_touch(const Model& model, double elapsed);
 
 /// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen;
 /// and for each of which nodes are in the other body without having come in through its surface.

@@ -12,17 +12,17 @@ bool few_rows(const Model& model) {
   return few_sets(model) && model.extra.loaded_count <= most_rows;
 }
 
-bool go_together(const Model& model, const Instant& instant) {
-  if (!on_device || !instant.advancing || instant.settling || model.contacts.size() != 1) return false;
+bool contact_goes_along(const Model& model, StepKind kind) {
+  if (!on_device || kind != StepKind::advancing || model.contacts.size() != 1) return false;
   if (model.contacts.front().law.active) return false;
-  // Multipliers come later, and must foresee what loads do to their nodes.
+  // Multipliers come later, and must predict what loads do to their nodes.
   return model.elements.front().level == 0 && (model.contacts.front().has_springs() || !model.contacts.front().loaded);
 }
 
-bool sets_go_along(const Model& model, const Instant& instant) {
+bool sets_go_along(const Model& model, StepKind kind) {
   // Ties and non-reflecting ends must find the loads where they add to them.
   const bool added_to = model.ties.arrays.active() || model.ends.arrays.count > 0;
-  return go_together(model, instant) && model.sets.moving > 0 && few_sets(model) && model.subcycling.levels == 1 &&
+  return contact_goes_along(model, kind) && model.sets.moving > 0 && few_sets(model) && model.subcycling.levels == 1 &&
          model.prescribed.empty() && !added_to;
 }
 
@@ -30,24 +30,24 @@ RowLoads row_loads(const Model& model, double elapsed) {
   return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
 }
 
-ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant) {
+ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind) {
   return {pair.law,
           model.nodes.velocity,
           model.nodes.mass,
-          instant.settling ? 0.0 : pair.law.damping,
-          instant.settling ? 0.0 : instant.elapsed,
+          kind == StepKind::settling ? 0.0 : pair.law.damping,
+          instant.elapsed,
           pair.contact->normals == scene::ContactNormals::smooth ? Array<const double* [3]>(model.nodes.position)
                                                                  : Array<const double* [3]>()};
 }
 
-SetLoads set_loads(const Model& model, const Instant& instant) {
+SetLoads set_loads(const Model& model, const Instant& instant, StepKind kind, int rows) {
   const SetMotion motion{model.sets, model.nodes.position, model.nodes.velocity};
   TorqueNow torques{model.torques, motion};
   for (const LoadArrays& load : model.loads)
     if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
-  const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed, instant.settling ? 0.0 : 1.0};
-  const bool here = !sets_go_along(model, instant) && few_rows(model);
-  return {motion, connectors, torques, row_loads(model, instant.elapsed), here ? model.extra.loaded_count : 0};
+  const ConnectorForce connectors{model.connectors.arrays, motion, instant.elapsed,
+                                  kind == StepKind::settling ? 0.0 : 1.0};
+  return {motion, connectors, torques, row_loads(model, instant.elapsed), rows};
 }
 
 }  // namespace railwave

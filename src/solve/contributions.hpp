@@ -3,7 +3,7 @@
 #include "kernels/contact_force.hpp"
 #include "kernels/set_loads.hpp"
 #include "solve/contact_window.hpp"
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
 
 namespace railwave {
 
@@ -12,21 +12,22 @@ namespace railwave {
 bool few_sets(const Model& model);
 bool few_rows(const Model& model);
 
-/// What contact's springs and sets of nodes do goes in one launch with the elements: on a device, where nobody looks at
-/// the parts, and where such elements take every step. Not springs of any law but the plain one.
-bool go_together(const Model& model, const Instant& instant);
+/// Contact's springs go in one launch with the first group's elements: on a device, in advancing steps, and where such
+/// elements take every step. Not springs of any law but the plain one.
+bool contact_goes_along(const Model& model, StepKind kind);
 
 /// The same of the sets. Nodes at paces of their own do not work out their own loads.
-bool sets_go_along(const Model& model, const Instant& instant);
+bool sets_go_along(const Model& model, StepKind kind);
 
 /// Gather of the loads' contributions at the nodes.
 RowLoads row_loads(const Model& model, double elapsed);
 
 /// Sets of nodes that move as one, connectors and torques.
-SetLoads set_loads(const Model& model, const Instant& instant);
+/// @param rows how many loaded nodes gather their loads in the same launch
+SetLoads set_loads(const Model& model, const Instant& instant, StepKind kind, int rows);
 
 /// A pair's law, where that is not the plain one.
-ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant);
+ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind);
 
 template <bool Friction, class Normals = FacetNormals, class Law = PlainContactLaw>
 ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Instant& instant,
@@ -35,7 +36,7 @@ ContactForce<Friction, Law, Normals> contact_force(const Model& model, const Con
           pair.window,
           model.extra.sum,
           model.nodes.extra,
-          first_touch(model, instant),
+          first_touch(model, instant.elapsed),
           law};
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
 
 namespace railwave {
 

@@ -2,6 +2,7 @@
 
 namespace railwave {
 
-template void element_forces<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&);
+template void element_forces<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&,
+                                                    const ElementLaunch&);
 
 }  // namespace railwave

@@ -3,6 +3,6 @@
 namespace railwave {
 
 template void forces_of_material<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                     const KinematicBilinear&);
+                                                     const ElementLaunch&, const KinematicBilinear&);
 
 }  // namespace railwave

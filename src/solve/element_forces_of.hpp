@@ -14,18 +14,19 @@ namespace railwave {
 inline constexpr int most_contact_teams = 128;
 
 template <class Patch, bool Friction>
-void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant) {
+void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant,
+                     const ElementLaunch& launch) {
   const ContactPair& pair = model.contacts.front();
   using Together = ForcesTogether<Patch, Friction>;
-  const int set_teams = sets_go_along(model, instant) ? 1 : 0;
+  const int set_teams = launch.with_sets ? 1 : 0;
   // How many nodes can touch is known on the device only; should they be more, teams take several turns.
   const int contact_teams =
-      pair.has_springs()
+      launch.with_contact
           ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
   launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
-               Together{set_loads(model, instant), contact_force<Friction>(model, pair, instant), functor, set_teams,
-                        contact_teams});
+               Together{set_loads(model, instant, launch.kind, 0), contact_force<Friction>(model, pair, instant),
+                        functor, set_teams, contact_teams});
 }
 
 template <class S>
@@ -38,18 +39,19 @@ const Array<PartialForce<S>*>& partial_forces(const Model& model) {
 
 template <class S, class Hourglass, bool Advance, class Nodes, class Material>
 void patch_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
-                  const Material& material) {
+                  const ElementLaunch& launch, const Material& material) {
   const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
-  const Array<float*>& scale = instant.settling ? group.patches.settling_hourglass : group.patches.hourglass_scale;
+  const Array<float*>& scale =
+      launch.kind == StepKind::settling ? group.patches.settling_hourglass : group.patches.hourglass_scale;
   using Force = PatchForce<S, Material, Hourglass, Advance, Nodes>;
   const Force force{material,           group.patches, scale, nodes, pace * instant.step, partial_forces<S>(model),
                     group.first_partial};
   if constexpr (on_device && Advance) {
-    if (go_together(model, instant) && &group == &model.elements.front()) {
+    if (launch.with_contact || launch.with_sets) {
       if (model.contacts.front().arrays.friction > 0)
-        forces_together<Force, true>(model, group.patches, force, instant);
+        forces_together<Force, true>(model, group.patches, force, instant, launch);
       else
-        forces_together<Force, false>(model, group.patches, force, instant);
+        forces_together<Force, false>(model, group.patches, force, instant, launch);
       return;
     }
   }
@@ -70,31 +72,33 @@ inline CarriedAdvance advance_of(const Model& model, const ElementGroup& group, 
 
 template <class S, class Nodes, class Material>
 void forces_of_material(const Model& model, const ElementGroup& group, const Instant& instant,
-                        const Material& material) {
+                        const ElementLaunch& launch, const Material& material) {
   const Nodes nodes = advance_of(model, group, instant.step, static_cast<const Nodes*>(nullptr));
-  const bool viscous = group.hourglass == scene::HourglassType::viscous && !instant.settling;
-  const bool advancing = instant.advancing && !instant.settling;
+  const bool viscous = group.hourglass == scene::HourglassType::viscous && launch.kind != StepKind::settling;
+  const bool advancing = launch.kind == StepKind::advancing;
   if (viscous && advancing)
-    patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant, material);
+    patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant, launch, material);
   else if (viscous)
-    patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant, material);
+    patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant, launch, material);
   else if (advancing)
-    patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, material);
+    patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, launch, material);
   else
-    patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, material);
+    patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, launch, material);
 }
 
 // In files of their own, element_forces_kinematic_*.cpp, so that compilers can work side by side.
 extern template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                             const KinematicBilinear&);
+                                                             const ElementLaunch&, const KinematicBilinear&);
 extern template void forces_of_material<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                            const KinematicBilinear&);
+                                                            const ElementLaunch&, const KinematicBilinear&);
 extern template void forces_of_material<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                               const KinematicBilinear&);
+                                                               const ElementLaunch&, const KinematicBilinear&);
 
 template <class S, class Nodes>
-void element_forces(const Model& model, const ElementGroup& group, const Instant& instant) {
-  with_material(group, [&](const auto& material) { forces_of_material<S, Nodes>(model, group, instant, material); });
+void element_forces(const Model& model, const ElementGroup& group, const Instant& instant,
+                    const ElementLaunch& launch) {
+  with_material(group,
+                [&](const auto& material) { forces_of_material<S, Nodes>(model, group, instant, launch, material); });
 }
 
 }  // namespace railwave

@@ -70,13 +70,15 @@ class StateLayer {
   }
 
   template <class T>
-  void values(const std::string& name, std::vector<T>& list) {
+  void values(const std::string& name, std::vector<T>& list) const {
     static_assert(std::is_trivially_copyable_v<T>);
     const auto& bytes = of(name);
     if (bytes.size() % sizeof(T) != 0) refuse_state(name, "has another size");
     list.resize(bytes.size() / sizeof(T));
     if (!bytes.empty()) std::memcpy(static_cast<void*>(list.data()), bytes.data(), bytes.size());
   }
+
+  bool has(const std::string& name) const { return by_name_.count(name) > 0; }
 
   const std::vector<signed char>& of(const std::string& name) const {
     const auto found = by_name_.find(name);

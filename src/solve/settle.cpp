@@ -94,44 +94,39 @@ struct Unbalance {
   }
 };
 
-/// Contacts without friction for as long as this lives, if so wished.
-class SettlingFriction {
- public:
-  SettlingFriction(Model& model, bool friction) : model_(model) {
-    for (ContactPair& pair : model.contacts) {
-      own_.push_back(pair.arrays.friction);
-      if (!friction) pair.arrays.friction = 0;
-    }
-  }
-  ~SettlingFriction() {
-    for (std::size_t i = 0; i < own_.size(); ++i) model_.contacts[i].arrays.friction = own_[i];
-  }
-  SettlingFriction(const SettlingFriction&) = delete;
-  SettlingFriction& operator=(const SettlingFriction&) = delete;
-
- private:
-  Model& model_;
-  std::vector<double> own_;
-};
+/// Forces and motion in pseudo-time. The update must outlive the plan.
+Plan relaxation_plan(Model& model, const RelaxationUpdate& update) {
+  constexpr StepKind kind = StepKind::settling;
+  Plan plan;
+  append(plan.forces, load_tasks(model, kind));
+  append(plan.forces, contact_tasks(model, kind));
+  append(plan.forces, element_tasks(model, kind));
+  append(plan.forces, tie_tasks(model));
+  append(plan.forces, multiplier_tasks(model, kind, &update));
+  plan.motion.push_back({"relaxation of nodes", "f to j", [&model, &update](const Instant&) {
+                           Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
+                         }});
+  if (model.ties.arrays.active()) plan.motion.push_back(tied_nodes_task(model, kind));
+  if (model.beams)
+    plan.motion.push_back({"relaxation of beams' rotations", "f to j",
+                           [&model](const Instant&) { relax_rotations(model, local_damping); }});
+  return plan;
+}
 
 SettleReport settle_by_relaxation(Model& model, int most_steps, const std::function<bool(const SettleReport&)>& go_on) {
   SettleReport report;
-  const auto stages = force_stages(model);
   const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
                                 to_device("centrifugal field", centrifugal_field(model)),
                                 Array<double* [3]>("unbalanced", model.nodes.count), local_damping};
+  const Plan plan = relaxation_plan(model, update);
   Instant instant;
-  instant.settling = true;
-  instant.relaxation = &update;
   instant.step = 1;
   const scene::Settle& wish = model.scene.settle;
   double energy_before = 0;
   for (report.steps = 0; report.steps < most_steps; ++report.steps) {
     model.step = report.steps;
-    for (const Stage& stage : stages) stage.run(instant);
-    Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
-    if (model.ties.arrays.active()) follow_ties(model, instant.step, false);
-    if (model.beams) relax_rotations(model, local_damping);
+    run_tasks(plan.forces, instant, model.step);
+    run_tasks(plan.motion, instant, model.step);
     if (report.steps % steps_between_peaks == 0) {
       double energy = 0;
       block_sum(RelaxationEnergy{update}, model.nodes.count, &energy, *model.reduction_space);
@@ -228,13 +223,22 @@ std::vector<Vec3> centrifugal_field(const Model& model) {
   return field;
 }
 
+std::vector<SettlingTasks> describe_settling(Model& model) {
+  std::vector<SettlingTasks> methods;
+  if (!model.scene.settle.active) return methods;
+  const scene::SettleMethod method = model.scene.settle.method;
+  if (method != scene::SettleMethod::relaxation)
+    methods.push_back({"Newton's method", describe_plan({newton_tasks(model, {}), {}})});
+  if (method != scene::SettleMethod::newton) {
+    const RelaxationUpdate update{};
+    methods.push_back({"dynamic relaxation", describe_plan(relaxation_plan(model, update))});
+  }
+  return methods;
+}
+
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   const auto began = std::chrono::steady_clock::now();
-  SettleReport report;
-  {
-    const SettlingFriction friction(model, model.scene.settle.friction);
-    report = settle_by(model.scene.settle.method, model, go_on);
-  }
+  SettleReport report = settle_by(model.scene.settle.method, model, go_on);
   // The run starts from what a file of the state would hold, and from nothing else.
   lay_static_state(model, take_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

@@ -29,6 +29,14 @@ struct SettleReport {
 /// @param go_on told every few steps how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 
+/// What the evaluation of forces, and a relaxation's step, are made of: a line for each task of each method in turn.
+/// None where the scene does not settle.
+struct SettlingTasks {
+  std::string method;
+  std::vector<std::string> lines;
+};
+std::vector<SettlingTasks> describe_settling(Model& model);
+
 /// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the
 /// part's.
 Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,

@@ -9,6 +9,7 @@
 #include "model/host_copy.hpp"
 #include "solve/contact_window.hpp"
 #include "solve/contributions.hpp"
+#include "solve/tasks.hpp"
 
 namespace railwave {
 namespace {
@@ -142,9 +143,10 @@ struct SmoothNormalsOfMultipliers : SmoothNormals {
 };
 
 template <class Normals>
-void press_pair(const Model& model, const ContactPair& pair, const Instant& instant, const AugmentedLaw& law) {
+void press_pair(const Model& model, const ContactPair& pair, const AugmentedLaw& law) {
   const SpreadRange range(0, pair.window.count);
-  if (pair.arrays.friction > 0)
+  const Instant instant;
+  if (has_friction(model, pair, StepKind::settling))
     Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, instant, law));
   else
     Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, instant, law));
@@ -191,18 +193,15 @@ void StaticContact::restore() {
 }
 
 void StaticContact::press() {
-  Instant instant;
-  instant.settling = true;
-  instant.step = 1;
   for (std::size_t p = 0; p < kept_.size(); ++p) {
     ContactPair& pair = model_.contacts[p];
     if (pair.has_springs()) continue;
-    keep_window(model_, pair, instant);
+    keep_window(model_, pair, 1, StepKind::settling);
     const AugmentedLaw law(kept_[p].multiplier, stiffening);
     if (pair.contact->normals == scene::ContactNormals::smooth)
-      press_pair<SmoothNormalsOfMultipliers>(model_, pair, instant, law);
+      press_pair<SmoothNormalsOfMultipliers>(model_, pair, law);
     else
-      press_pair<FacetNormals>(model_, pair, instant, law);
+      press_pair<FacetNormals>(model_, pair, law);
   }
 }
 
@@ -232,8 +231,9 @@ void StaticContact::add_springs(SpringCollector& springs) const {
       const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0
                                    ? std::max(spring, -2 * pressing / gap(s) - spring)
                                    : spring;
-      const double across =
-          !(pair.arrays.friction > 0) ? 0 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
+      const double across = !has_friction(model_, pair, StepKind::settling)
+                                ? 0
+                                : (status(s) == status_sticks ? 1 : slipping_share) * spring;
       if (curved.empty()) {
         springs.add_spring(nodes, weights, normal, stiffness - across);
       } else {

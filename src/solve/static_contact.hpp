@@ -2,7 +2,7 @@
 
 #include "model/model.hpp"
 #include "model/tangent_springs.hpp"
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
 
 namespace railwave {
 

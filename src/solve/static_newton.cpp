@@ -54,7 +54,7 @@ class Newton {
         go_on_(go_on),
         unknowns_(model),
         contact_(model),
-        stages_(force_stages_without_multipliers(model)),
+        forces_(newton_tasks(model, [this] { contact_.press(); })),
         tangent_(model, unknowns_),
         coarse_(model, tangent_),
         residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), unknowns_.held(),
@@ -65,7 +65,6 @@ class Newton {
         z_(vector("preconditioned")),
         way_(vector("search direction")),
         image_(vector("image")) {
-    if (model.ties.arrays.active()) ties_.push_back(tie_stage(model));
     if (model.beams) turned_from_ = Array<double* [4]>("turned from", unknowns_.rotations());
   }
 
@@ -121,11 +120,8 @@ class Newton {
   Measure evaluate() {
     ++report_.steps;
     Instant instant;
-    instant.settling = true;
     instant.step = 1;
-    for (const Stage& stage : stages_) stage.run(instant);
-    contact_.press();
-    for (const Stage& stage : ties_) stage.run(instant);
+    run_tasks(forces_, instant, model_.step);
     Kokkos::parallel_for("static_residual", nodes(), residual_);
     double sum[2];
     block_sum(StaticUnbalance{residual_}, unknowns_.nodes(), sum, *model_.reduction_space);
@@ -248,7 +244,7 @@ class Newton {
   SettleReport report_;
   StaticUnknowns unknowns_;
   StaticContact contact_;
-  std::vector<Stage> stages_, ties_;
+  std::vector<Task> forces_;
   StaticTangent tangent_;
   StaticCoarse coarse_;
   double shift_ = least_shift, floor_ = least_shift;
@@ -259,6 +255,17 @@ class Newton {
 };
 
 }  // namespace
+
+std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
+  constexpr StepKind kind = StepKind::settling;
+  std::vector<Task> tasks = load_tasks(model, kind);
+  append(tasks, contact_tasks(model, kind));
+  append(tasks, element_tasks(model, kind));
+  if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& pair) { return !pair.has_springs(); }))
+    tasks.push_back({"contact by augmented multipliers", "d", [press](const Instant&) { press(); }});
+  append(tasks, tie_tasks(model));
+  return tasks;
+}
 
 SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   model.step = 0;

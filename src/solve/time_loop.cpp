@@ -9,9 +9,9 @@
 #include "solve/account.hpp"
 #include "solve/force_swing.hpp"
 #include "solve/output_schedule.hpp"
+#include "solve/plan.hpp"
 #include "solve/run_summary.hpp"
 #include "solve/run_timing.hpp"
-#include "solve/stages.hpp"
 #include "solve/static_start.hpp"
 #include "solve/step_control.hpp"
 #include "solve/watch.hpp"
@@ -84,7 +84,7 @@ class TimeLoop {
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
         memory_{StepControl(model), OutputSchedule(model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()), Watch(model)},
-        stages_(force_stages(model)) {
+        plans_(model) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
     instant_.elapsed = memory_.elapsed;
@@ -96,10 +96,12 @@ class TimeLoop {
       begin_step();
       checkpoint_if_due();
       plan_step();
-      compute_forces();
+      plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
+      memory_.watch.glance();
       if (sampled_) monitor_and_output();
       if (ends()) break;
-      advance_clock();
+      plans_.advance(instant_);
+      end_step();
     }
     return summary();
   }
@@ -163,18 +165,7 @@ class TimeLoop {
     output_due_ = memory_.due.history() || memory_.due.fields() || stopping_;
     const bool monitor_due = memory_.watch.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
-    instant_.advancing = !sampled_;
     if (sampled_ && !output_due_) monitor_timing_.begin();
-  }
-
-  /// A region for profilers around each stage (Kokkos Tools).
-  void compute_forces() {
-    for (const Stage& stage : stages_) {
-      Kokkos::Profiling::pushRegion(stage.name);
-      stage.run(instant_);
-      Kokkos::Profiling::popRegion();
-    }
-    memory_.watch.glance();
   }
 
   void monitor_and_output() {
@@ -223,10 +214,7 @@ class TimeLoop {
     return true;
   }
 
-  void advance_clock() {
-    Kokkos::Profiling::pushRegion("node update");
-    advance(model_, model_.step_size);
-    Kokkos::Profiling::popRegion();
+  void end_step() {
     instant_.elapsed = memory_.elapsed = model_.step_size;
     if (sampled_ && !output_due_) monitor_timing_.end(true);
   }
@@ -251,7 +239,7 @@ class TimeLoop {
   const bool in_equilibrium_;
   const bool prepared_;  ///< false: stopped while it settled
   LoopMemory memory_;
-  const std::vector<Stage> stages_;
+  StepPlans plans_;
   RunSummary summary_;
   MonitorTiming monitor_timing_;
   Instant instant_;

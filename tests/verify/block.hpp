@@ -8,7 +8,7 @@
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "solve/account.hpp"
-#include "solve/stages.hpp"
+#include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 
 /// Small scenes that the verification tests are made of.
@@ -87,7 +87,7 @@ inline void set_position(Model& model, const std::function<Vec3(const Vec3&, int
 inline void compute_forces(Model& model) {
   Instant instant;
   instant.step = model.step_size;
-  for (const Stage& stage : force_stages(model)) stage.run(instant);
+  StepPlans(model).compute_forces(instant, StepKind::sampled);
 }
 
 inline std::vector<int> all_elements(const Model& model) {

@@ -13,15 +13,15 @@ namespace railwave::verify {
 /// the forces are known.
 template <class Look>
 void march(Model& model, long steps, const Look& look) {
-  const auto stages = force_stages(model);
+  StepPlans plans(model);
   Instant instant;
   instant.step = model.step_size;
   for (long k = 0;; ++k) {
     instant.time = model.time = static_cast<double>(model.step) * model.step_size;
-    for (const Stage& stage : stages) stage.run(instant);
+    plans.compute_forces(instant, StepKind::sampled);
     look();
     if (k == steps) return;
-    advance(model, model.step_size);
+    plans.advance(instant);
     instant.elapsed = model.step_size;
   }
 }

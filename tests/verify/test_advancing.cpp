@@ -12,19 +12,17 @@ std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancin
   Model model;
   build_model(scene, model);
   set_initial_motion(model);
-  const auto stages = force_stages(model);
+  StepPlans plans(model);
   Instant instant;
   instant.step = model.step_size;
   for (long k = 0; k < steps; ++k) {
     instant.time = model.time = static_cast<double>(model.step) * model.step_size;
-    // Now and then somebody looks.
-    instant.advancing = advancing && k % 7 != 0;
-    for (const Stage& stage : stages) stage.run(instant);
-    advance(model, model.step_size);
+    // Now and then a step is sampled.
+    plans.compute_forces(instant, advancing && k % 7 != 0 ? StepKind::advancing : StepKind::sampled);
+    plans.advance(instant);
     instant.elapsed = model.step_size;
   }
-  instant.advancing = false;
-  for (const Stage& stage : stages) stage.run(instant);
+  plans.compute_forces(instant, StepKind::sampled);
   std::vector<double> values;
   for (NodeField field : {NodeField::position, NodeField::velocity}) {
     const auto part = node_field(model, field, all_nodes(model)).values;

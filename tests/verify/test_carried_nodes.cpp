@@ -12,14 +12,13 @@ namespace {
 
 /// Steps whose size need not stay, the last one looked at and the others not.
 void march_steps(Model& model, const std::vector<double>& sizes) {
-  const auto stages = force_stages(model);
+  StepPlans plans(model);
   Instant instant;
   for (std::size_t k = 0; k <= sizes.size(); ++k) {
     instant.step = k < sizes.size() ? sizes[k] : sizes.back();
-    instant.advancing = k < sizes.size();
-    for (const Stage& stage : stages) stage.run(instant);
+    plans.compute_forces(instant, k < sizes.size() ? StepKind::advancing : StepKind::sampled);
     if (k == sizes.size()) return;
-    advance(model, instant.step);
+    plans.advance(instant);
     model.time += instant.step;
     instant.elapsed = instant.step;
   }

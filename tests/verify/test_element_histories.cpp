@@ -79,7 +79,8 @@ TEST_CASE("strain is zero to rounding under a turn, and exact where it is tiny")
   Model model;
   build_model(scene, model);
   set_position(model, [&](const Vec3& x, int) { return turned(oblique_axes(), x); });
-  for (double strain : means_of(model)[0].strain) CHECK_THAT(strain, WithinAbs(0, 1e-14));
+  const ElementMeans turned_only = means_of(model)[0];
+  for (double strain : turned_only.strain) CHECK_THAT(strain, WithinAbs(0, 1e-14));
   set_position(model, [&](const Vec3& x, int) { return Vec3{x[0] + 1e-9 * x[0] + 4e-9 * x[1], x[1], x[2]}; });
   CHECK_THAT(means_of(model)[0].strain[0], WithinRel(1e-9, 1e-5));
   CHECK_THAT(means_of(model)[0].strain[3], WithinRel(2e-9, 1e-5));
@@ -146,7 +147,6 @@ TEST_CASE("a scene that asks for no stress or strain has no arrays for it") {
   Model model;
   build_model(scene, model);
   CHECK(model.element_histories == nullptr);
-  CHECK(element_history_bytes(model) == 0);
 }
 
 TEST_CASE("a bar pulled slowly past yield: stress, strain and plastic strain inside it follow the uniaxial law") {

@@ -52,18 +52,18 @@ TEST_CASE("each of the twelve hourglass modes of a block decays or stays bounded
           y[direction] += start * mode_sign(x, h, mode);
           return y;
         });
-        const auto stages = force_stages(model);
+        StepPlans plans(model);
         Instant instant;
         instant.step = model.step_size;
         double largest = 0;
-        for (const Stage& stage : stages) stage.run(instant);
+        plans.compute_forces(instant, StepKind::sampled);
         const EnergyAccount before = account_energies(model, model.step_size);
         for (long step = 0; step < model.step_count; ++step) {
-          for (const Stage& stage : stages) stage.run(instant);
-          advance(model, model.step_size);
+          plans.compute_forces(instant, StepKind::sampled);
+          plans.advance(instant);
           largest = std::max(largest, amplitude(model, direction, mode));
         }
-        for (const Stage& stage : stages) stage.run(instant);
+        plans.compute_forces(instant, StepKind::sampled);
         const EnergyAccount after = account_energies(model, model.step_size);
         INFO("direction " << direction << ", mode " << mode << (viscous ? ", viscous" : ", stiffness")
                           << ": largest amplitude " << largest << ", energy " << balance_total(before) << " -> "

@@ -263,17 +263,17 @@ TEST_CASE("without settling ends hold nothing: a load pushes them away at force 
 }
 
 TEST_CASE("a scene without non-reflecting ends computes none, and what cannot be one is refused") {
-  const auto stage_names = [](const scene::Scene& scene) {
+  const auto task_names = [](const scene::Scene& scene) {
     Model model;
     build_model(scene, model);
     std::string names;
-    for (const Stage& stage : force_stages(model)) names += stage.name + "\n";
+    for (const Task& task : make_plan(model, StepKind::advancing).forces) names += task.name + "\n";
     return names;
   };
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-5);
-  CHECK_THAT(stage_names(scene), !ContainsSubstring("non-reflecting"));
+  CHECK_THAT(task_names(scene), !ContainsSubstring("non-reflecting"));
   let_out(scene, "block.x_max");
-  CHECK_THAT(stage_names(scene), ContainsSubstring("non-reflecting ends"));
+  CHECK_THAT(task_names(scene), ContainsSubstring("non-reflecting ends"));
   const auto complaint = [&] { return complaint_of_building(scene); };
   SECTION("twice") {
     let_out(scene, "block.x_max");

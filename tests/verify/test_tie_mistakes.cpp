@@ -88,7 +88,7 @@ TEST_CASE("a scene without ties computes none") {
     Model model;
     build_model(scene, model);
     std::string all;
-    for (const Stage& stage : force_stages(model)) all += stage.name + "\n";
+    for (const Task& task : make_plan(model, StepKind::advancing).forces) all += task.name + "\n";
     for (const std::string& what : model.left_out) all += "left out: " + what + "\n";
     return all;
   };

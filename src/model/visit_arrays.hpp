@@ -1,0 +1,295 @@
+#pragma once
+
+#include <string>
+
+#include "model/beams.hpp"
+#include "model/element_histories.hpp"
+#include "model/model.hpp"
+
+/// Every array of a model, once each. What holds of all of them is made from these visits: the bytes held, what a reset
+/// puts back, what a checkpoint keeps. An array that is missing here is found by tests/model/test_visit_arrays.cpp.
+namespace railwave {
+
+/// What an array is to a run.
+enum class ArrayUse {
+  constant,       ///< made with the model
+  run_state,      ///< what the rest of a run depends on: zero at the start, kept by checkpoints
+  settled_state,  ///< of that, what a settled scene is told by: kept with it besides
+  scratch         ///< made anew before it is read
+};
+
+/// How it lies.
+struct ArrayShape {
+  int tile = 0;        ///< values of an element in tiles as wide as the elements' packs; 0: row after row
+  bool grows = false;  ///< the run changes its length
+};
+
+/// Hands arrays on under names that begin alike.
+template <class Visitor>
+struct Named {
+  Visitor& visitor;
+  std::string prefix;
+
+  template <class View>
+  void operator()(ArrayUse use, const char* name, View& view, ArrayShape shape = {}) const {
+    visitor(use, prefix + name, view, shape);
+  }
+};
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, NodeArrays& nodes) {
+  visit(ArrayUse::constant, "reference", nodes.reference);
+  visit(ArrayUse::settled_state, "position", nodes.position);
+  visit(ArrayUse::run_state, "velocity", nodes.velocity);
+  visit(ArrayUse::constant, "mass", nodes.mass);
+  visit(ArrayUse::constant, "first_partial", nodes.first_partial);
+  visit(ArrayUse::constant, "partial_place", nodes.partial_place);
+  visit(ArrayUse::constant, "extra", nodes.extra);
+  visit(ArrayUse::constant, "constraint", nodes.constraint);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, CarriedNodes& carried) {
+  visit(ArrayUse::run_state, "node", carried.node);
+  visit(ArrayUse::run_state, "listed_arm", carried.listed_arm);
+  visit(ArrayUse::run_state, "motion", carried.motion);
+  visit(ArrayUse::run_state, "steps", carried.steps);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
+  PatchArrays& patches = group.patches;
+  visit(ArrayUse::constant, "element_count", patches.element_count);
+  visit(ArrayUse::constant, "node_count", patches.node_count);
+  visit(ArrayUse::constant, "material", patches.material);
+  visit(ArrayUse::constant, "node", patches.node);
+  visit(ArrayUse::constant, "frame_node", patches.frame_node);
+  visit(ArrayUse::run_state, "frame", patches.frame);
+  visit(ArrayUse::constant, "corner", patches.corner);
+  visit(ArrayUse::constant, "first_place", patches.first_place);
+  visit(ArrayUse::constant, "place", patches.place);
+  visit(ArrayUse::constant, "hourglass_scale", patches.hourglass_scale);
+  visit(ArrayUse::constant, "settling_hourglass", patches.settling_hourglass);
+  visit(ArrayUse::run_state, "hourglass_energy", patches.hourglass_energy);
+  visit(ArrayUse::constant, "constants", group.constants);
+  visit(ArrayUse::scratch, "patch_energy", group.patch_energy);
+
+  PlasticArrays& plastic = group.plastic;
+  visit(ArrayUse::constant, "plastic_constants", plastic.constants);
+  visit(ArrayUse::settled_state, "plastic_history", plastic.history, {Bilinear::history_values});
+  visit(ArrayUse::constant, "plastic_volume", plastic.volume);
+  visit(ArrayUse::constant, "isotropic_share", plastic.isotropic_share);
+  visit(ArrayUse::settled_state, "back_stress", plastic.back_stress, {KinematicBilinear::back_values});
+
+  visit(ArrayUse::constant, "damping_constants", group.damping.constants);
+  visit(ArrayUse::constant, "node_drag", group.damping.node_drag);
+  visit(ArrayUse::run_state, "damping_energy", group.damping.energy);
+
+  visit(ArrayUse::constant, "carrier_local", group.carried.local);
+  visit(ArrayUse::run_state, "carrier_arm", group.carried.arm);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ElementHistories& histories) {
+  visit(ArrayUse::constant, "item", histories.item);
+  visit(ArrayUse::constant, "weight", histories.weight);
+  visit(ArrayUse::constant, "corner", histories.corner);
+  visit(ArrayUse::scratch, "stress", histories.stress);
+  visit(ArrayUse::scratch, "strain", histories.strain);
+  visit(ArrayUse::scratch, "plastic_strain", histories.plastic_strain);
+  for (ListedElements& listed : histories.listed) {
+    visit(ArrayUse::constant, "patches", listed.patches);
+    visit(ArrayUse::constant, "places", listed.places);
+    visit(ArrayUse::scratch, "stress_wide", listed.stress_wide);
+    visit(ArrayUse::scratch, "stress_narrow", listed.stress_narrow);
+    visit(ArrayUse::scratch, "energy", listed.energy);
+  }
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ExtraForces& extra) {
+  visit(ArrayUse::run_state, "load", extra.sum.load);
+  visit(ArrayUse::run_state, "contact", extra.sum.contact);
+  visit(ArrayUse::constant, "loaded", extra.loaded);
+  visit(ArrayUse::constant, "loaded_of_row", extra.loaded_of_row);
+  visit(ArrayUse::constant, "shares", extra.shares);
+  visit(ArrayUse::run_state, "contribution", extra.contribution);
+  visit(ArrayUse::constant, "contribution_node", extra.contribution_node);
+  visit(ArrayUse::run_state, "contribution_work", extra.work);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, NodeSets& sets) {
+  visit(ArrayUse::constant, "first", sets.first);
+  visit(ArrayUse::constant, "nodes", sets.nodes);
+  visit(ArrayUse::constant, "weight", sets.weight);
+  visit(ArrayUse::constant, "first_chunk", sets.first_chunk);
+  visit(ArrayUse::constant, "chunks", sets.chunks);
+  visit(ArrayUse::scratch, "partial", sets.partial);
+  visit(ArrayUse::scratch, "sums", sets.sums);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, LoadArrays& load) {
+  visit(ArrayUse::constant, "amplitude", load.amplitude);
+  visit(ArrayUse::constant, "facets", load.facets);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ConnectorArrays& connectors) {
+  visit(ArrayUse::constant, "set", connectors.set);
+  visit(ArrayUse::constant, "rest", connectors.rest);
+  visit(ArrayUse::constant, "axes", connectors.axes);
+  visit(ArrayUse::constant, "stiffness", connectors.stiffness);
+  visit(ArrayUse::constant, "damping", connectors.damping);
+  visit(ArrayUse::constant, "preload", connectors.preload);
+  visit(ArrayUse::run_state, "force", connectors.force);
+  visit(ArrayUse::run_state, "energy", connectors.energy);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, TorqueArrays& torques) {
+  visit(ArrayUse::constant, "set", torques.set);
+  visit(ArrayUse::constant, "axis", torques.axis);
+  visit(ArrayUse::run_state, "now", torques.now);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, BeamStage& stage) {
+  BeamArrays& beams = stage.arrays;
+  visit(ArrayUse::constant, "end", beams.end);
+  visit(ArrayUse::constant, "axes", beams.axes);
+  visit(ArrayUse::constant, "length", beams.length);
+  visit(ArrayUse::constant, "stiffness", beams.stiffness);
+  visit(ArrayUse::constant, "bending", beams.bending);
+  visit(ArrayUse::settled_state, "stretch", beams.stretch);
+  visit(ArrayUse::constant, "pretension", beams.pretension);
+  visit(ArrayUse::constant, "tightened", beams.tightened);
+  visit(ArrayUse::constant, "node", beams.node);
+  visit(ArrayUse::settled_state, "rotation", beams.rotation);
+  visit(ArrayUse::run_state, "spin", beams.spin);
+  visit(ArrayUse::constant, "inertia", beams.inertia);
+  visit(ArrayUse::constant, "constraint", beams.constraint);
+  visit(ArrayUse::constant, "projections", beams.projections);
+  visit(ArrayUse::constant, "first_moment", beams.first_moment);
+  visit(ArrayUse::constant, "moment_of_node", beams.moment_of_node);
+  visit(ArrayUse::run_state, "moment", beams.moment);
+  visit(ArrayUse::constant, "loaded", beams.loaded);
+  visit(ArrayUse::constant, "moment_axis", beams.moment_axis);
+  visit(ArrayUse::run_state, "work", beams.work);
+  visit(ArrayUse::constant, "relaxation_inertia", stage.relaxation_inertia);
+  visit(ArrayUse::constant, "arm", stage.arm);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, PrescribedSet& set) {
+  visit(ArrayUse::constant, "nodes", set.nodes);
+  visit(ArrayUse::run_state, "work", set.work);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, NonReflectingArrays& ends) {
+  visit(ArrayUse::constant, "nodes", ends.nodes);
+  visit(ArrayUse::constant, "dashpot", ends.dashpot);
+  visit(ArrayUse::settled_state, "support", ends.support);
+  visit(ArrayUse::run_state, "start", ends.start);
+  visit(ArrayUse::run_state, "force", ends.force);
+  visit(ArrayUse::run_state, "dissipated", ends.dissipated);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, Ties& all) {
+  TieArrays& ties = all.arrays;
+  visit(ArrayUse::constant, "places", ties.places);
+  visit(ArrayUse::constant, "master_nodes", ties.master_nodes);
+  visit(ArrayUse::constant, "master_rows", ties.master_rows);
+  visit(ArrayUse::constant, "first_share", ties.first_share);
+  visit(ArrayUse::constant, "shares", ties.shares);
+  visit(ArrayUse::run_state, "passed_on", ties.passed_on);
+  visit(ArrayUse::run_state, "before", ties.before);
+  visit(ArrayUse::constant, "carrier", all.carrier);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
+  ContactArrays& contact = pair.arrays;
+  visit(ArrayUse::constant, "slave_nodes", contact.slave_nodes);
+  visit(ArrayUse::constant, "master_nodes", contact.master_nodes);
+  visit(ArrayUse::constant, "segments", contact.segments);
+  visit(ArrayUse::constant, "first_segment", contact.first_segment);
+  visit(ArrayUse::constant, "segment_of_node", contact.segment_of_node);
+  visit(ArrayUse::constant, "surface", contact.surface);
+  visit(ArrayUse::constant, "mouth_corners", contact.mouth_corners);
+  visit(ArrayUse::constant, "segment_stiffness", contact.segment_stiffness);
+  visit(ArrayUse::constant, "box_order", contact.boxes.order);
+  visit(ArrayUse::scratch, "box_segment", contact.boxes.segment);
+  visit(ArrayUse::scratch, "box_leaf", contact.boxes.leaf);
+  visit(ArrayUse::scratch, "box_branch", contact.boxes.branch);
+  visit(ArrayUse::scratch, "box_normal", contact.boxes.normal);
+  visit(ArrayUse::settled_state, "tracked", contact.tracked);
+  visit(ArrayUse::settled_state, "place", contact.place);
+  visit(ArrayUse::settled_state, "status", contact.status);
+  visit(ArrayUse::settled_state, "gap", contact.gap);
+  visit(ArrayUse::run_state, "entry_depth", contact.entry_depth);
+  visit(ArrayUse::settled_state, "normal_force", contact.normal_force);
+  visit(ArrayUse::settled_state, "tangential_force", contact.tangential_force);
+  visit(ArrayUse::run_state, "friction_energy", contact.friction_energy);
+
+  visit(ArrayUse::constant, "penalty_growth", pair.law.growth.points);
+  visit(ArrayUse::run_state, "friction_now", pair.law.friction_now);
+  visit(ArrayUse::run_state, "damping_force", pair.law.damping_force);
+  visit(ArrayUse::run_state, "damping_energy", pair.law.damping_energy);
+
+  visit(ArrayUse::run_state, "multiplier_rows", pair.multipliers.rows);
+  visit(ArrayUse::run_state, "multiplier_crowd", pair.multipliers.crowd);
+  visit(ArrayUse::settled_state, "way_since_stuck", pair.multipliers.way_since_stuck);
+  visit(ArrayUse::run_state, "impact_energy", pair.multipliers.impact_energy);
+
+  visit(ArrayUse::run_state, "missed", pair.missed);
+  visit(ArrayUse::run_state, "slaves_at_layout", pair.slaves_at_layout, {0, true});
+  visit(ArrayUse::run_state, "masters_at_layout", pair.masters_at_layout, {0, true});
+  visit(ArrayUse::run_state, "window_entries", pair.window.entries, {0, true});
+  visit(ArrayUse::run_state, "window_near", pair.window.near, {0, true});
+  visit(ArrayUse::run_state, "window_near_count", pair.window.near_count, {0, true});
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, ReductionSpace& space) {
+  visit(ArrayUse::scratch, "blocks", space.blocks);
+  visit(ArrayUse::scratch, "left", space.left);
+}
+
+/// All of a model. Names are `module_array` or `module_number_array`.
+template <class Visitor>
+void visit_model_arrays(Visitor& visitor, Model& model) {
+  const auto of = [&](const std::string& prefix) { return Named<Visitor>{visitor, prefix}; };
+  const auto each = [&](const std::string& module, auto& list) {
+    for (std::size_t k = 0; k < list.size(); ++k) visit_arrays(of(module + "_" + std::to_string(k) + "_"), list[k]);
+  };
+  visit_arrays(of("nodes_"), model.nodes);
+  visit_arrays(of("carried_"), model.carried);
+  each("elements", model.elements);
+  if (model.element_histories) visit_arrays(of("element_histories_"), *model.element_histories);
+  visit_arrays(of("extra_"), model.extra);
+  visit_arrays(of("sets_"), model.sets);
+  each("load", model.loads);
+  visit_arrays(of("connectors_"), model.connectors.arrays);
+  visit_arrays(of("torques_"), model.torques);
+  if (model.beams) visit_arrays(of("beams_"), *model.beams);
+  each("prescribed", model.prescribed);
+  visit_arrays(of("ends_"), model.ends.arrays);
+  visit_arrays(of("ties_"), model.ties);
+  each("contact", model.contacts);
+  visit_arrays(of("reductions_"), *model.reduction_space);
+  const Named<Visitor> own = of("model_");
+  own(ArrayUse::constant, "constraints", model.constraints);
+  own(ArrayUse::constant, "listed_nodes", model.listed_nodes);
+  own(ArrayUse::constant, "paces", model.subcycling.paces.level);
+  // The account of damping takes the rows of the step before.
+  bool damped = false;
+  for (const ElementGroup& group : model.elements) damped = damped || group.damping.active();
+  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_wide", model.partial.wide);
+  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_narrow", model.partial.narrow);
+}
+
+}  // namespace railwave

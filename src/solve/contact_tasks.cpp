@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include "model/contact_law.hpp"
+#include "solve/contributions.hpp"
+#include "solve/tasks.hpp"
+
+namespace railwave {
+namespace {
+
+Task search_task(Model& model, ContactPair& pair, StepKind kind) {
+  return {"search of contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : ""), "d",
+          [&model, &pair, kind](const Instant& instant) { keep_window(model, pair, instant.step, kind); }};
+}
+
+template <bool Friction>
+void launch_springs(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind) {
+  const SpreadRange range(0, pair.window.count);
+  if (pair.contact->normals == scene::ContactNormals::smooth)
+    Kokkos::parallel_for(
+        "contact_force", range,
+        contact_force<Friction, SmoothNormals>(model, pair, instant, contact_law(model, pair, instant, kind)));
+  else if (pair.law.active)
+    Kokkos::parallel_for("contact_force", range,
+                         contact_force<Friction>(model, pair, instant, contact_law(model, pair, instant, kind)));
+  else
+    Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant));
+}
+
+Task spring_task(Model& model, ContactPair& pair, StepKind kind) {
+  const bool friction = has_friction(model, pair, kind);
+  return {"contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : "") +
+              describe_contact_law(*pair.contact),
+          "d", [&model, &pair, kind, friction](const Instant& instant) {
+            if (friction)
+              launch_springs<true>(model, pair, instant, kind);
+            else
+              launch_springs<false>(model, pair, instant, kind);
+          }};
+}
+
+}  // namespace
+
+bool has_friction(const Model& model, const ContactPair& pair, StepKind kind) {
+  return pair.arrays.friction > 0 && (kind != StepKind::settling || model.scene.settle.friction);
+}
+
+std::vector<Task> contact_tasks(Model& model, StepKind kind) {
+  std::vector<Task> tasks;
+  if (model.contacts.empty()) return tasks;
+  // The node update leaves the sums cleared. Settling does not, nor does who computes an instant's forces twice.
+  if (kind != StepKind::advancing)
+    tasks.push_back({"clearing of contact forces", "d", [&model](const Instant&) {
+                       Kokkos::deep_copy(ExecutionSpace(), model.extra.sum.contact, std::uint64_t{0});
+                     }});
+  for (ContactPair& pair : model.contacts) {
+    if (!pair.has_springs()) continue;
+    tasks.push_back(search_task(model, pair, kind));
+    if (!contact_goes_along(model, kind)) tasks.push_back(spring_task(model, pair, kind));
+  }
+  return tasks;
+}
+
+}  // namespace railwave

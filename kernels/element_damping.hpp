@@ -5,6 +5,7 @@
 #include "kernels/carried_patches.hpp"
 #include "kernels/damping_arrays.hpp"
 #include "kernels/element_modes.hpp"
+#include "kernels/lane_choice.hpp"
 
 namespace railwave {
 

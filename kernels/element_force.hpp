@@ -1,35 +1,10 @@
 #pragma once
 
 #include "kernels/hourglass.hpp"
+#include "kernels/materials/elastic.hpp"
 #include "kernels/patches.hpp"
 
 namespace railwave {
-
-/// Constants of the elastic material of each patch.
-struct Elastic {
-  Array<const ElasticConstants*> constants;  ///< by row
-
-  /// What the elements of a patch share.
-  template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION ElasticConstants of_patch(const PatchArrays& patches, int p, const Turn& /*turn*/) const {
-    return constants(patches.material(p));
-  }
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const ElasticConstants& patch) { return patch; }
-
-  /// Materials that flow take their plastic part from the Almansi strain here.
-  template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void leave_elastic_part(const ElasticConstants& /*patch*/, int /*batch*/,
-                                                             const T (&/*K*/)[3][3], const T (&/*e*/)[6]) {}
-
-  /// Kirchhoff stress from the Almansi strain, Pa.
-  template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void stress(const ElasticConstants& patch, int /*batch*/, const T (&/*K*/)[3][3],
-                                                 const T (&e)[6], T (&tau)[6]) {
-    T h[6];
-    hencky_strain(e, h);
-    kirchhoff_stress<S>(patch, h, tau);
-  }
-};
 
 /// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed
 /// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
@@ -65,7 +40,7 @@ struct PatchForce {
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, patch_size);
     const int elements = patches.element_count(p);
-    const auto constants = material.template of_patch<S>(patches, p, Staged::turn(patches, p, nodes.nodes));
+    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes.nodes));
     const SumLists lists = sum_lists(team, p);
     if constexpr (on_device) {
       // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
@@ -288,7 +263,7 @@ struct PatchState {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
     const T to_cauchy = determinant(H);
-    const auto constants = material.template of_patch<S>(patches, p, Staged::turn(patches, p, nodes));
+    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes));
     T h[6];
     material.template leave_elastic_part<S>(constants, batch, H, e);
     hencky_strain(e, h);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/elastic.hpp"
 #include "kernels/element_modes.hpp"
+#include "kernels/materials/elastic.hpp"
 #include "kernels/nodes.hpp"
 
 namespace railwave {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/elastic.hpp"
 #include "kernels/element_modes.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/nodes.hpp"

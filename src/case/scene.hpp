@@ -35,8 +35,6 @@ struct Material : Place {
     return youngs_modulus * (1 - poissons_ratio) / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
   }
   double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-  /// Yields, and its yield surface moves.
-  bool kinematic() const { return yield_stress && hardening_beta < 1; }
   double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
   /// C_d of thesis eq. 2.14b, m/s
   double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }

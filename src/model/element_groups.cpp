@@ -10,6 +10,7 @@
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
 #include "model/hourglass_scale.hpp"
+#include "model/materials.hpp"
 
 namespace railwave {
 namespace {
@@ -28,17 +29,9 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
   }
 }
 
-/// What decides which kernel a material has.
-enum class MaterialKind { elastic, isotropic, kinematic };
-
-MaterialKind kind_of(const scene::Material& material) {
-  if (material.kinematic()) return MaterialKind::kinematic;
-  return material.yield_stress ? MaterialKind::isotropic : MaterialKind::elastic;
-}
-
 /// What elements of a group have in common beside hourglass control and level.
 struct GroupKind {
-  MaterialKind material;
+  int material;  ///< its number among Materials
   bool damped;
   bool operator==(const GroupKind& other) const { return material == other.material && damped == other.damped; }
 };
@@ -76,10 +69,6 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
     // Lumped mass by row sums (thesis 2.2.2).
     for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
   }
-}
-
-ElasticConstants elastic_constants(const scene::Material& material) {
-  return {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()};
 }
 
 /// The host side of a group's patches.
@@ -219,32 +208,14 @@ PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
   return patches;
 }
 
-/// History and volumes of a group whose materials yield.
-PlasticArrays plastic_arrays(const Model& model, const ElementGroup& group,
-                             const std::vector<const scene::Material*>& materials, bool kinematic) {
-  std::vector<BilinearConstants> constants;
-  std::vector<double> share;
-  for (const scene::Material* material : materials) {
-    constants.push_back({elastic_constants(*material), *material->yield_stress,
-                         hardening_modulus(material->youngs_modulus, material->tangent_modulus)});
-    share.push_back(material->hardening_beta);
-  }
+/// m3, of a group's elements in the reference, by slot; zero in slots that only fill up.
+std::vector<double> reference_volumes(const Model& model, const ElementGroup& group) {
   std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
   for (std::size_t p = 0; p < group.first_element.size(); ++p)
-    for (int slot = 0; slot < group.element_count[p]; ++slot) {
-      const HexahedronCorners x =
-          corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]);
-      volume[p * patch_size + slot] = hexahedron_volume(x);
-    }
-  PlasticArrays plastic{to_device("plastic constants", constants),
-                        Array<double*>("plastic history", Bilinear::history_values * volume.size()),
-                        to_device("reference volume", volume),
-                        {},
-                        {}};
-  if (!kinematic) return plastic;
-  plastic.isotropic_share = to_device("isotropic share", share);
-  plastic.back_stress = Array<double*>("back stress", KinematicBilinear::back_values * volume.size());
-  return plastic;
+    for (int slot = 0; slot < group.element_count[p]; ++slot)
+      volume[p * patch_size + slot] =
+          hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]));
+  return volume;
 }
 
 /// Constants of damped parts, and the drag of their patches' nodes.
@@ -340,7 +311,7 @@ void build_elements(Model& model) {
     int& group = found->second[0];
     if (is_new) {
       const scene::Material& material = model.scene.materials[range.material];
-      group = group_of(model, kinds, of_scene, {kind_of(material), damped}, model.order.level[p]);
+      group = group_of(model, kinds, of_scene, {material_number(material), damped}, model.order.level[p]);
       lists.resize(model.elements.size());
       materials.resize(model.elements.size());
       parts.resize(model.elements.size());
@@ -364,11 +335,7 @@ void build_elements(Model& model) {
     elements.patches = arrays_of(lists[g], single);
     elements.patch_energy = unset_array<double* [2]>("patch energy", elements.patches.count);
     elements.patch_energy_fetched = PinnedArray<double* [2]>("patch energy fetched", elements.patches.count);
-    std::vector<ElasticConstants> constants;
-    for (const scene::Material* material : materials[g]) constants.push_back(elastic_constants(*material));
-    elements.constants = to_device("elastic constants", constants);
-    if (kinds[g].material != MaterialKind::elastic)
-      elements.plastic = plastic_arrays(model, elements, materials[g], kinds[g].material == MaterialKind::kinematic);
+    elements.material = material_arrays(kinds[g].material, materials[g], reference_volumes(model, elements));
     elements.first_partial = rows;
     if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
     rows = elements.rows_end();

@@ -5,9 +5,9 @@
 #include "kernels/logarithmic_strain.hpp"
 #include "model/build_steps.hpp"
 #include "model/element_precision.hpp"
-#include "model/group_material.hpp"
 #include "model/history_sets.hpp"
 #include "model/host_copy.hpp"
+#include "model/materials.hpp"
 #include "model/patch_launch.hpp"
 
 namespace railwave {
@@ -28,9 +28,10 @@ template <class S>
 struct TakePlasticStrain {
   Array<const int* [3]> places;
   Array<const double*> history;
+  int values, value;  ///< of an element's history, and which of them it is
   Array<double*> plastic_strain;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    plastic_strain(places(i, 0)) = history(tiled_slot<S>(places(i, 2), Bilinear::history_values, 6));
+    plastic_strain(places(i, 0)) = history(tiled_slot<S>(places(i, 2), values, value));
   }
 };
 
@@ -78,9 +79,14 @@ void evaluate(const Model& model, const ElementHistories& histories) {
       Kokkos::parallel_for("take_stress", Range(0, count),
                            TakeStress<S>{listed.places, stress_tiles<S>(listed), histories.stress});
     }
-    if (histories.wants_plastic_strain && group.plastic.active())
-      Kokkos::parallel_for("take_plastic_strain", Range(0, count),
-                           TakePlasticStrain<S>{listed.places, group.plastic.history, histories.plastic_strain});
+    if (!histories.wants_plastic_strain) continue;
+    with_material_type(group.material, [&](auto type) {
+      using Material = typename decltype(type)::type;
+      if constexpr (Material::history_values > 0)
+        Kokkos::parallel_for("take_plastic_strain", Range(0, count),
+                             TakePlasticStrain<S>{listed.places, group.material.history, Material::history_values,
+                                                  Material::plastic_strain, histories.plastic_strain});
+    });
   }
   if (histories.wants_strain)
     Kokkos::parallel_for("listed_strain", Range(0, static_cast<int>(histories.corner.extent(0))),

@@ -8,8 +8,8 @@
 #include "kernels/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
 #include "model/element_precision.hpp"
-#include "model/group_material.hpp"
 #include "model/host_copy.hpp"
+#include "model/materials.hpp"
 #include "model/model.hpp"
 #include "model/patch_launch.hpp"
 
@@ -134,9 +134,12 @@ HostField plastic_strain_in(const Model& model, const std::vector<int>& elements
   const auto result = unset_array<double*>("plastic strain field", elements.size());
   Kokkos::deep_copy(result, 0.0);
   for (const ElementGroup& group : model.elements)
-    if (group.plastic.active())
-      fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.plastic.history,
-                                              Bilinear::history_values, 6, 1, result});
+    with_material_type(group.material, [&](auto type) {
+      using Material = typename decltype(type)::type;
+      if constexpr (Material::history_values > 0)
+        fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.material.history,
+                                                Material::history_values, Material::plastic_strain, 1, result});
+    });
   return {1, to_vector(result)};
 }
 

@@ -1,23 +1,13 @@
 #include "model/build_steps.hpp"
+#include "model/materials.hpp"
 
 namespace railwave {
 
 std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
-  std::vector<std::string> left_out;
+  std::vector<std::string> left_out = materials_left_out(scene);
   const auto note = [&](bool absent, const char* what) {
     if (absent) left_out.emplace_back(what);
   };
-  bool any_elastic = false, any_plastic = false, any_kinematic = false;
-  for (const auto& part : scene.parts) {
-    for (const auto& material : scene.materials) {
-      if (material.name != part.material) continue;
-      (material.yield_stress ? any_plastic : any_elastic) = true;
-      any_kinematic = any_kinematic || material.kinematic();
-    }
-  }
-  note(!any_plastic, "plasticity: every part is elastic, no yield test and no stored stress");
-  note(any_plastic && any_elastic, "plasticity of the elastic parts: they have no yield test and no history");
-  note(any_plastic && !any_kinematic, "back stress: hardening is isotropic everywhere");
   const scene::Precision precision = scene.solver.precision;
   note(precision == scene::Precision::mixed,
        "double precision of the elements: they are computed in single, nodes move in double");

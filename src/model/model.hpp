@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/bilinear.hpp"
 #include "kernels/carried_nodes.hpp"
 #include "kernels/contact_law.hpp"
 #include "kernels/damping_arrays.hpp"
 #include "kernels/element_force.hpp"
-#include "kernels/kinematic_bilinear.hpp"
+#include "kernels/materials/material.hpp"
 #include "kernels/multiplier_arrays.hpp"
 #include "kernels/nodes.hpp"
 #include "kernels/non_reflecting.hpp"
@@ -24,18 +23,6 @@
 #include "model/subcycling.hpp"
 
 namespace railwave {
-
-/// What elements of plastic materials have besides; empty for elastic ones.
-struct PlasticArrays {
-  Array<BilinearConstants*> constants;  ///< by the patches' material row
-  Array<double*> history;               ///< see Bilinear
-  Array<double*> volume;                ///< m3, of the reference, by slot; zero in slots that only fill up
-  Array<double*>
-      isotropic_share;  ///< by the patches' material row; empty unless the group's hardening is kinematic or mixed
-  Array<double*> back_stress;  ///< see KinematicBilinear; empty likewise
-  bool active() const { return constants.extent(0) > 0; }
-  bool kinematic() const { return back_stress.extent(0) > 0; }
-};
 
 /// What patches have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
 struct CarriedPatches {
@@ -74,8 +61,7 @@ struct ElementGroup {
   scene::HourglassType hourglass = scene::HourglassType::viscous;
   int level = 0;  ///< evaluated every 2^level steps; groups ascend by it
   PatchArrays patches;
-  Array<ElasticConstants*> constants;  ///< by the patches' material row
-  PlasticArrays plastic;
+  MaterialArrays material;
   DampingArrays damping;
   CarriedPatches carried;
   int first_partial = 0;            ///< row of the first patch's first node in the partial forces

@@ -71,15 +71,12 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   visit(ArrayUse::constant, "hourglass_scale", patches.hourglass_scale);
   visit(ArrayUse::constant, "settling_hourglass", patches.settling_hourglass);
   visit(ArrayUse::run_state, "hourglass_energy", patches.hourglass_energy);
-  visit(ArrayUse::constant, "constants", group.constants);
   visit(ArrayUse::scratch, "patch_energy", group.patch_energy);
 
-  PlasticArrays& plastic = group.plastic;
-  visit(ArrayUse::constant, "plastic_constants", plastic.constants);
-  visit(ArrayUse::settled_state, "plastic_history", plastic.history, {Bilinear::history_values});
-  visit(ArrayUse::constant, "plastic_volume", plastic.volume);
-  visit(ArrayUse::constant, "isotropic_share", plastic.isotropic_share);
-  visit(ArrayUse::settled_state, "back_stress", plastic.back_stress, {KinematicBilinear::back_values});
+  MaterialArrays& material = group.material;
+  visit(ArrayUse::constant, "material_constants", material.constants);
+  visit(ArrayUse::settled_state, "material_history", material.history, {material.history_values});
+  visit(ArrayUse::constant, "reference_volume", material.volume);
 
   visit(ArrayUse::constant, "damping_constants", group.damping.constants);
   visit(ArrayUse::constant, "node_drag", group.damping.node_drag);

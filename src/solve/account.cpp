@@ -8,8 +8,8 @@
 #include "model/element_histories.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
-#include "model/group_material.hpp"
 #include "model/host_copy.hpp"
+#include "model/materials.hpp"
 #include "model/patch_launch.hpp"
 #include "model/prescribed_motion.hpp"
 #include "solve/beams.hpp"
@@ -46,31 +46,25 @@ struct PatchEnergy {
   }
 };
 
-/// Work of plastic flow: a function of the equivalent plastic strain and the back stress.
-template <class S>
-struct PlasticEnergy {
+/// Work of plastic flow: a function of each element's history.
+template <class S, class Material>
+struct FlowWork {
   static constexpr int values = 1;
-  PatchArrays patches;
-  PlasticArrays plastic;
+  Material material;
+  Array<const int*> row;  ///< of the patches' materials
+  Array<const double*> volume;
   KOKKOS_INLINE_FUNCTION void operator()(int slot, double* sum) const {
-    const BilinearConstants constants = plastic.constants(patches.material(slot / patch_size));
-    const double equivalent = plastic.history(tiled_slot<S>(slot, Bilinear::history_values, 6));
-    if (plastic.back_stress.extent(0) == 0) {
-      sum[0] += plastic.volume(slot) * plastic_work(constants, equivalent);
-      return;
-    }
-    double back[KinematicBilinear::back_values];
-    for (int c = 0; c < KinematicBilinear::back_values; ++c)
-      back[c] = plastic.back_stress(tiled_slot<S>(slot, KinematicBilinear::back_values, c));
-    sum[0] += plastic.volume(slot) *
-              plastic_work(constants, plastic.isotropic_share(patches.material(slot / patch_size)), equivalent, back);
+    constexpr int kept = Material::history_values;
+    double history[kept];
+    for (int c = 0; c < kept; ++c) history[c] = material.history[tiled_slot<S>(slot, kept, c)];
+    sum[0] += volume(slot) * Material::work(material.constants[row(slot / patch_size)], history);
   }
 };
 
 /// Adds the work of plastic flow of a patch's slots to what the patch has stored.
-template <class S>
-struct AddPlastic {
-  PlasticEnergy<S> of_slot;
+template <class FlowWork>
+struct AddFlowWork {
+  FlowWork of_slot;
   Array<double* [2]> energy;
   KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
     double sum = 0;
@@ -184,6 +178,16 @@ void share_out(const Model& model, const ElementGroup& group, std::vector<PartEn
   }
 }
 
+/// Calls `work` with the work of flow of a group's elements, where they flow.
+template <class S, class Work>
+void with_flow_work(const ElementGroup& group, const Work& work) {
+  with_material(group, [&](const auto& material) {
+    using Material = std::decay_t<decltype(material)>;
+    if constexpr (Material::history_values > 0)
+      work(FlowWork<S, Material>{material, group.patches.material, group.material.volume});
+  });
+}
+
 template <class S, class Hourglass>
 void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part,
                           Reductions& sums) {
@@ -200,16 +204,17 @@ void queue_element_energy(const Model& model, const ElementGroup& group, EnergyA
   if (by_part) {
     Kokkos::parallel_for("add_dissipated", Range(0, count),
                          AddDissipated{group.patch_energy, group.patches.hourglass_energy, power_sums});
-    if (group.plastic.active())
-      Kokkos::parallel_for("add_plastic", Range(0, count),
-                           AddPlastic<S>{{group.patches, group.plastic}, group.patch_energy});
+    with_flow_work<S>(group, [&](const auto& flow_work) {
+      Kokkos::parallel_for("add_flow_work", Range(0, count),
+                           AddFlowWork<std::decay_t<decltype(flow_work)>>{flow_work, group.patch_energy});
+    });
     Kokkos::deep_copy(ExecutionSpace(), group.patch_energy_fetched, group.patch_energy);
   }
   if (group.damping.active())
     sums.sum(ArraySum{group.damping.energy}, count, [&energy](const double* sum) { energy.damping += *sum; });
-  if (group.plastic.active())
-    sums.sum(PlasticEnergy<S>{group.patches, group.plastic}, count * patch_size,
-             [&energy](const double* sum) { energy.plastic += *sum; });
+  with_flow_work<S>(group, [&](const auto& flow_work) {
+    sums.sum(flow_work, count * patch_size, [&energy](const double* sum) { energy.plastic += *sum; });
+  });
 }
 
 template <class S>

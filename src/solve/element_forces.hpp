@@ -17,18 +17,17 @@ struct ElementLaunch {
 };
 
 /// Forces of a group's elements at an instant, to `model.partial`, or to the nodes themselves where patches may move
-/// them. Each pair of types has a source file of its own (element_forces_double.cpp, ...): their kernels take compilers
-/// long.
+/// them.
 /// @tparam S number type of the elements
 /// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
 template <class S, class Nodes>
 void element_forces(const Model& model, const ElementGroup& group, const Instant& instant, const ElementLaunch& launch);
 
-extern template void element_forces<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                         const ElementLaunch&);
-extern template void element_forces<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                        const ElementLaunch&);
-extern template void element_forces<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                           const ElementLaunch&);
+/// The same of one material. Defined in solve/element_forces_of.hpp; each of `Materials` and each pair of number and
+/// nodes has a source file of its own, which CMake writes from solve/element_forces_of.cpp.in: their kernels take
+/// compilers long.
+template <class S, class Nodes, class Material>
+void element_forces_of(const Model& model, const ElementGroup& group, const Instant& instant,
+                       const ElementLaunch& launch);
 
 }  // namespace railwave

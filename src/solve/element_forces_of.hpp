@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "model/group_material.hpp"
+#include "model/materials.hpp"
 #include "model/patch_launch.hpp"
 #include "solve/contributions.hpp"
 #include "solve/element_forces.hpp"
 
-/// What the files element_forces_*.cpp instantiate.
+/// What the files that CMake writes from element_forces_of.cpp.in instantiate.
 namespace railwave {
 
 /// Of 32 slave nodes each: a GPU has about as many multiprocessors.
@@ -71,8 +71,9 @@ inline CarriedAdvance advance_of(const Model& model, const ElementGroup& group, 
 }
 
 template <class S, class Nodes, class Material>
-void forces_of_material(const Model& model, const ElementGroup& group, const Instant& instant,
-                        const ElementLaunch& launch, const Material& material) {
+void element_forces_of(const Model& model, const ElementGroup& group, const Instant& instant,
+                       const ElementLaunch& launch) {
+  const Material material = material_of<Material>(group.material);
   const Nodes nodes = advance_of(model, group, instant.step, static_cast<const Nodes*>(nullptr));
   const bool viscous = group.hourglass == scene::HourglassType::viscous && launch.kind != StepKind::settling;
   const bool advancing = launch.kind == StepKind::advancing;
@@ -84,21 +85,6 @@ void forces_of_material(const Model& model, const ElementGroup& group, const Ins
     patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, launch, material);
   else
     patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, launch, material);
-}
-
-// In files of their own, element_forces_kinematic_*.cpp, so that compilers can work side by side.
-extern template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                             const ElementLaunch&, const KinematicBilinear&);
-extern template void forces_of_material<float, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                            const ElementLaunch&, const KinematicBilinear&);
-extern template void forces_of_material<float, CarriedAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                               const ElementLaunch&, const KinematicBilinear&);
-
-template <class S, class Nodes>
-void element_forces(const Model& model, const ElementGroup& group, const Instant& instant,
-                    const ElementLaunch& launch) {
-  with_material(group,
-                [&](const auto& material) { forces_of_material<S, Nodes>(model, group, instant, launch, material); });
 }
 
 }  // namespace railwave

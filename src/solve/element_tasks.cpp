@@ -1,5 +1,6 @@
 #include "kernels/listed_nodes.hpp"
 #include "model/contact_law.hpp"
+#include "model/materials.hpp"
 #include "solve/contributions.hpp"
 #include "solve/element_damping.hpp"
 #include "solve/element_forces.hpp"
@@ -25,9 +26,9 @@ std::vector<Task> frame_tasks(const Model& model, const ElementGroup& group, Ste
 }
 
 std::string name_of(const ElementGroup& group) {
-  const char* material = group.plastic.kinematic() ? ", elastoplastic with back stress"
-                         : group.plastic.active()  ? ", elastoplastic"
-                                                   : "";
+  std::string material;
+  with_material_type(group.material,
+                     [&](auto type) { material = MaterialTrait<typename decltype(type)::type>::words; });
   const bool viscous = group.hourglass == scene::HourglassType::viscous;
   return "elements of " + group.parts + material + (viscous ? ", viscous" : ", stiffness") + " hourglass control";
 }

@@ -55,8 +55,7 @@ void copy_state(const ContactArrays& to, const ContactArrays& from) {
 /// What trials make flow, group by group.
 std::vector<Array<double*>> plastic_state(const Model& model) {
   std::vector<Array<double*>> state;
-  for (const ElementGroup& group : model.elements)
-    state.insert(state.end(), {group.plastic.history, group.plastic.back_stress});
+  for (const ElementGroup& group : model.elements) state.push_back(group.material.history);
   return state;
 }
 

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "kernels/plastic_flow.hpp"
+#include "kernels/materials/plastic_flow.hpp"
 
 /// Two references that share nothing with the kernel but the constants.
 namespace railwave {

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "kernels/bilinear.hpp"
-#include "kernels/elastic.hpp"
+#include "kernels/materials/bilinear.hpp"
+#include "kernels/materials/elastic.hpp"
 
 namespace railwave {
 

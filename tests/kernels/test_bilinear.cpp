@@ -3,8 +3,8 @@
 #include <functional>
 #include <vector>
 
-#include "kernels/bilinear.hpp"
 #include "kernels/element_force.hpp"
+#include "kernels/materials/bilinear.hpp"
 #include "tests/kernels/exact_plasticity.hpp"
 
 using namespace railwave;
@@ -87,7 +87,7 @@ std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& pa
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(element.turn(i, j));
   Kokkos::parallel_for("follow_path", Range(0, 1),
-                       FollowPath<S>{{{}, element.history}, patch, plastic, gradient, share, stress});
+                       FollowPath<S>{{{element.history.data()}, nullptr}, patch, plastic, gradient, share, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());

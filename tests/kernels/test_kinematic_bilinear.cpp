@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "kernels/kinematic_bilinear.hpp"
+#include "kernels/materials/kinematic_bilinear.hpp"
 #include "tests/kernels/exact_kinematic.hpp"
 #include "tests/kernels/material_path.hpp"
 
@@ -32,34 +32,30 @@ BilinearConstants soft() { return steel(soft_yield, 21e9); }
 struct Element {
   BilinearConstants constants;
   double beta;
-  KinematicBilinear material;
+  Array<double*> history{"history", KinematicBilinear::history_values* tile_width<float>};
   Matrix3 turn = Matrix3::Identity();
 
-  Element(const BilinearConstants& constants_, double beta_) : constants(constants_), beta(beta_) {
-    material.bilinear.history = Array<double*>("history", Bilinear::history_values * tile_width<float>);
-    material.back_stress = Array<double*>("back stress", KinematicBilinear::back_values * tile_width<float>);
-  }
+  Element(const BilinearConstants& constants_, double beta_) : constants(constants_), beta(beta_) {}
 
   template <class S = double>
   std::vector<Matrix3> follow(const std::vector<Matrix3>& path) const {
     KinematicBilinear::OfPatch<S> patch;
-    patch.bilinear.constants = constants;
-    patch.isotropic_share = beta;
+    patch.constants = {constants, beta};
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) patch.bilinear.turn[i][j] = static_cast<S>(turn(i, j));
-    return follow_path<S>(material, patch, path);
+      for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(turn(i, j));
+    return follow_path<S>(KinematicBilinear{{history.data()}, nullptr}, patch, path);
   }
 
-  double value(const Array<double*>& array, int number) const {
-    const auto host = Kokkos::create_mirror_view(array);
-    Kokkos::deep_copy(host, array);
+  double value(int number) const {
+    const auto host = Kokkos::create_mirror_view(history);
+    Kokkos::deep_copy(host, history);
     return host(number * static_cast<long>(tile_width<double>));
   }
-  double equivalent() const { return value(material.bilinear.history, 6); }
+  double equivalent() const { return value(KinematicBilinear::plastic_strain); }
   double work() const {
-    double back[6];
-    for (int c = 0; c < 6; ++c) back[c] = value(material.back_stress, c);
-    return plastic_work(constants, beta, equivalent(), back);
+    double values[KinematicBilinear::history_values];
+    for (int c = 0; c < KinematicBilinear::history_values; ++c) values[c] = value(c);
+    return KinematicBilinear::work({constants, beta}, values);
   }
 };
 
@@ -222,8 +218,8 @@ TEST_CASE("without a kinematic share the stress is Bilinear's") {
   const BilinearConstants constants = steel(500e6, 21e9);
   const auto path = sampled(winding(0.01), 2000);
   const Element element(constants, 1);
-  Bilinear plain;
-  plain.history = Array<double*>("history", Bilinear::history_values * tile_width<double>);
+  const Array<double*> history("history", Bilinear::history_values * tile_width<double>);
+  const Bilinear plain{{history.data()}, nullptr};
   Bilinear::OfPatch<double> patch;
   patch.constants = constants;
   const auto mixed = element.follow(path), isotropic = follow_path<double>(plain, patch, path);

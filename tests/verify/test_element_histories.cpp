@@ -112,7 +112,7 @@ TEST_CASE("listed elements have the stress that fields have, bit for bit, of eve
     });
     for (const ElementGroup& group : model.elements) {
       renew_frames(model, group);
-      if (group.plastic.active()) Kokkos::deep_copy(group.plastic.history, 0.125);
+      if (group.material.flows()) Kokkos::deep_copy(group.material.history, 0.125);
     }
     const auto means = means_of(model);
     const auto sets = resolve_history_sets(model.scene, model.assembly);

@@ -1,6 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
+#include "model/materials.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
@@ -56,7 +57,8 @@ TEST_CASE(
       scene.solver.precision = precision;
       Model model;
       build_model(scene, model);
-      CHECK(model.elements[0].plastic.kinematic() == (beta < 1));
+      CHECK(model.elements[0].material.number == material_number(scene.materials[0]));
+      CHECK((model.elements[0].material.history_values == KinematicBilinear::history_values) == (beta < 1));
       const auto elements = all_elements(model);
       double pulled = 0, worst = 0, largest = 1;
       march(model, model.step_count, [&] {
@@ -128,8 +130,7 @@ TEST_CASE("only parts whose hardening is kinematic have a back stress, and what 
   scene::Scene scene = bar(1, 1e-5);
   Model isotropic;
   build_model(scene, isotropic);
-  CHECK(isotropic.elements[0].plastic.active());
-  CHECK_FALSE(isotropic.elements[0].plastic.kinematic());
+  CHECK(isotropic.elements[0].material.history_values == Bilinear::history_values);
   const auto says = [](const Model& model) {
     for (const std::string& what : model.left_out)
       if (what.rfind("back stress", 0) == 0) return true;
@@ -139,7 +140,7 @@ TEST_CASE("only parts whose hardening is kinematic have a back stress, and what 
   scene.materials[0].hardening_beta = 0.5;
   Model mixed;
   build_model(scene, mixed);
-  CHECK(mixed.elements[0].plastic.kinematic());
+  CHECK(mixed.elements[0].material.history_values == KinematicBilinear::history_values);
   CHECK_FALSE(says(mixed));
   CHECK(device_bytes(mixed) > device_bytes(isotropic));
 }

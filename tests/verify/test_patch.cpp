@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <random>
 
-#include "kernels/elastic.hpp"
+#include "model/materials.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;
@@ -57,7 +57,7 @@ Vec3 displaced(const Vec3& x) {
           x[2] + 0.5e-3 * (x[0] + x[1] + 2 * x[2])};
 }
 
-ElasticConstants constants_of(const Model& model) { return to_host(model.elements[0].constants)(0); }
+ElasticConstants constants_of(const Model& model) { return elastic_constants(model.scene.materials[0]); }
 
 /// Stress of the uniform deformation: the material's own function of its gradient.
 void exact_stress(const Model& model, double (&stress)[6]) {

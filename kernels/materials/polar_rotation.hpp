@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/lane_choice.hpp"
-#include "kernels/plastic_flow.hpp"
+#include "kernels/materials/plastic_flow.hpp"
 
 namespace railwave {
 

@@ -58,4 +58,33 @@ KOKKOS_FORCEINLINE_FUNCTION T elastic_energy_density(const T (&h)[6], const T (&
   return S(0.5) * (h[0] * tau[0] + h[1] * tau[1] + h[2] * tau[2]) + (h[3] * tau[3] + h[4] * tau[4] + h[5] * tau[5]);
 }
 
+/// Elastic without end: nothing is kept from step to step. See kernels/materials/material.hpp.
+struct Elastic {
+  using Constants = ElasticConstants;
+  static constexpr int history_values = 0;
+
+  const Constants* constants;  ///< by row
+
+  template <class S>
+  using OfPatch = Constants;
+
+  template <class S, class Turn>
+  KOKKOS_FORCEINLINE_FUNCTION Constants of_patch(int row, const Turn& /*turn*/) const {
+    return constants[row];
+  }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const Constants& patch) { return patch; }
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void leave_elastic_part(const Constants& /*patch*/, int /*batch*/,
+                                                             const T (&/*K*/)[3][3], const T (&/*e*/)[6]) {}
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void stress(const Constants& patch, int /*batch*/, const T (&/*K*/)[3][3],
+                                                 const T (&e)[6], T (&tau)[6]) {
+    T h[6];
+    hencky_strain(e, h);
+    kirchhoff_stress<S>(patch, h, tau);
+  }
+};
+
 }  // namespace railwave

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "kernels/materials/material.hpp"
+#include "kernels/materials/plastic_flow.hpp"
+
+namespace railwave {
+
+/// What the elements of a patch have in common where the material flows.
+template <class Constants_, class S>
+struct FlowingPatch {
+  Constants_ constants;
+  S turn[3][3];  ///< R, which single precision leaves out of displacements
+};
+
+/// @param turn see StagedNodes::turn
+template <class S, class Constants, class Turn>
+KOKKOS_FORCEINLINE_FUNCTION FlowingPatch<Constants, S> flowing_patch(const Constants& constants, const Turn& turn) {
+  FlowingPatch<Constants, S> result;
+  result.constants = constants;
+  if constexpr (sizeof(S) < sizeof(double))
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(turn(i, j));
+  return result;
+}
+
+/// What every material that flows keeps of an element: plastic Green strain (xx, yy, zz, xy, yz, zx) in the reference
+/// configuration, equivalent plastic strain, and from value 7 on what is the material's own
+/// (kernels/materials/plastic_flow.hpp). A batch in which no element has ever yielded pays for one value.
+template <int Values>
+struct FlowHistory {
+  static constexpr int history_values = Values, plastic_strain = 6;
+
+  double* history;  ///< see MaterialArrays
+
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION double* value(int batch, int number) const {
+    return history + tiled<S>(batch, history_values, number);
+  }
+
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION Pack<S> equivalent(int batch) const {
+    return load_history<S>(value<S>(batch, plastic_strain));
+  }
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void load_plastic(int batch, T (&plastic)[6]) const {
+    for (int c = 0; c < 6; ++c) plastic[c] = load_history<S>(value<S>(batch, c));
+  }
+
+  /// Takes the plastic part from the Almansi strain e, with the history as it stands.
+  template <class S, class Patch, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const Patch& patch, int batch, const T (&K)[3][3],
+                                                      T (&e)[6]) const {
+    if (!any_lane(equivalent<S>(batch) > S(0))) return;
+    T G[3][3], plastic[6], share[6];
+    inverse_gradient<S>(patch, K, G);
+    load_plastic<S>(batch, plastic);
+    carry(plastic, G, share);
+    for (int c = 0; c < 6; ++c) e[c] -= share[c];
+  }
+
+  /// Books the flow of lanes that yield.
+  /// @param e Almansi strain, elastic part, before the flow
+  /// @param lost what the Hencky strain lost
+  /// @param increment of the equivalent plastic strain; zero in lanes that do not yield
+  /// @tparam Coaxial `lost` has the principal axes of e
+  template <class S, bool Coaxial, class Patch, class T, class Mask>
+  KOKKOS_FORCEINLINE_FUNCTION void book_flow(const Patch& patch, int batch, const T (&K)[3][3], const T (&e)[6],
+                                             const Mask& yields, const T (&lost)[6], const T& increment) const {
+    T G[3][3], plastic[6], added[6];
+    inverse_gradient<S>(patch, K, G);
+    load_plastic<S>(batch, plastic);
+    plastic_increment<S, Coaxial>(G, e, lost, plastic, added);
+    for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, c), choose(yields, added[c], T(S(0))));
+    add_to_history<S>(value<S>(batch, plastic_strain), increment);
+  }
+
+  template <class S, class Patch, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void inverse_gradient(const Patch& patch, const T (&K)[3][3], T (&G)[3][3]) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        if constexpr (sizeof(S) < sizeof(double))
+          G[i][j] = patch.turn[0][i] * K[0][j] + patch.turn[1][i] * K[1][j] + patch.turn[2][i] * K[2][j];
+        else
+          G[i][j] = K[i][j];
+      }
+  }
+};
+
+}  // namespace railwave

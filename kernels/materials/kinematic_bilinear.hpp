@@ -1,0 +1,106 @@
+#pragma once
+
+#include "kernels/materials/flow_history.hpp"
+#include "kernels/materials/polar_rotation.hpp"
+
+namespace railwave {
+
+struct KinematicConstants {
+  BilinearConstants bilinear;
+  double isotropic_share;  ///< beta
+};
+
+/// Bilinear with a back stress: of the hardening modulus H the share beta widens the yield surface and 1 - beta moves
+/// it (Prager; Simo & Hughes, Computational Inelasticity, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
+///   q <= sigma_y + beta H e_p,   de_p = (q_trial - limit) / (3 mu + H),   db = 2/3 (1 - beta) H (3/2 de_p xi / q).
+/// The back stress b (Kirchhoff's, a deviator) turns with the material: what is kept is a = R^T b R in the axes of the
+/// reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body touches and which does
+/// not swing to and fro in large shear. beta = 1 is Bilinear, which knows nothing of all this.
+struct KinematicBilinear : FlowHistory<13> {
+  using Constants = KinematicConstants;
+  static constexpr int back_stress = 7;  ///< first of the history's values of a: xx, yy, zz, xy, yz, zx; Pa
+
+  const Constants* constants;  ///< by row
+
+  template <class S>
+  using OfPatch = FlowingPatch<Constants, S>;
+
+  template <class S, class Turn>
+  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(int row, const Turn& turn) const {
+    return flowing_patch<S>(constants[row], turn);
+  }
+
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingPatch<Constants, S>& patch) {
+    return patch.constants.bilinear.elastic;
+  }
+
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+                                          T (&tau)[6]) const {
+    const BilinearConstants& bilinear = patch.constants.bilinear;
+    T h[6], xi[6], turned[3][3];
+    leave_elastic_part<S>(patch, batch, K, e);
+    hencky_strain(e, h);
+    kirchhoff_stress<S>(bilinear.elastic, h, tau);
+    deviator<S>(tau, xi);
+    const T flowed = equivalent<S>(batch);
+    // As long as nothing has flowed there is no back stress either.
+    const bool has_flowed = any_lane(flowed > S(0));
+    if (has_flowed) {
+      T kept[6], back[6];
+      turn_back<S>(patch, K, turned);
+      for (int c = 0; c < 6; ++c) kept[c] = load_history<S>(value<S>(batch, back_stress + c));
+      carry(kept, turned, back);
+      for (int c = 0; c < 6; ++c) xi[c] -= back[c];
+    }
+    const T mises_square = S(1.5) * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]) +
+                           S(3) * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5]);
+    const T limit = S(bilinear.yield_stress) + S(patch.constants.isotropic_share * bilinear.hardening) * flowed;
+    const auto yields = mises_square > limit * limit;
+    if (!any_lane(yields)) return;
+    T lost[6];
+    const T increment = radial_return<S>(bilinear, yields, xi, mises_square, limit, tau, lost);
+    book_flow<S, false>(patch, batch, K, e, yields, lost, increment);
+    if (!has_flowed) turn_back<S>(patch, K, turned);
+    move_surface<S>(patch, batch, turned, lost);
+  }
+
+  /// Work of the flow: what isotropic hardening makes of it, and 3 a : a / (4 (1 - beta) H) in the moved surface, which
+  /// comes back when the flow is reversed.
+  KOKKOS_INLINE_FUNCTION static double work(const Constants& constants, const double (&history)[history_values]) {
+    const BilinearConstants& bilinear = constants.bilinear;
+    const double equivalent = history[plastic_strain];
+    const double isotropic =
+        (bilinear.yield_stress + 0.5 * constants.isotropic_share * bilinear.hardening * equivalent) * equivalent;
+    const double kinematic = (1 - constants.isotropic_share) * bilinear.hardening;
+    if (!(kinematic > 0)) return isotropic;
+    double square = 0;
+    for (int c = 0; c < 6; ++c) square += (c < 3 ? 1 : 2) * history[back_stress + c] * history[back_stress + c];
+    return isotropic + 0.75 * square / kinematic;
+  }
+
+ private:
+  /// R^T: the inverse deformation gradient is U^-1 R^T.
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const OfPatch<S>& patch, const T (&K)[3][3], T (&turned)[3][3]) {
+    T G[3][3];
+    inverse_gradient<S>(patch, K, G);
+    polar_rotation<S>(G, turned);
+  }
+
+  /// @param lost flow of the Hencky strain; zero in lanes that do not yield
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void move_surface(const OfPatch<S>& patch, int batch, const T (&turned)[3][3],
+                                                const T (&lost)[6]) const {
+    T rotation[3][3], back[6], kept[6];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) rotation[i][j] = turned[j][i];
+    const S modulus = S(2.0 / 3 * (1 - patch.constants.isotropic_share) * patch.constants.bilinear.hardening);
+    for (int c = 0; c < 6; ++c) back[c] = modulus * lost[c];
+    carry(back, rotation, kept);
+    for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, back_stress + c), kept[c]);
+  }
+};
+
+}  // namespace railwave

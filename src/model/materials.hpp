@@ -1,0 +1,99 @@
+#pragma once
+
+#include "kernels/materials/all.hpp"
+#include "model/model.hpp"
+
+/// What materials of elements are to the host: which of a case's materials a kernel is for, the constants that it gets,
+/// and the words for it. A new material has its kernel in kernels/materials/, its line in kernels/materials/all.hpp,
+/// its trait here, and its keys in the case (src/case/scene.hpp, src/case/keys_bodies.cpp).
+namespace railwave {
+
+inline ElasticConstants elastic_constants(const scene::Material& material) {
+  return {material.dilatational_modulus() - 2 * material.shear_modulus(), material.shear_modulus()};
+}
+
+inline BilinearConstants bilinear_constants(const scene::Material& material) {
+  return {elastic_constants(material), *material.yield_stress,
+          hardening_modulus(material.youngs_modulus, material.tangent_modulus)};
+}
+
+template <class Material>
+struct MaterialTrait;
+
+template <>
+struct MaterialTrait<Elastic> {
+  static constexpr const char* words = "";             ///< in the name of its task
+  static constexpr const char* left_out_as = nullptr;  ///< told where something flows, but nothing by this material
+  static bool is_of(const scene::Material& material) { return !material.yield_stress; }
+  static ElasticConstants constants(const scene::Material& material) { return elastic_constants(material); }
+};
+
+template <>
+struct MaterialTrait<Bilinear> {
+  static constexpr const char* words = ", elastoplastic";
+  static constexpr const char* left_out_as = nullptr;
+  static bool is_of(const scene::Material& material) { return material.yield_stress && material.hardening_beta == 1; }
+  static BilinearConstants constants(const scene::Material& material) { return bilinear_constants(material); }
+};
+
+template <>
+struct MaterialTrait<KinematicBilinear> {
+  static constexpr const char* words = ", elastoplastic with back stress";
+  static constexpr const char* left_out_as = "back stress: hardening is isotropic everywhere";
+  static bool is_of(const scene::Material& material) { return material.yield_stress && material.hardening_beta < 1; }
+  static KinematicConstants constants(const scene::Material& material) {
+    return {bilinear_constants(material), material.hardening_beta};
+  }
+};
+
+/// A material's type as a value.
+template <class Material>
+struct MaterialType {
+  using type = Material;
+};
+
+template <class Work, class... Types>
+void for_each_material(const Work& work, TypeList<Types...> /*materials*/) {
+  int number = 0;
+  (work(number++, MaterialType<Types>{}), ...);
+}
+
+/// Calls `work(number, MaterialType<...>)` for each of `Materials`.
+template <class Work>
+void for_each_material(const Work& work) {
+  for_each_material(work, Materials{});
+}
+
+/// Which of `Materials` a case's material is.
+inline int material_number(const scene::Material& material) {
+  int found = -1;
+  for_each_material([&](int number, auto type) {
+    if (MaterialTrait<typename decltype(type)::type>::is_of(material)) found = number;
+  });
+  return found;
+}
+
+/// Calls `work(MaterialType<...>)` with the type of a group's material.
+template <class Work>
+void with_material_type(const MaterialArrays& arrays, const Work& work) {
+  for_each_material([&](int number, auto type) {
+    if (number == arrays.number) work(type);
+  });
+}
+
+/// Calls `work(material)` with the material of a group's elements, in the type that their kernels are made for.
+template <class Work>
+void with_material(const ElementGroup& group, const Work& work) {
+  with_material_type(group.material,
+                     [&](auto type) { work(material_of<typename decltype(type)::type>(group.material)); });
+}
+
+/// The arrays of a group whose elements are of case materials that all have the number `number`.
+/// @param volume m3, of the reference, by slot
+MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials,
+                               const std::vector<double>& volume);
+
+/// What is told of a material's being absent.
+std::vector<std::string> materials_left_out(const scene::Scene& scene);
+
+}  // namespace railwave

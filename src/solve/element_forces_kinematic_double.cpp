@@ -1,8 +1,0 @@
-#include "solve/element_forces_of.hpp"
-
-namespace railwave {
-
-template void forces_of_material<double, NodeAdvance>(const Model&, const ElementGroup&, const Instant&,
-                                                      const ElementLaunch&, const KinematicBilinear&);
-
-}  // namespace railwave

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Holds the sources to the layout: folders include one another one way only, and C++ is as .clang-format has it, within 120 columns."""
+"""Holds the sources to the layout: folders include one another one way only, and C++ is as .clang-format has it, within
+120 columns."""
 import os
 import pathlib
 import re
@@ -27,7 +28,12 @@ CLANG_FORMAT_VERSION = 14  # Debian 12's; others break lines elsewhere
 
 
 def sources(folders=FOLDERS):
-    return [path for folder in folders for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".hpp", ".cpp", ".c")]
+    return [
+        path
+        for folder in folders
+        for path in sorted((ROOT / folder).rglob("*"))
+        if path.suffix in (".hpp", ".cpp", ".c")
+    ]
 
 
 def folder_of(name):
@@ -39,7 +45,11 @@ def folder_of(name):
 def clang_format():
     for name in (f"clang-format-{CLANG_FORMAT_VERSION}", "clang-format"):
         found = shutil.which(name)
-        if found and f"version {CLANG_FORMAT_VERSION}." in subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout:
+        if (
+            found
+            and f"version {CLANG_FORMAT_VERSION}."
+            in subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout
+        ):
             return found
     return None
 
@@ -55,12 +65,19 @@ class Layout(unittest.TestCase):
                     self.fail(f"{path}:{number}: {own or 'src'} must not include {included[1]}")
 
     def test_no_line_is_longer_than_120_columns(self):
-        long = [f"{path}:{number}" for path in sources() for number, line in enumerate(path.read_text().splitlines(), 1) if len(line) > 120]
+        long = [
+            f"{path}:{number}"
+            for path in sources()
+            for number, line in enumerate(path.read_text().splitlines(), 1)
+            if len(line) > 120
+        ]
         self.assertEqual(long, [])
 
     @unittest.skipUnless(clang_format(), f"clang-format {CLANG_FORMAT_VERSION} is not here")
     def test_format(self):
-        done = subprocess.run([clang_format(), "--dry-run", *map(str, sources())], capture_output=True, text=True, check=False, cwd=ROOT)
+        done = subprocess.run(
+            [clang_format(), "--dry-run", *map(str, sources())], capture_output=True, text=True, check=False, cwd=ROOT
+        )
         wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning", done.stderr, re.MULTILINE)))
         self.assertEqual(wrong, [], "to mend: clang-format -i these files")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -11,8 +11,10 @@ import report_work_error  # noqa: E402
 
 HEAD = """# Benchmark results
 
-Written by `scripts/benchmark`; do not edit. Every figure is from a file in `results/`, which names machine, command and date.
-Rates are the best of several repetitions after a warm-up; *spread* is (slowest - fastest) / fastest, in bold above 20 %. A
+Written by `scripts/benchmark`; do not edit. Every figure is from a file in `results/`, which names machine, command \
+and date.
+Rates are the best of several repetitions after a warm-up; *spread* is (slowest - fastest) / fastest, in bold above \
+20 %. A
 load average above the threads of the run means that others used the machine. Such times are not to be trusted.
 """
 
@@ -78,13 +80,17 @@ def machines(files):
     rows = []
     for f in files:
         load = f"{f.facts.get('load average before', '?')}, {f.facts.get('load average after', '?')}"
-        compiler = f"{f.facts.get('compiler', '?')}, `{f.facts.get('options', '')}`, Kokkos {f.facts.get('Kokkos', '?')}"
+        compiler = (
+            f"{f.facts.get('compiler', '?')}, `{f.facts.get('options', '')}`, Kokkos {f.facts.get('Kokkos', '?')}"
+        )
         rows.append([f.name, f.facts.get("date", ""), f.back_end, f.facts.get("device", ""), f.facts.get("vectors", ""),
                      compiler, load, f"`{f.facts.get('command', '')}`"])
     return "## Machines and commands\n\n" + table(head, rows)
 
 
-KINDS = [(m, h, p) for m in ("elastic", "bilinear") for h in ("viscous", "stiffness") for p in ("double", "mixed", "float")]
+KINDS = [
+    (m, h, p) for m in ("elastic", "bilinear") for h in ("viscous", "stiffness") for p in ("double", "mixed", "float")
+]
 
 
 def rate_of(results, what, kind):
@@ -95,15 +101,20 @@ def rate_of(results, what, kind):
 def side_by_side(files):
     """All back ends in one table: million element-steps a second of the block."""
     head = ["material, hourglass, precision"] + [f"{f.back_end}, {f.facts.get('vectors')}<br>({f.name})" for f in files]
-    rows = [["baseline: one at a time, atomics"] + [shown(rate_of(f, "baseline", KINDS[0]), "{:.2f}", 1e-6) for f in files]]
+    rows = [
+        ["baseline: one at a time, atomics"] + [shown(rate_of(f, "baseline", KINDS[0]), "{:.2f}", 1e-6) for f in files]
+    ]
     for kind in KINDS:
         rates = [rate_of(f, "loop", kind) for f in files]
         if any(rates):
             rows.append([", ".join(kind)] + [shown(rate, "{:.2f}", 1e-6) for rate in rates])
     triads = [number(f.select(what="triad")[0], "bytes_per_second") if f.select(what="triad") else None for f in files]
     rows.append(["triad, GB/s"] + [shown(t, "{:.1f}", 1e-9) for t in triads])
-    return ("## Back ends side by side\n\nMillion element-steps a second, a block of hexahedra. AVX-512, AVX2 and SSE2 are the same "
-            "source with packs of 8, 4 and 2 doubles.\n\n" + table(head, rows))
+    return (
+        "## Back ends side by side\n\nMillion element-steps a second, a block of hexahedra. AVX-512, AVX2 and SSE2 are"
+        " the same source with packs of 8, 4 and 2 doubles.\n\n"
+        + table(head, rows)
+    )
 
 
 def claims(files):
@@ -112,13 +123,19 @@ def claims(files):
     for f in files:
         base = rate_of(f, "baseline", KINDS[0])
         double = rate_of(f, "loop", ("elastic", "viscous", "double"))
-        for label, rate, to in (("elastic viscous double over the baseline", double, base),
-                                ("mixed over double", rate_of(f, "loop", ("elastic", "viscous", "mixed")), double),
-                                ("float over double", rate_of(f, "loop", ("elastic", "viscous", "float")), double),
-                                ("bilinear over elastic, double", rate_of(f, "loop", ("bilinear", "viscous", "double")), double)):
+        for label, rate, to in (
+            ("elastic viscous double over the baseline", double, base),
+            ("mixed over double", rate_of(f, "loop", ("elastic", "viscous", "mixed")), double),
+            ("float over double", rate_of(f, "loop", ("elastic", "viscous", "float")), double),
+            ("bilinear over elastic, double", rate_of(f, "loop", ("bilinear", "viscous", "double")), double),
+        ):
             if rate and to:
                 rows.append([label, f.name, shown(rate / to)])
-    one = {f.facts.get("vectors"): f for f in files if f.facts.get("threads") == "1" and f.facts.get("back end") == "OpenMP"}
+    one = {
+        f.facts.get("vectors"): f
+        for f in files
+        if f.facts.get("threads") == "1" and f.facts.get("back end") == "OpenMP"
+    }
     for f in files:
         threads = f.facts.get("threads", "1")
         first = one.get(f.facts.get("vectors"))
@@ -130,30 +147,49 @@ def claims(files):
 
 
 def throughput(files):
-    text = ["## Loop throughput, bytes moved and stages\n\nBytes: every array that a kernel reads once in, every array that it writes "
-            "once out (an ideal cache; `benchmarks/common/traffic.hpp`). Share: of the triad's bandwidth in the same run. Stages "
-            "are timed apart with a fence after each.\n"]
-    head = ["what", "M element-steps/s", "times baseline", "bytes an element-step", "share of triad", "bytes held an element", "spread",
-            "stages, us a step"]
+    text = [
+        "## Loop throughput, bytes moved and stages\n\nBytes: every array that a kernel reads once in, every array that"
+        " it writes once out (an ideal cache; `benchmarks/common/traffic.hpp`). Share: of the triad's bandwidth in the"
+        " same run. Stages are timed apart with a fence after each.\n"
+    ]
+    head = [
+        "what", "M element-steps/s", "times baseline", "bytes an element-step", "share of triad",
+        "bytes held an element", "spread", "stages, us a step",
+    ]
     for f in files:
         rows = []
         for what in ("baseline", "loop"):
             for row in f.select(what=what):
                 kind = {key: row[key] for key in ("material", "hourglass", "precision")}
                 stages = f.select(what="stage", **kind) if what == "loop" else []
-                parts = ", ".join(f"{s['stage'].split(' of ')[0]} {shown(number(s, 'seconds_per_step'), '{:.0f}', 1e6)}" for s in stages)
-                rows.append([f"{what}, " + ", ".join(kind.values()), shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6),
-                             shown(number(row, "times_baseline")), shown(number(row, "bytes_per_element_step"), "{:.0f}"),
-                             shown(number(row, "bandwidth_share"), "{:.0f} %", 100), shown(number(row, "device_bytes_per_element"), "{:.0f}"),
-                             spread(row), parts])
+                parts = ", ".join(
+                    f"{s['stage'].split(' of ')[0]} {shown(number(s, 'seconds_per_step'), '{:.0f}', 1e6)}"
+                    for s in stages
+                )
+                rows.append(
+                    [
+                        f"{what}, " + ", ".join(kind.values()),
+                        shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6),
+                        shown(number(row, "times_baseline")),
+                        shown(number(row, "bytes_per_element_step"), "{:.0f}"),
+                        shown(number(row, "bandwidth_share"), "{:.0f} %", 100),
+                        shown(number(row, "device_bytes_per_element"), "{:.0f}"),
+                        spread(row),
+                        parts,
+                    ]
+                )
         elements = next((row["elements"] for row in f.rows if row.get("elements")), "?")
         agreement = f.select(what="agreement")
         note = ""
         if agreement:
-            note = (f" Product and baseline differ by {shown(number(agreement[0], 'difference'), '{:.4f} %', 100)} on a bar wave, from the "
-                    f"exact one by {shown(number(agreement[0], 'product_error'), '{:.2f} %', 100)} and "
-                    f"{shown(number(agreement[0], 'baseline_error'), '{:.2f} %', 100)}.")
-        text.append(f"### {f.name}: {f.back_end}\n\n{f.facts.get('device')}, {elements} elements.{note}\n\n" + table(head, rows))
+            note = (
+                f" Product and baseline differ by {shown(number(agreement[0], 'difference'), '{:.4f} %', 100)} on a bar"
+                f" wave, from the exact one by {shown(number(agreement[0], 'product_error'), '{:.2f} %', 100)} and"
+                f" {shown(number(agreement[0], 'baseline_error'), '{:.2f} %', 100)}."
+            )
+        text.append(
+            f"### {f.name}: {f.back_end}\n\n{f.facts.get('device')}, {elements} elements.{note}\n\n" + table(head, rows)
+        )
     return "\n".join(text)
 
 
@@ -162,15 +198,27 @@ def growth(files):
     for f in files:
         rows = [[row["precision"], row["elements"], shown(number(row, "seconds_per_step"), "{:.1f}", 1e6),
                  shown(number(row, "element_steps_per_second"), "{:.2f}", 1e-6), spread(row),
-                 shown(number(row, "device_bytes_per_element"), "{:.0f}"), shown(number(row, "build_seconds"), "{:.1f}")] for row in f.rows]
-        text.append(f"### {f.name}: {f.back_end}\n\n" + table(["precision", "elements", "us a step", "M element-steps/s", "spread",
-                                                              "bytes an element", "built in, s"], rows))
+                 shown(number(row, "device_bytes_per_element"), "{:.0f}"),
+                 shown(number(row, "build_seconds"), "{:.1f}")] for row in f.rows]
+        text.append(
+            f"### {f.name}: {f.back_end}\n\n"
+            + table(
+                [
+                    "precision", "elements", "us a step", "M element-steps/s", "spread", "bytes an element",
+                    "built in, s",
+                ],
+                rows,
+            )
+        )
     return "\n".join(text)
 
 
 def rolling(files):
-    text = ["## Rolling scene\n\n`cases/rolling.toml` with its element sizes divided: contact, friction, suspension, torque, gravity; "
-            "energy account and histories at the outputs. *Of the block* is the rate over that of a block of as many elements.\n"]
+    text = [
+        "## Rolling scene\n\n`cases/rolling.toml` with its element sizes divided: contact, friction, suspension,"
+        " torque, gravity; energy account and histories at the outputs. *Of the block* is the rate over that of a block"
+        " of as many elements.\n"
+    ]
     rows, stage_rows = [], []
     for f in files:
         model = (f.select(what="model") or [{}])[0]
@@ -190,20 +238,41 @@ def rolling(files):
             share = number(s, "seconds_per_step")
             stage_rows.append([f.name, s["stage"], shown(share, "{:.1f}", 1e6), shown(share / whole, "{:.1f} %", 100)])
         text.append(f"- {f.name}: `{model.get('overrides', '').strip() or 'as it is'}`")
-    text.append("\n" + table(["file", "back end", "precision", "what", "elements", "us a step", "M element-steps/s", "of the block",
-                              "nodes touching", "spread"], rows))
+    text.append(
+        "\n"
+        + table(
+            [
+                "file", "back end", "precision", "what", "elements", "us a step", "M element-steps/s", "of the block",
+                "nodes touching", "spread",
+            ],
+            rows,
+        )
+    )
     text.append(table(["file", "stage, with a fence after it", "us a step", "share"], stage_rows))
     return "\n".join(text)
 
 
 def omissions(files):
-    text = ["## What leaving things out saves\n\nThe rolling scene, and the same without one thing; below, with an energy account every so "
-            "many steps. Savings are of the whole scene's step; what is smaller than the spread is not to be trusted.\n"]
+    text = [
+        "## What leaving things out saves\n\nThe rolling scene, and the same without one thing; below, with an energy"
+        " account every so many steps. Savings are of the whole scene's step; what is smaller than the spread is not to"
+        " be trusted.\n"
+    ]
     for f in files:
-        rows = [[row["what"], shown(number(row, "seconds_per_step"), "{:.1f}", 1e6), shown(number(row, "saving"), "{:.1f} %", 100),
-                 spread(row)] for row in f.rows]
+        rows = [
+            [
+                row["what"],
+                shown(number(row, "seconds_per_step"), "{:.1f}", 1e6),
+                shown(number(row, "saving"), "{:.1f} %", 100),
+                spread(row),
+            ]
+            for row in f.rows
+        ]
         elements = next((row["elements"] for row in f.rows if row.get("elements")), "?")
-        text.append(f"### {f.name}: {f.back_end}, {elements} elements\n\n" + table(["scene", "us a step", "saves", "spread"], rows))
+        text.append(
+            f"### {f.name}: {f.back_end}, {elements} elements\n\n"
+            + table(["scene", "us a step", "saves", "spread"], rows)
+        )
     return "\n".join(text)
 
 

@@ -10,7 +10,13 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 COLOURS = {"double": "#10407f", "mixed": "#0a7a4a", "float": "#c46a00"}
-MEASURES = {"bar wave": "velocity, L2", "graded pulse": "displacement, L2", "Rayleigh pulse": "displacement, L2", "Hertz press": "pressure, L2", "Cattaneo shift": "shear, L2"}
+MEASURES = {
+    "bar wave": "velocity, L2",
+    "graded pulse": "displacement, L2",
+    "Rayleigh pulse": "displacement, L2",
+    "Hertz press": "pressure, L2",
+    "Cattaneo shift": "shear, L2",
+}
 UNSTABLE = 2.0  # a relative error above this is no solution
 
 
@@ -96,7 +102,9 @@ def picture(results, path):
     for axis, problem in zip(axes.flat, problems):
         mine = [run for run in runs if run.problem == problem and run.stable]
         edge = front(mine)
-        axis.plot([r.seconds for r in edge], [100 * r.error for r in edge], color="0.6", linewidth=5, alpha=0.5, zorder=1)
+        axis.plot(
+            [r.seconds for r in edge], [100 * r.error for r in edge], color="0.6", linewidth=5, alpha=0.5, zorder=1
+        )
         for run in mine:
             used.add(marker(run))
             filled = run.coefficient == 0
@@ -106,9 +114,15 @@ def picture(results, path):
         for size in sorted({run.size for run in mine}):
             group = [run for run in mine if run.size == size]
             low = min(group, key=lambda r: r.error)
-            axis.annotate(f"{1e3 * size:.3g} mm", (low.seconds, 100 * low.error), textcoords="offset points", xytext=(-4, -11),
-                          fontsize=8, ha="right", color="0.25")
-        axis.set(xscale="log", yscale="log", title=problem, xlabel="run time, s", ylabel=f"error ({MEASURES.get(problem, 'L2')}), %")
+            axis.annotate(
+                f"{1e3 * size:.3g} mm",
+                (low.seconds, 100 * low.error),
+                textcoords="offset points", xytext=(-4, -11), fontsize=8, ha="right", color="0.25",
+            )
+        axis.set(
+            xscale="log", yscale="log", title=problem, xlabel="run time, s",
+            ylabel=f"error ({MEASURES.get(problem, 'L2')}), %",
+        )
         axis.margins(x=0.18, y=0.12)
         axis.grid(which="both", color="0.9", linewidth=0.6)
         axis.set_axisbelow(True)
@@ -117,7 +131,9 @@ def picture(results, path):
     precisions = [p for p in COLOURS if any(run.row["precision"] == p for run in runs)]
     handles = [Line2D([], [], color=COLOURS[p], marker="o", linestyle="", label=p) for p in precisions]
     handles += [Line2D([], [], color="0.3", marker=m, linestyle="", label=text) for m, text in MARKERS if m in used]
-    handles.append(Line2D([], [], color="0.3", marker="o", fillstyle="none", linestyle="", label="other hourglass coefficient"))
+    handles.append(
+        Line2D([], [], color="0.3", marker="o", fillstyle="none", linestyle="", label="other hourglass coefficient")
+    )
     handles.append(Line2D([], [], color="0.6", linewidth=5, alpha=0.5, label="Pareto front"))
     figure.legend(handles=handles, loc="lower center", ncol=5 if columns > 1 else 2, fontsize=8, frameon=False)
     threads = results.facts.get("threads")
@@ -129,8 +145,11 @@ def picture(results, path):
 
 
 def section(files, folder):
-    text = ["## Run time against error\n\nProblems with a known solution (`benchmarks/problems/`). Tables: the methods that no other beats in both "
-            "run time and error. *Own choice*: double, viscous hourglass control 0.1, element step times 0.9, penalty scale 1.\n"]
+    text = [
+        "## Run time against error\n\nProblems with a known solution (`benchmarks/problems/`). Tables: the methods that"
+        " no other beats in both run time and error. *Own choice*: double, viscous hourglass control 0.1, element step"
+        " times 0.9, penalty scale 1.\n"
+    ]
     for results in files:
         name = f"{results.name}.png"
         picture(results, os.path.join(folder, name))
@@ -141,8 +160,10 @@ def section(files, folder):
             text.append(f"**{problem}**: error of the {MEASURES.get(problem, 'solution')}\n")
             text.append("| element, mm | method | elements | steps | run time, s | error |\n|---|---|---|---|---|---|")
             for run in front([run for run in mine if run.stable]):
-                text.append(f"| {1e3 * run.size:.3g} | {run.changes} | {run.row['elements']} | {run.row['steps']} | {run.seconds:.3f} | "
-                            f"{100 * run.error:.3f} % |")
+                text.append(
+                    f"| {1e3 * run.size:.3g} | {run.changes} | {run.row['elements']} | {run.row['steps']} |"
+                    f" {run.seconds:.3f} | {100 * run.error:.3f} % |"
+                )
             text.append("")
             lost = [f"{run.changes} at {1e3 * run.size:.3g} mm" for run in mine if not run.stable]
             if lost:

@@ -1,4 +1,5 @@
-"""Columns of numbers by name out of a text file, for scripts: what is not wholly understood is refused with file, line and column."""
+"""Columns of numbers by name out of a text file, for scripts: what is not wholly understood is refused with file, line
+and column."""
 
 import math
 import re
@@ -27,7 +28,10 @@ def why_no_number(text):
     if NUMBER.fullmatch(text):
         return "is too large; at most 1.79e308 can be computed with"
     if NUMBER.match(text):
-        return "has something behind the number; write the number alone, with a decimal point, thousands without separators"
+        return (
+            "has something behind the number; write the number alone, with a decimal point, thousands without"
+            " separators"
+        )
     return "is no finite decimal number; write one such as 0.5 or 5e-1"
 
 
@@ -35,7 +39,10 @@ def decoded(path):
     with open(path, "rb") as file:
         content = file.read()
     if content[:2] in (b"\xff\xfe", b"\xfe\xff") or b"\0" in content[:4]:
-        raise TableError(f"{path}:1: the file is UTF-16 or UTF-32 text, or none; save it as UTF-8 (in a spreadsheet: CSV, encoding UTF-8)")
+        raise TableError(
+            f"{path}:1: the file is UTF-16 or UTF-32 text, or none; save it as UTF-8 (in a spreadsheet: CSV, encoding"
+            " UTF-8)"
+        )
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -62,8 +69,8 @@ def unquoted(text):
 
 
 def read_table(path, numbers, texts=()):
-    """Rows of a file whose first line names its columns, which commas, semicolons or tabs separate; empty lines and those that begin
-    with # are left out. Of columns not asked for only their presence is looked at.
+    """Rows of a file whose first line names its columns, which commas, semicolons or tabs separate; empty lines and
+    those that begin with # are left out. Of columns not asked for only their presence is looked at.
     :param numbers: names of columns whose cells must be numbers
     :param texts: names of columns whose cells are kept as text
     :return: list of dictionaries, with the file's line as "line"
@@ -78,17 +85,23 @@ def read_table(path, numbers, texts=()):
             names = [unquoted(cell) for cell in split(line, separator)]
             for name in [*numbers, *texts]:
                 if names.count(name) != 1:
-                    raise TableError(f"{where}: the line of names is '{line.strip()[:80]}', must have the column {name} once")
+                    raise TableError(
+                        f"{where}: the line of names is '{line.strip()[:80]}', must have the column {name} once"
+                    )
             continue
         cells = split(line, separator)
         if len(cells) != len(names):
-            raise TableError(f"{where}: has {len(cells)} values, must have {len(names)}, one for each name of the first line")
+            raise TableError(
+                f"{where}: has {len(cells)} values, must have {len(names)}, one for each name of the first line"
+            )
         row = {"line": number, **{name: unquoted(cells[names.index(name)]) for name in texts}}
         for name in numbers:
             text = cells[names.index(name)]
             row[name] = parse_number(text)
             if row[name] is None:
-                raise TableError(f"{where}: column {names.index(name) + 1} ({name}): '{text[:40]}' {why_no_number(text)}")
+                raise TableError(
+                    f"{where}: column {names.index(name) + 1} ({name}): '{text[:40]}' {why_no_number(text)}"
+                )
         rows.append(row)
     if names is None:
         raise TableError(f"{path}:1: is empty, must have a line that names the columns {', '.join([*numbers, *texts])}")

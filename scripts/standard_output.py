@@ -1,4 +1,5 @@
-"""What a script says on standard output: it goes on when its reader has gone (`| head`); a full disk it tells at its end, with status 1."""
+"""What a script says on standard output: it goes on when its reader has gone (`| head`); a full disk it tells at its
+end, with status 1."""
 
 import io
 import os
@@ -36,7 +37,10 @@ def run(main):
     if sys.stdout is None:  # closed by whoever started the script
         sys.exit(main())
     output = _Output(sys.stdout.fileno())
-    sys.stdout = io.TextIOWrapper(io.BufferedWriter(output), encoding=sys.stdout.encoding, errors=sys.stdout.errors, line_buffering=output.isatty())
+    sys.stdout = io.TextIOWrapper(
+        io.BufferedWriter(output), encoding=sys.stdout.encoding, errors=sys.stdout.errors,
+        line_buffering=output.isatty(),
+    )
     try:
         status = main()
     except SystemExit as end:
@@ -44,6 +48,10 @@ def run(main):
     finally:
         sys.stdout.flush()
     if output.failure:
-        print(f"{pathlib.Path(sys.argv[0]).name}: not all that was to go to standard output got there: {output.failure.strerror}", file=sys.stderr)
+        print(
+            f"{pathlib.Path(sys.argv[0]).name}: not all that was to go to standard output got there:"
+            f" {output.failure.strerror}",
+            file=sys.stderr,
+        )
         status = status or 1
     sys.exit(status)

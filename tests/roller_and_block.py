@@ -1,4 +1,5 @@
-"""Meshes that several tests roll with, as text of a case file: a coarse sector of a roller, and a block whose top is at z = 0."""
+"""Meshes that several tests roll with, as text of a case file: a coarse sector of a roller, and a block whose top is at
+z = 0."""
 
 MESHES = """[meshes.roller]
 type = "roller"

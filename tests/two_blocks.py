@@ -1,4 +1,5 @@
-"""The scene that many tests begin with, as text of a case file: a steel block above a held one, in frictional contact."""
+"""The scene that many tests begin with, as text of a case file: a steel block above a held one, in frictional
+contact."""
 
 STEEL = """
 [materials.steel]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes punch.inp: a block of 24 x 24 x 40 mm whose lower side is rounded, as Abaqus and CalculiX write meshes (mm)."""
+"""Writes punch.inp: a block of 24 x 24 x 40 mm whose lower side is rounded, as Abaqus and CalculiX write meshes
+(mm)."""
 
 import pathlib
 

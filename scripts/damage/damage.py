@@ -4,8 +4,13 @@ import random
 import re
 import struct
 
-SIGNATURES = re.compile(rb"TREE|HEAP|GCOL|SNOD|OHDR|OCHK|EAHD|EAIB|EASB|EADB|FAHD|FADB|BTHD|BTLF|BTIN|FRHP|FHDB|FHIB|RWsealed")
-NUMBERS = [0, 1, 2, 3, 7, 8, 16, 127, 128, 255, 256, 4095, 4096, 65535, 65536, 2**31 - 1, 2**31, 2**32 - 1, 2**32, 2**40, 2**62, 2**63 - 1, 2**63, 2**64 - 1]
+SIGNATURES = re.compile(
+    rb"TREE|HEAP|GCOL|SNOD|OHDR|OCHK|EAHD|EAIB|EASB|EADB|FAHD|FADB|BTHD|BTLF|BTIN|FRHP|FHDB|FHIB|RWsealed"
+)
+NUMBERS = [
+    0, 1, 2, 3, 7, 8, 16, 127, 128, 255, 256, 4095, 4096, 65535, 65536, 2**31 - 1, 2**31, 2**32 - 1, 2**32, 2**40,
+    2**62, 2**63 - 1, 2**63, 2**64 - 1,
+]
 
 
 class Damage:
@@ -21,7 +26,10 @@ class Damage:
         if kind < 0.7:
             found = [match.start() for match in SIGNATURES.finditer(data)]
             if found:
-                return min(len(data) - 1, chance.choice(found) + (chance.randrange(24) if chance.random() < 0.5 else chance.randrange(512)))
+                return min(
+                    len(data) - 1,
+                    chance.choice(found) + (chance.randrange(24) if chance.random() < 0.5 else chance.randrange(512)),
+                )
         return chance.randrange(len(data))
 
     def flip(self, data):
@@ -36,7 +44,9 @@ class Damage:
 
     def word(self, data):
         at, size = self.place(data), self.chance.choice([2, 4, 8])
-        number = self.chance.choice([*NUMBERS, len(data), len(data) - 1, self.chance.randrange(2**64)]) % 2 ** (8 * size)
+        number = self.chance.choice([*NUMBERS, len(data), len(data) - 1, self.chance.randrange(2**64)]) % 2 ** (
+            8 * size
+        )
         word = struct.pack("<Q", number)[:size]
         data[at : at + size] = word[: max(0, min(size, len(data) - at))]
         return f"{size} bytes at {at}: {number}"
@@ -49,7 +59,13 @@ class Damage:
         return f"number at {at}"
 
     def cut(self, data):
-        length = self.chance.choice([self.chance.randrange(len(data)), len(data) - 1 - self.chance.randrange(min(64, len(data))), self.chance.randrange(min(2048, len(data)))])
+        length = self.chance.choice(
+            [
+                self.chance.randrange(len(data)),
+                len(data) - 1 - self.chance.randrange(min(64, len(data))),
+                self.chance.randrange(min(2048, len(data))),
+            ]
+        )
         del data[length:]
         return f"cut to {length}"
 
@@ -92,7 +108,13 @@ class Damage:
     def apply(self, sound):
         """Damaged bytes; those of the sound file where the damage happens to change nothing."""
         data = bytearray(sound)
-        kinds = [self.flip] * 5 + [self.byte] * 3 + [self.word] * 5 + [self.shift] * 2 + [self.cut, self.fill, self.fill, self.copy, self.swap, self.insert, self.add]
+        kinds = (
+            [self.flip] * 5
+            + [self.byte] * 3
+            + [self.word] * 5
+            + [self.shift] * 2
+            + [self.cut, self.fill, self.fill, self.copy, self.swap, self.insert, self.add]
+        )
         for _ in range(self.chance.choice([1, 1, 1, 1, 2, 4])):
             if len(data) > 16:
                 self.done.append(self.chance.choice(kinds)(data))

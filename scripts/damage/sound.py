@@ -88,7 +88,8 @@ fields = ["velocity"]
 
 
 class Seed:
-    """A sound file; `commands`: {name: words}, in which FILE is the damaged file and OUT a folder for what is written."""
+    """A sound file; `commands`: {name: words}, in which FILE is the damaged file and OUT a folder for what is
+    written."""
 
     def __init__(self, name, path, commands, checked=True):
         self.name, self.path, self.commands, self.checked = name, pathlib.Path(path), commands, checked
@@ -102,8 +103,11 @@ def old_format(path, copy):
         def take(name, item):
             if isinstance(item, h5py.Dataset):
                 grows = item.maxshape and item.maxshape[0] is None
-                made = target.create_dataset(name, data=item[()], chunks=item.chunks if grows else None, maxshape=item.maxshape if grows else None,
-                                             compression="gzip" if item.compression_opts else None, shuffle=bool(item.compression_opts))
+                made = target.create_dataset(
+                    name, data=item[()], chunks=item.chunks if grows else None,
+                    maxshape=item.maxshape if grows else None, compression="gzip" if item.compression_opts else None,
+                    shuffle=bool(item.compression_opts),
+                )
             else:
                 made = target.require_group(name)
             for key, value in item.attrs.items():
@@ -116,7 +120,10 @@ def old_format(path, copy):
 def run(program, folder, name, text, *options):
     case = folder / f"{name}.toml"
     case.write_text(text)
-    done = subprocess.run([program, "run", case.name, "--set", f"output.file={name}.h5", *options], cwd=folder, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [program, "run", case.name, "--set", f"output.file={name}.h5", *options],
+        cwd=folder, capture_output=True, text=True, check=False,
+    )
     if done.returncode != 0:
         raise SystemExit(f"{case} did not run\n{done.stdout}{done.stderr}")
     return folder / f"{name}.h5"
@@ -135,7 +142,9 @@ HAMMER_COMMANDS = {
     "signal wavelet": "signal wavelet FILE --channel bar.row_2.velocity.z --csv OUT/w.csv",
     "signal bandpass": "signal bandpass FILE --channel load.blow.force.z --high 2e4 --csv OUT/b.csv",
     "signal cross": "signal cross FILE --channel load.blow.force.z --channel bar.row_1.acceleration.z --csv OUT/x.csv",
-    "signal ellipse": "signal ellipse FILE --channel bar.row_1.displacement.z --channel bar.row_1.displacement.x --csv OUT/e.csv",
+    "signal ellipse": (
+        "signal ellipse FILE --channel bar.row_1.displacement.z --channel bar.row_1.displacement.x --csv OUT/e.csv"
+    ),
     "signal speed": "signal speed FILE --channel bar.row_*.velocity.z --csv OUT/s.csv",
     "signal beam": "signal psd FILE --channel beam.rod.moment.1.y --csv OUT/p.csv",
 }

@@ -35,7 +35,12 @@ class Commands:
     """Runs commands on files in a folder of their own."""
 
     def __init__(self, program, folder, most_seconds=300, most_memory=2e9):
-        self.program, self.folder, self.most_seconds, self.most_memory = str(program), pathlib.Path(folder), most_seconds, most_memory
+        self.program, self.folder, self.most_seconds, self.most_memory = (
+            str(program),
+            pathlib.Path(folder),
+            most_seconds,
+            most_memory,
+        )
         self.sanitized = b"__asan_init" in pathlib.Path(program).read_bytes()
         self.sound = {}
 
@@ -47,10 +52,16 @@ class Commands:
         for other in seed.beside:
             shutil.copy(other, self.folder)
         command = [self.program, *(word.replace("FILE", file).replace("OUT", "out") for word in words.split())]
-        environment = dict(os.environ, OMP_NUM_THREADS="1", ASAN_OPTIONS="abort_on_error=1:allocator_may_return_null=1:detect_stack_use_after_return=0",
-                           UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:abort_on_error=1")
+        environment = dict(
+            os.environ,
+            OMP_NUM_THREADS="1",
+            ASAN_OPTIONS="abort_on_error=1:allocator_may_return_null=1:detect_stack_use_after_return=0",
+            UBSAN_OPTIONS="print_stacktrace=1:halt_on_error=1:abort_on_error=1",
+        )
         with open(self.folder / "said", "wb") as said, open(self.folder / "complaint", "wb") as complaint:
-            process = subprocess.Popen(command, cwd=self.folder, env=environment, stdout=said, stderr=complaint, preexec_fn=limits)
+            process = subprocess.Popen(
+                command, cwd=self.folder, env=environment, stdout=said, stderr=complaint, preexec_fn=limits
+            )
             signal.signal(signal.SIGALRM, lambda *_: os.killpg(process.pid, signal.SIGKILL))
             signal.alarm(self.most_seconds)
             _, status, usage = os.wait4(process.pid, 0)
@@ -62,7 +73,10 @@ class Commands:
 
     def numbers_of_restart(self, seed):
         """What the results hold after they were gone on with, as another command tells it; nothing where it refuses."""
-        done = subprocess.run([self.program, "contact", "results.h5", "--csv", "out/t.csv"], cwd=self.folder, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [self.program, "contact", "results.h5", "--csv", "out/t.csv"],
+            cwd=self.folder, capture_output=True, text=True, check=False,
+        )
         return (done.stdout if done.returncode == 0 else ""), done
 
     def answer(self, seed, name, data):
@@ -73,7 +87,9 @@ class Commands:
                 answer.code = done.returncode
         else:
             # HDF5 notes no times, but the name of the file that was read.
-            answer.files = {name: data for name, data in answer.files.items() if not name.endswith(".h5") or answer.code != 0}
+            answer.files = {
+                name: data for name, data in answer.files.items() if not name.endswith(".h5") or answer.code != 0
+            }
         return answer
 
     def sound_answer(self, seed, name):
@@ -95,7 +111,10 @@ class Commands:
             return finding(f"takes {answer.memory / 1e9:.1f} GB")
         if self.sanitized:
             own = re.search(r"ERROR: (Address|Leak)Sanitizer|runtime error:", answer.complaint)
-            told_crash = "HDF5 library crashed" in answer.complaint and "in railwave::" not in answer.complaint.split("ERROR:")[-1].split("#6")[0]
+            told_crash = (
+                "HDF5 library crashed" in answer.complaint
+                and "in railwave::" not in answer.complaint.split("ERROR:")[-1].split("#6")[0]
+            )
             if own and not told_crash:
                 return finding("sanitizer")
         if "HDF5-DIAG" in answer.complaint or "terminate called" in answer.complaint:

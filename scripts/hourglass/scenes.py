@@ -1,4 +1,5 @@
-"""The scenes of scripts/hourglass_table: case, what is changed in it, and what of its results is known from theory. SI units."""
+"""The scenes of scripts/hourglass_table: case, what is changed in it, and what of its results is known from theory. SI
+units."""
 
 from dataclasses import dataclass, field
 from typing import Callable
@@ -15,7 +16,8 @@ class Scene:
     parts: tuple
     overrides: list = field(default_factory=list)
     explicit: bool = False  # the case names its control, so that 'default' says nothing of it
-    measure: Callable = lambda history: []  # (what, computed, exact) of a run's histories; exact 0: there is none, `computed` is a share
+    # (what, computed, exact) of a run's histories; exact 0: there is none, `computed` is a share
+    measure: Callable = lambda history: []
 
     def results(self, run, overrides, program):
         """Runs the case by `run`; what makes figures of its histories."""
@@ -30,7 +32,10 @@ class Strip(Scene):
         from verification.cases import CASES
         from verification.measured import Run
 
-        outcome = CASES["carter"](lambda name, case, more: Run(run(f"cases/verify/{case}.toml", more), program), "table", 10, overrides, ["0.8"])
+        outcome = CASES["carter"](
+            lambda name, case, more: Run(run(f"cases/verify/{case}.toml", more), program), "table", 10, overrides,
+            ["0.8"],
+        )
         figures = [(what.split(",")[0].strip(), computed, exact) for what, computed, exact, _ in outcome.figures]
         return lambda history: figures
 
@@ -42,7 +47,8 @@ SHEAR = 10 * (1 + POISSON) / (12 + 11 * POISSON) * YOUNG / (2 * (1 + POISSON)) *
 
 
 def cantilever_frequency():
-    """Hz, the first: the lowest root of the determinant of a Timoshenko beam's boundary conditions, found by bisection."""
+    """Hz, the first: the lowest root of the determinant of a Timoshenko beam's boundary conditions, found by
+    bisection."""
     mass, turning = DENSITY * AREA, DENSITY * HEIGHT**4 / 12
 
     def determinant(omega):
@@ -75,7 +81,10 @@ def swinging(history):
     time, tip = history["time"], history["set/beam.x_max/displacement"][:, 2]
     free = time > 2.1e-3
     swing = [np.ptp(tip[(time > a) & (time <= a + 2.5e-3)]) for a in (2.1e-3, time[-1] - 2.5e-3)]
-    return [("frequency", frequency(time[free], tip[free]), cantilever_frequency()), ("swing left after nine periods", swing[1], swing[0])]
+    return [
+        ("frequency", frequency(time[free], tip[free]), cantilever_frequency()),
+        ("swing left after nine periods", swing[1], swing[0]),
+    ]
 
 
 def bent(history):
@@ -89,7 +98,10 @@ def struck(history):
     time, contact = history["time"], history["contact/between/normal_force"]
     pressed = time[np.abs(contact[:, 2]) > 0.02 * np.abs(contact[:, 2]).max()]
     left = history["set/lower.lower_all/velocity"][-1, 2]
-    return [("velocity passed on", -left, 1.0), ("duration", pressed[-1] - pressed[0], 2 * 0.1 / np.sqrt(YOUNG / DENSITY))]
+    return [
+        ("velocity passed on", -left, 1.0),
+        ("duration", pressed[-1] - pressed[0], 2 * 0.1 / np.sqrt(YOUNG / DENSITY)),
+    ]
 
 
 def fallen(history):
@@ -105,14 +117,24 @@ def rolled(history):
 
 
 def beam(thick, *overrides, measure=swinging):
-    return Scene(f"{FOLDER}/beam.toml", ("beam",), [f"meshes.beam.divisions=[{10 * thick},{thick},{thick}]", *overrides], measure=measure)
+    return Scene(
+        f"{FOLDER}/beam.toml",
+        ("beam",),
+        [f"meshes.beam.divisions=[{10 * thick},{thick},{thick}]", *overrides],
+        measure=measure,
+    )
 
 
 STATIC = ("curves.push.type=cosine_ramp", "curves.push.duration=8e-3", "parts.beam.mass_damping=3000", "time.end=15e-3")
 COARSE = ["meshes.wheel.zone_size=0.004", "meshes.rail.zone_size=0.004", "time.end=1.5e-3", "settle.tolerance=2.5e-3"]
 SCENES = {
     "drop, 10 mm": Scene(f"{FOLDER}/drop.toml", ("upper", "lower"), measure=fallen),
-    "drop, 5 mm": Scene(f"{FOLDER}/drop.toml", ("upper", "lower"), ["meshes.upper.divisions=[8,8,8]", "meshes.lower.divisions=[12,12,4]"], measure=fallen),
+    "drop, 5 mm": Scene(
+        f"{FOLDER}/drop.toml",
+        ("upper", "lower"),
+        ["meshes.upper.divisions=[8,8,8]", "meshes.lower.divisions=[12,12,4]"],
+        measure=fallen,
+    ),
     "bars": Scene(f"{FOLDER}/bars.toml", ("upper", "lower"), measure=struck),
     "hammer": Scene(f"{FOLDER}/hammer.toml", ("rail",)),
     **{f"beam swings, {thick} thick": beam(thick) for thick in (1, 2, 4)},

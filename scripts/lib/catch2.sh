@@ -26,9 +26,11 @@ setup_catch2() {
     fi
     rm -rf "$work" "$deps_dir/catch2"
     mkdir -p "$work"
-    private_apt_open backports deb -backports || fail "could not read Debian's backports, where Catch2 3 is. Name an installed one with Catch2_ROOT=FOLDER"
+    private_apt_open backports deb -backports ||
+        fail "could not read Debian's backports, where Catch2 3 is. Name an installed one with Catch2_ROOT=FOLDER"
     say "downloading Catch2 3 from Debian's backports"
-    (cd "$work" && apt-get "${private_apt_options[@]}" download libcatch2-dev >/dev/null) || fail "Catch2 3 did not arrive. Name an installed one with Catch2_ROOT=FOLDER"
+    (cd "$work" && apt-get "${private_apt_options[@]}" download libcatch2-dev >/dev/null) ||
+        fail "Catch2 3 did not arrive. Name an installed one with Catch2_ROOT=FOLDER"
     packages=("$work"/libcatch2-dev_*.deb)
     dpkg-deb -x "${packages[0]}" "$work/root"
     mv "$work/root" "$deps_dir/catch2"

@@ -41,8 +41,8 @@ build_jobs() {
     echo "$((cores < by_memory ? cores : by_memory))"
 }
 
-# build_preset PRESET TARGET: configures if that was never done, or without the tests that `all` needs, and builds. Quiet
-# unless it takes work or fails.
+# build_preset PRESET TARGET: configures if that was never done, or without the tests that `all` needs, and builds.
+# Quiet unless it takes work or fails.
 build_preset() {
     local preset=$1 target=$2 folder="$project_root/build/$1" log="$project_root/build/$1.log"
     cd "$project_root" || return

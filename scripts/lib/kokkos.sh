@@ -62,7 +62,11 @@ fetch_kokkos_source() {
 }
 
 kokkos_source_version() {
-    awk 'tolower($0) ~ /^[ \t]*set *\( *kokkos_version_(major|minor|patch) / {gsub(/[^0-9]/, "", $2); v = v (v == "" ? "" : ".") $2} END {print v}' "$1/CMakeLists.txt"
+    awk 'tolower($0) ~ /^[ \t]*set *\( *kokkos_version_(major|minor|patch) / {
+            gsub(/[^0-9]/, "", $2)
+            v = v (v == "" ? "" : ".") $2
+        }
+        END {print v}' "$1/CMakeLists.txt"
 }
 
 # Prints the CMake arguments that this version of Kokkos needs.
@@ -103,7 +107,8 @@ setup_kokkos() {
         [ -f "$source/CMakeLists.txt" ] || fetch_kokkos_source "$source"
     fi
     version=$(kokkos_source_version "$source")
-    version_at_least "$version" "$kokkos_minimum" || fail "Kokkos $version in $source is too old, $kokkos_minimum is needed"
+    version_at_least "$version" "$kokkos_minimum" ||
+        fail "Kokkos $version in $source is too old, $kokkos_minimum is needed"
     mapfile -t options < <(kokkos_version_options "$version")
 
     prefix="$deps_dir/kokkos-$version"

@@ -6,10 +6,14 @@ packages_to_build=(
     libtomlplusplus-dev ninja-build pkg-config
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
-# clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built without.
+# clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built
+# without.
 packages_to_test=(clang-format python3-paraview)
 # libFuzzer and what reads its coverage.
-packages_to_fuzz=(clang libclang-rt-dev llvm libeigen3-dev libfmt-dev libspdlog-dev libspectra-dev libcli11-dev libtomlplusplus-dev cmake ninja-build)
+packages_to_fuzz=(
+    clang cmake libclang-rt-dev libcli11-dev libeigen3-dev libfmt-dev libspdlog-dev libspectra-dev libtomlplusplus-dev
+    llvm ninja-build
+)
 
 # Prints those of the given packages that are not installed. A package is also there if another provides it.
 missing_packages() {
@@ -28,7 +32,8 @@ missing_packages() {
 }
 
 # Installs the given packages without what they merely recommend; fetches apt's lists only if they lack one or are
-# older than the archive. Never removes a package. apt's own words go to .deps/apt.log, and to the terminal when it fails.
+# older than the archive. Never removes a package. apt's own words go to .deps/apt.log, and to the terminal when it
+# fails.
 install_packages() {
     local log="$deps_dir/apt.log"
     mkdir -p "$deps_dir"

@@ -47,12 +47,14 @@ private_apt_open() {
         -o "Dir::Cache=$base/cache"
         -o "APT::Sandbox::User=$(id -un)"
     )
-    say "reading the package lists of Debian ($type, $(awk '{print $(NF-1)}' "$base/sources.d/debian.list" | sort -u | tr '\n' ' '))"
+    say "reading the package lists of Debian ($type," \
+        "$(awk '{print $(NF-1)}' "$base/sources.d/debian.list" | sort -u | tr '\n' ' '))"
     if ! apt-get "${private_apt_options[@]}" update >"$base/update.log" 2>&1; then
         # An archived suite or a frozen mirror keeps lists past their date. Their signatures are checked all the same.
         if grep -q 'expired' "$base/update.log" &&
             apt-get "${private_apt_options[@]}" -o Acquire::Check-Valid-Until=false update >&2; then
-            say "these lists are past their date (an archived suite or a mirror that stands still); taking them as they are"
+            say "these lists are past their date (an archived suite or a mirror that stands still);" \
+                "taking them as they are"
             return 0
         fi
         cat "$base/update.log" >&2

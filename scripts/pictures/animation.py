@@ -5,12 +5,25 @@ import numpy as np
 from PIL import Image
 
 from . import style
-from .panels import Fine, draw_arrows, draw_cut, draw_edge, draw_letters, draw_parting, draw_pressure, parting_levels, pressure_levels, set_window, top_of
+from .panels import (
+    Fine,
+    draw_arrows,
+    draw_cut,
+    draw_edge,
+    draw_letters,
+    draw_parting,
+    draw_pressure,
+    parting_levels,
+    pressure_levels,
+    set_window,
+    top_of,
+)
 
 
 def patch_frames(title, contact, outputs, resolution):
-    """RGB images: above, where the patch is on its way and the forces so far; below, the patch from near by. `outputs` picks
-    of the numbers of the output times at which something touches those that become frames. None where nothing touches."""
+    """RGB images: above, where the patch is on its way and the forces so far; below, the patch from near by. `outputs`
+    picks of the numbers of the output times at which something touches those that become frames. None where nothing
+    touches."""
     touching = [i for i in range(len(contact.times)) if contact.patches(i)]
     if not touching:
         return []
@@ -28,7 +41,9 @@ def patch_frames(title, contact, outputs, resolution):
     sides = [min(p.centre[1] + p.y.min() for p in everything), max(p.centre[1] + p.y.max() for p in everything)]
 
     figure = plt.figure(figsize=(8, 6), dpi=resolution)
-    grid = figure.add_gridspec(3, 2, height_ratios=[0.8, 0.9, 2.6], hspace=0.5, wspace=0.3, left=0.1, right=0.97, top=0.92, bottom=0.09)
+    grid = figure.add_gridspec(
+        3, 2, height_ratios=[0.8, 0.9, 2.6], hspace=0.5, wspace=0.3, left=0.1, right=0.97, top=0.92, bottom=0.09
+    )
     track, forces, line = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, 0]), figure.add_subplot(grid[1, 1])
     stress, slip = figure.add_subplot(grid[2, 0]), figure.add_subplot(grid[2, 1])
     times = 1e3 * contact.times

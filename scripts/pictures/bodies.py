@@ -54,7 +54,8 @@ class Body:
         return rigid_motion(self.nodes[self._every], moved)
 
     def corners(self, output, scale=1.0):
-        """Of each face (n, 4, 3), the deformation magnified: all motion, or of a body that travels what is not rigid."""
+        """Of each face (n, 4, 3), the deformation magnified: all motion, or of a body that travels what is not
+        rigid."""
         if not self.moves:
             return self.nodes[self.faces]
         displacement = self.group["displacement"][output]
@@ -74,16 +75,23 @@ class Body:
 
 
 def chosen_names(fields, names, sides=()):
-    """Of the groups of /fields and sides of contacts those named; of "scene" all volumes that are not part of another, or all
-    surfaces."""
+    """Of the groups of /fields and sides of contacts those named; of "scene" all volumes that are not part of another,
+    or all surfaces."""
     if names == ["scene"] and not fields:
         raise BadFile("the run wrote no fields of bodies: name some in output.field_sets and run again")
     if names != ["scene"]:
         for name in names:
             if name not in fields and name not in sides:
-                raise BadFile(f"--show {name}: the run wrote no such part or set; there are {', '.join(['scene', *fields, *sides])}")
+                raise BadFile(
+                    f"--show {name}: the run wrote no such part or set; there are"
+                    f" {', '.join(['scene', *fields, *sides])}"
+                )
         return names
-    volumes = {name: set(group["elements"][:].tolist()) for name, group in fields.items() if group["connectivity"].shape[1] == 8}
+    volumes = {
+        name: set(group["elements"][:].tolist())
+        for name, group in fields.items()
+        if group["connectivity"].shape[1] == 8
+    }
     by_size = sorted(volumes, key=lambda name: -len(volumes[name]))
     shown = []
     for name in by_size:

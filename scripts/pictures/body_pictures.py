@@ -70,7 +70,10 @@ class Stage:
         if self.scale != 1:
             for body in self.bodies:
                 if body.travels:
-                    yield f"{body.name} travels or turns: its rigid motion is drawn as it is, its deformation {self.scale:g} times"
+                    yield (
+                        f"{body.name} travels or turns: its rigid motion is drawn as it is, its deformation"
+                        f" {self.scale:g} times"
+                    )
         for body in self.bodies:
             if not body.moves:
                 yield f"{body.name} is drawn undeformed: the run wrote no displacement of it (output.fields)"
@@ -80,7 +83,11 @@ class Stage:
         size = max(abs(self.least), abs(self.most))
         factor, unit = style.unit_of(size, self.quantity.unit)
         norm = plt.Normalize(factor * self.least, factor * self.most)
-        return plt.cm.ScalarMappable(norm, style.SIGNED_MAP if self.quantity.signed else style.SIZE_MAP), factor, style.label_of(self.quantity.name, unit)
+        return (
+            plt.cm.ScalarMappable(norm, style.SIGNED_MAP if self.quantity.signed else style.SIZE_MAP),
+            factor,
+            style.label_of(self.quantity.name, unit),
+        )
 
 
 class Frame:
@@ -99,8 +106,13 @@ class Frame:
         self.both_sides = np.concatenate([np.full(len(body.faces), body.is_surface) for body in stage.bodies])
         self.faces = PolyCollection([], rasterized=stage.faces() > SMOOTH_UP_TO)
         self.axes.add_collection(self.faces)
-        bar = self.figure.colorbar(self.map, cax=self.figure.add_axes([0.86, 0.65 / space, 0.022, 1 - 1.3 / space]),
-                                   extend={(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[stage.beyond])
+        bar = self.figure.colorbar(
+            self.map,
+            cax=self.figure.add_axes([0.86, 0.65 / space, 0.022, 1 - 1.3 / space]),
+            extend={(False, False): "neither", (True, False): "min", (False, True): "max", (True, True): "both"}[
+                stage.beyond
+            ],
+        )
         bar.set_label(label)
 
     def _set_axes(self):
@@ -112,7 +124,9 @@ class Frame:
         across = stage.view.along()
         if across:
             for (name, sign), axis in zip(across, (axes.xaxis, axes.yaxis)):
-                axis.set_major_formatter(lambda x, _, sign=sign: f"{sign * factor * x + 0.0:.6g}".replace("-", "\N{MINUS SIGN}"))
+                axis.set_major_formatter(
+                    lambda x, _, sign=sign: f"{sign * factor * x + 0.0:.6g}".replace("-", "\N{MINUS SIGN}")
+                )
                 axis.set_label_text(style.label_of(name, unit))
             return
         axes.axis("off")
@@ -120,7 +134,9 @@ class Frame:
 
     def _draw_triad(self, factor, unit):
         """The global axes as seen from here, and a length to compare with, in the lower left corner."""
-        view, inset = self.stage.view, self.figure.add_axes([0.005, 0.005, 0.8 / self.figure.get_figwidth(), 0.8 / self.figure.get_figheight()])
+        view, inset = self.stage.view, self.figure.add_axes(
+            [0.005, 0.005, 0.8 / self.figure.get_figwidth(), 0.8 / self.figure.get_figheight()]
+        )
         for name, direction in zip("xyz", view.flat(np.eye(3))):
             inset.annotate("", direction, (0, 0), arrowprops={"arrowstyle": "->", "linewidth": 1})
             inset.text(*(1.25 * direction), name, ha="center", va="center", fontsize=style.SMALL)
@@ -128,8 +144,17 @@ class Frame:
         inset.axis("off")
         length = _round(0.2 * (self.stage.high - self.stage.low)[0] * factor)
         x, y = self.axes.get_xlim()[0], self.axes.get_ylim()[0]
-        bar = self.axes.plot([x + 0.04 * np.diff(self.axes.get_xlim())[0] + t * length / factor for t in (0, 1)], [y, y], color="black", linewidth=2, clip_on=False)[0]
-        self.axes.annotate(f"{length:g} {unit}", (np.mean(bar.get_xdata()), y), xytext=(0, -4), textcoords="offset points", ha="center", va="top", fontsize=style.SMALL, annotation_clip=False)
+        bar = self.axes.plot(
+            [x + 0.04 * np.diff(self.axes.get_xlim())[0] + t * length / factor for t in (0, 1)],
+            [y, y],
+            color="black", linewidth=2, clip_on=False,
+        )[0]
+        self.axes.annotate(
+            f"{length:g} {unit}",
+            (np.mean(bar.get_xdata()), y),
+            xytext=(0, -4), textcoords="offset points", ha="center", va="top", fontsize=style.SMALL,
+            annotation_clip=False,
+        )
 
     def show(self, output):
         stage = self.stage

@@ -12,11 +12,19 @@ from .results import BadFile
 def solve(results, program, folder, arguments=()):
     """Runs `railwave contact` on a results file; returns the name of the file it wrote into `folder`."""
     if not os.access(program, os.X_OK):
-        raise BadFile(f"there is no program {program}, which finds the contact solution: build it (scripts/run does), or name it with --program")
+        raise BadFile(
+            f"there is no program {program}, which finds the contact solution: build it (scripts/run does), or name it"
+            " with --program"
+        )
     path = os.path.join(folder, "contact.h5")
-    done = subprocess.run([program, "contact", results, "--hdf5", path, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    done = subprocess.run(
+        [program, "contact", results, "--hdf5", path, *arguments],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
+    )
     if done.returncode != 0:
-        raise BadFile(done.stderr.strip().removeprefix("railwave: ") or f"{program} contact ended with {done.returncode}")
+        raise BadFile(
+            done.stderr.strip().removeprefix("railwave: ") or f"{program} contact ended with {done.returncode}"
+        )
     return path
 
 
@@ -42,7 +50,10 @@ class Contact:
     def __init__(self, name, group):
         self.name = name
         self.surface = group.attrs.get("surface", "the slave surface")
-        self._tables = {table: {column: data[:] for column, data in group[table].items()} for table in ("patches", "nodes", "facets", "cuts")}
+        self._tables = {
+            table: {column: data[:] for column, data in group[table].items()}
+            for table in ("patches", "nodes", "facets", "cuts")
+        }
         rows = self._tables["patches"]
         self.times = rows["time"][rows["patch"] == 0]
 
@@ -62,7 +73,8 @@ class Contact:
         return [int(number) for number in numbers if number > 0]
 
     def small(self, number):
-        """By output time: whether that patch has fewer nodes than show its shape. Files of older programs list only one such patch, and do not say so."""
+        """By output time: whether that patch has fewer nodes than show its shape. Files of older programs list only one
+        such patch, and do not say so."""
         if "small" not in self._tables["patches"]:
             return self.history("nodes_in_contact", number) < 4
         return self.history("small", number) > 0
@@ -86,8 +98,8 @@ class Contact:
 
 
 class Patch:
-    """One patch at one instant, about its centre in its tangent plane: x along the rolling direction, y to its left, mm;
-    stresses MPa, forces kN, velocities m/s. Arrays have an entry for each node of the facets that touch."""
+    """One patch at one instant, about its centre in its tangent plane: x along the rolling direction, y to its left,
+    mm; stresses MPa, forces kN, velocities m/s. Arrays have an entry for each node of the facets that touch."""
 
     def __init__(self, contact, row):
         self.row = contact.whole_row(row)
@@ -98,7 +110,9 @@ class Patch:
         self.nodes = int(self.row["nodes_in_contact"])
         self.small = self.nodes < 4
         self.centre = 1e3 * np.array([self.row[f"centre_{c}"] for c in "xyz"])
-        self.normal_force, self.creep_force, self.lateral_force = (1e-3 * self.row[f"{f}_force"] for f in ("normal", "creep", "lateral"))
+        self.normal_force, self.creep_force, self.lateral_force = (
+            1e-3 * self.row[f"{f}_force"] for f in ("normal", "creep", "lateral")
+        )
         self.traction_coefficient = self.row["traction_coefficient"]
 
         self.x, self.y = 1e3 * nodes["along"], 1e3 * nodes["across"]
@@ -112,7 +126,8 @@ class Patch:
         self.facets = np.column_stack([facets[f"corner_{k}"] for k in range(4)]).astype(int) - first
 
     def cut(self, across=False):
-        """Columns of the cut along (or across) the centre: distance mm, pressure, traction_bound, shear_* MPa, micro_slip_* m/s."""
+        """Columns of the cut along (or across) the centre: distance mm, pressure, traction_bound, shear_* MPa,
+        micro_slip_* m/s."""
         mine = self._cuts["cut"] == (1 if across else 0)
         scales = {"distance": 1e3, "pressure": 1e-6, "traction_bound": 1e-6, "shear_along": 1e-6, "shear_across": 1e-6}
         return {name: scales.get(name, 1) * values[mine] for name, values in self._cuts.items()}
@@ -124,11 +139,18 @@ class Patch:
 
     def cell_size(self):
         """Size of the facets, mm."""
-        edges = [np.hypot(self.x[self.facets[:, a]] - self.x[self.facets[:, b]], self.y[self.facets[:, a]] - self.y[self.facets[:, b]]) for a, b in ((0, 1), (1, 2))]
+        edges = [
+            np.hypot(
+                self.x[self.facets[:, a]] - self.x[self.facets[:, b]],
+                self.y[self.facets[:, a]] - self.y[self.facets[:, b]],
+            )
+            for a, b in ((0, 1), (1, 2))
+        ]
         return float(max(np.median(edge) for edge in edges))
 
     def square_of_pressure(self):
-        """Pressure squared by node, MPa2, and below zero outside: continued there from the nearest touching nodes by a plane.
+        """Pressure squared by node, MPa2, and below zero outside: continued there from the nearest touching nodes by a
+        plane.
 
         Near the edge of a smooth contact the pressure goes as the root of the distance, so that its square crosses zero
         like a plane, and shows the edge finer than the mesh.
@@ -139,7 +161,9 @@ class Patch:
         for node in np.flatnonzero(~self.touching):
             distance = np.hypot(self.x[inside] - self.x[node], self.y[inside] - self.y[node])
             near = inside[np.argsort(distance)[:8]]
-            offset = np.column_stack([np.ones(len(near)), (self.x[near] - self.x[node]) / scale, (self.y[near] - self.y[node]) / scale])
+            offset = np.column_stack(
+                [np.ones(len(near)), (self.x[near] - self.x[node]) / scale, (self.y[near] - self.y[node]) / scale]
+            )
             value = np.linalg.lstsq(offset, square[near], rcond=None)[0][0] if len(near) >= 4 else -square[near].mean()
             square[node] = min(value, -1e-3 * square[near].max())
         return square

@@ -13,7 +13,9 @@ def draw_forces(results):
     time, _, contacts = results.history()
     if not contacts or len(time) == 0:
         return None
-    figure, (forces, ratio) = plt.subplots(2, 1, figsize=(8, 6.5), sharex=True, constrained_layout=True, gridspec_kw={"height_ratios": [2, 1]})
+    figure, (forces, ratio) = plt.subplots(
+        2, 1, figsize=(8, 6.5), sharex=True, constrained_layout=True, gridspec_kw={"height_ratios": [2, 1]}
+    )
     figure.suptitle(f"{results.title}\nforces on the slave surfaces, global axes", fontsize=style.TITLE)
     for name, (normal, tangential) in contacts.items():
         prefix = f"{name}: " if len(contacts) > 1 else ""
@@ -27,7 +29,9 @@ def draw_forces(results):
         (line,) = ratio.plot(1e3 * time, coefficient, label=prefix + "tangential over normal")
         if name in results.contacts():
             friction = results.friction(name)
-            ratio.axhline(friction, color=line.get_color(), linewidth=0.8, linestyle="--", label=f"{prefix}friction {friction:g}")
+            ratio.axhline(
+                friction, color=line.get_color(), linewidth=0.8, linestyle="--", label=f"{prefix}friction {friction:g}"
+            )
     forces.axhline(0, color="black", linewidth=0.6)
     forces.set_ylabel("force, kN")
     ratio.set_ylabel("force over force")
@@ -50,7 +54,11 @@ def draw_energies(results):
     figure.suptitle(f"{results.title}\nenergies", fontsize=style.TITLE)
     for name in LARGE:
         if name in energies:
-            large.plot(1e3 * time, energies[name] - energies[name][0], label=f"{name.replace('_', ' ')}, since the start ({energies[name][0]:.5g} J)")
+            large.plot(
+                1e3 * time,
+                energies[name] - energies[name][0],
+                label=f"{name.replace('_', ' ')}, since the start ({energies[name][0]:.5g} J)",
+            )
     for name, values in energies.items():
         if name not in LARGE and name != "balance_error" and np.any(values != 0):
             small.plot(1e3 * time, values, label=name)

@@ -1,4 +1,5 @@
-"""A model that `railwave mesh` wrote: its surface by part, by stable step, and where the step is shortest; springs and beams."""
+"""A model that `railwave mesh` wrote: its surface by part, by stable step, and where the step is shortest; springs and
+beams."""
 
 import h5py
 import matplotlib.pyplot as plt
@@ -50,7 +51,9 @@ class Surface:
 
     def _look(self):
         """Faces turned towards the eye, the farthest first."""
-        towards = np.array([np.cos(ELEVATION) * np.cos(AZIMUTH), np.cos(ELEVATION) * np.sin(AZIMUTH), np.sin(ELEVATION)])
+        towards = np.array(
+            [np.cos(ELEVATION) * np.cos(AZIMUTH), np.cos(ELEVATION) * np.sin(AZIMUTH), np.sin(ELEVATION)]
+        )
         right = np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0])
         self.axes = np.stack([right, np.cross(towards, right)], axis=1)
         normal = np.cross(self.corners[:, 2] - self.corners[:, 0], self.corners[:, 3] - self.corners[:, 1])
@@ -65,7 +68,12 @@ class Surface:
         if box is not None:
             shown = np.all(np.abs(self.corners.mean(axis=1) - box[0]) < box[1], axis=1)
         shaded = np.concatenate([colours[shown, :3] * self.shade[shown, None], np.ones((shown.sum(), 1))], axis=1)
-        axes.add_collection(PolyCollection(self.corners[shown] @ self.axes, facecolors=shaded, edgecolors="black" if edges else shaded, linewidths=edges or 0.2))
+        axes.add_collection(
+            PolyCollection(
+                self.corners[shown] @ self.axes, facecolors=shaded, edgecolors="black" if edges else shaded,
+                linewidths=edges or 0.2,
+            )
+        )
         if lines and len(self.lines):
             axes.add_collection(LineCollection(self.lines @ self.axes, colors="crimson", linewidths=0.5))
         if lines and len(self.beams):
@@ -84,16 +92,25 @@ def draw_model(path):
     """The whole by part and by stable step, and the surroundings of the shortest step. Returns a figure."""
     surface = Surface(path)
     figure = plt.figure(figsize=(10, 8))
-    grid = figure.add_gridspec(2, 2, height_ratios=[1, 1], hspace=0.05, wspace=0.02, left=0.02, right=0.98, top=0.93, bottom=0.1)
+    grid = figure.add_gridspec(
+        2, 2, height_ratios=[1, 1], hspace=0.05, wspace=0.02, left=0.02, right=0.98, top=0.93, bottom=0.1
+    )
     whole, near, far = figure.add_subplot(grid[0, :]), figure.add_subplot(grid[1, 1]), figure.add_subplot(grid[1, 0])
-    figure.suptitle(f"{surface.title}\nshortest stable step {1e9 * surface.least:.3g} ns, {surface.short} elements within a tenth of it", fontsize=style.TITLE)
+    figure.suptitle(
+        f"{surface.title}\nshortest stable step {1e9 * surface.least:.3g} ns, {surface.short} elements within a"
+        " tenth of it",
+        fontsize=style.TITLE,
+    )
 
     family = families(surface.part_names)
     kinds = sorted(set(family), key=family.index)
     palette = plt.get_cmap(style.LIST)(np.arange(len(kinds)) % 10)
     surface.draw(whole, palette[[kinds.index(family[p]) for p in surface.part]], edges=0.1)
     handles = [plt.Line2D([], [], marker="s", linestyle="", color=colour) for colour in palette]
-    for name, there, looks in (("springs and dashpots", surface.lines, {"color": "crimson"}), ("beams", surface.beams, {"color": "black", "linewidth": 1.5})):
+    for name, there, looks in (
+        ("springs and dashpots", surface.lines, {"color": "crimson"}),
+        ("beams", surface.beams, {"color": "black", "linewidth": 1.5}),
+    ):
         if len(there):
             handles.append(plt.Line2D([], [], **looks))
             kinds.append(name)
@@ -106,7 +123,11 @@ def draw_model(path):
     spot = surface.place @ surface.axes
     for axes in (far, near):
         axes.plot(*spot, marker="o", markersize=9, markerfacecolor="none", markeredgecolor="red")
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, style.SIZE_MAP), cax=figure.add_axes([0.25, 0.075, 0.5, 0.018]), orientation="horizontal")
+    bar = figure.colorbar(
+        plt.cm.ScalarMappable(scale, style.SIZE_MAP),
+        cax=figure.add_axes([0.25, 0.075, 0.5, 0.018]),
+        orientation="horizontal",
+    )
     bar.ax.tick_params(labelsize=style.SMALL)
     bar.set_label("stable step over the shortest (in the ring), powers of ten", fontsize=style.SMALL)
     return figure

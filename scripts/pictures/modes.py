@@ -1,4 +1,5 @@
-"""Mode shapes that `railwave modes --out` wrote: bodies of revolution seen along their axis, others from above and aside."""
+"""Mode shapes that `railwave modes --out` wrote: bodies of revolution seen along their axis, others from above and
+aside."""
 
 import h5py
 import matplotlib.pyplot as plt
@@ -47,7 +48,11 @@ class Shapes:
         result = []
         for mode in self.modes:
             last = result[-1] if result else None
-            pair = last is not None and mode["kind"] >= 0 and all(mode[key] == last[key] for key in ("kind", "nodal_diameters", "nodal_circles"))
+            pair = (
+                last is not None
+                and mode["kind"] >= 0
+                and all(mode[key] == last[key] for key in ("kind", "nodal_diameters", "nodal_circles"))
+            )
             if not mode["rigid"] and not pair:
                 result.append(mode)
         return result[:most]
@@ -87,9 +92,13 @@ def draw_mode(axes, shapes, mode):
             along = (np.broadcast_to(axis, u.shape), out, np.cross(axis, out))[mode["kind"]]
             value = np.einsum("ij,ij->i", u, along)
             place = nodes if mode["kind"] == 0 else nodes + DEFORMED * np.ptp(nodes, axis=0).max() * u
-            draw_faces(axes, place[faces], axis, up / np.linalg.norm(up), value[faces].mean(axis=1), np.abs(value).max())
+            draw_faces(
+                axes, place[faces], axis, up / np.linalg.norm(up), value[faces].mean(axis=1), np.abs(value).max()
+            )
         else:
-            towards = np.array([np.cos(ELEVATION) * np.cos(AZIMUTH), np.cos(ELEVATION) * np.sin(AZIMUTH), np.sin(ELEVATION)])
+            towards = np.array(
+                [np.cos(ELEVATION) * np.cos(AZIMUTH), np.cos(ELEVATION) * np.sin(AZIMUTH), np.sin(ELEVATION)]
+            )
             size = max(np.ptp(part[0], axis=0).max() for part in shapes.parts.values())
             up = np.cross(towards, np.array([-np.sin(AZIMUTH), np.cos(AZIMUTH), 0]))
             value = np.linalg.norm(u, axis=1)
@@ -108,12 +117,18 @@ def draw_modes(path, numbers=None, most=12, columns=4):
         raise BadFile(f"{path} holds no mode that strains anything")
     columns = min(columns, len(modes))
     rows = -(-len(modes) // columns)
-    figure, grid = plt.subplots(rows, columns, figsize=(2.3 * columns, 2.5 * rows + 0.3), layout="constrained", squeeze=False)
+    figure, grid = plt.subplots(
+        rows, columns, figsize=(2.3 * columns, 2.5 * rows + 0.3), layout="constrained", squeeze=False
+    )
     for axes in grid.flat[len(modes):]:
         axes.axis("off")
     for axes, mode in zip(grid.flat, modes):
         draw_mode(axes, shapes, mode)
     named = any(mode["kind"] >= 0 for mode in modes)
-    colours = "displacement along what names the mode (nodal circles, nodal diameters): red and blue are opposite" if named else "red: largest displacement"
+    colours = (
+        "displacement along what names the mode (nodal circles, nodal diameters): red and blue are opposite"
+        if named
+        else "red: largest displacement"
+    )
     figure.suptitle(f"{shapes.title}\n{colours}" if shapes.title else colours, fontsize=style.TEXT)
     return figure

@@ -10,9 +10,12 @@ from .view import VIEWS, read_view
 PICTURES = ("forces", "energies", "patch", "row", "evolution")
 FEWEST, MOST_DPI = 20, 2400
 
-DESCRIPTION = """Draws a results file of Railwave. Without more options: forces, energies, and of each contact the patch with pressure, shear,
-micro-slip, stick and slip, several instants in a row, their evolution. With --show or --by: bodies or the whole scene, deformed,
-coloured by a field. With --animate: either of them as a movie. Or a model (--mesh), or what `railwave signal --hdf5` found
+DESCRIPTION = """Draws a results file of Railwave. Without more options: forces, energies, and of each contact the \
+patch with pressure, shear,
+micro-slip, stick and slip, several instants in a row, their evolution. With --show or --by: bodies or the whole \
+scene, deformed,
+coloured by a field. With --animate: either of them as a movie. Or a model (--mesh), or what `railwave signal --hdf5` \
+found
 (--signal)."""
 
 EXAMPLES = """examples:
@@ -29,44 +32,107 @@ def numbers(text, count, option, example, parser):
     except ValueError:
         values = []
     if (count and len(values) != count) or not values or not all(map(math.isfinite, values)):
-        parser.error(f"{option} {text}: {'numbers' if count is None else f'{count} numbers'} with commas between are wanted, e.g. {example}")
+        parser.error(
+            f"{option} {text}: {'numbers' if count is None else f'{count} numbers'} with commas between are wanted,"
+            f" e.g. {example}"
+        )
     return values
 
 
 def make_parser(root):
-    parser = argparse.ArgumentParser(prog="picture", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        prog="picture", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("results", nargs="?", help="results file of a run, e.g. rolling.h5")
-    parser.add_argument("--mesh", metavar="FILE", help="draw the model that `railwave mesh` wrote instead: parts, connectors, stable steps")
-    parser.add_argument("--signal", metavar="FILE", help="draw what `railwave signal --hdf5` wrote instead: spectrum, scalogram, phase, ellipse, wave speed")
+    parser.add_argument(
+        "--mesh",
+        metavar="FILE",
+        help="draw the model that `railwave mesh` wrote instead: parts, connectors, stable steps",
+    )
+    parser.add_argument(
+        "--signal",
+        metavar="FILE",
+        help="draw what `railwave signal --hdf5` wrote instead: spectrum, scalogram, phase, ellipse, wave speed",
+    )
 
     body = parser.add_argument_group("bodies and the scene")
-    body.add_argument("--show", metavar="NAME,...", help="parts, element sets or surfaces of output.field_sets; 'scene': all; 'contact NAME slave', 'contact NAME master': sides of a contact, "
-                      "with pressure, shear, gap, slip_velocity; default with --by: scene")
-    body.add_argument("--by", metavar="FIELD", help="colours: displacement, velocity, acceleration (size; with :x, :y, :z along an axis), von_mises, pressure, stress:xx to stress:zx, "
-                      "plastic_strain, as far as output.fields has them; default with --show: displacement")
-    body.add_argument("--scale", type=float, metavar="S", help="magnifies the deformation; of a body that rolls or travels its rigid motion stays as it is; default: 1")
-    body.add_argument("--view", metavar="VIEW", help=f"{', '.join(VIEWS)}, or azimuth,elevation of the eye in degrees (azimuth from +x towards +y); default: iso")
-    body.add_argument("--range", metavar="LOW,HIGH", help="ends of the colour scale in SI units; default: those of all instants drawn")
-    body.add_argument("--around", metavar="X,Y,Z", help="only what is near this place of the undeformed scene, m (with --mesh too)")
+    body.add_argument(
+        "--show",
+        metavar="NAME,...",
+        help=(
+            "parts, element sets or surfaces of output.field_sets; 'scene': all; 'contact NAME slave', 'contact NAME"
+            " master': sides of a contact, with pressure, shear, gap, slip_velocity; default with --by: scene"
+        ),
+    )
+    body.add_argument(
+        "--by",
+        metavar="FIELD",
+        help=(
+            "colours: displacement, velocity, acceleration (size; with :x, :y, :z along an axis), von_mises, pressure,"
+            " stress:xx to stress:zx, plastic_strain, as far as output.fields has them; default with --show:"
+            " displacement"
+        ),
+    )
+    body.add_argument(
+        "--scale", type=float, metavar="S",
+        help="magnifies the deformation; of a body that rolls or travels its rigid motion stays as it is; default: 1",
+    )
+    body.add_argument(
+        "--view",
+        metavar="VIEW",
+        help=(
+            f"{', '.join(VIEWS)}, or azimuth,elevation of the eye in degrees (azimuth from +x towards +y); default: iso"
+        ),
+    )
+    body.add_argument(
+        "--range", metavar="LOW,HIGH", help="ends of the colour scale in SI units; default: those of all instants drawn"
+    )
+    body.add_argument(
+        "--around", metavar="X,Y,Z", help="only what is near this place of the undeformed scene, m (with --mesh too)"
+    )
     body.add_argument("--reach", type=float, metavar="R", help="how far from it along each axis, m; default: 0.3")
 
     when = parser.add_argument_group("when")
-    when.add_argument("--time", type=float, metavar="T", help="time of the picture of the patch or the bodies, s: the nearest output is drawn; default: the last")
+    when.add_argument(
+        "--time", type=float, metavar="T",
+        help="time of the picture of the patch or the bodies, s: the nearest output is drawn; default: the last",
+    )
     when.add_argument("--times", metavar="T,...", help="times of the row, s; default: spread over the run")
-    when.add_argument("--animate", action="store_true", help="a movie: of the contact patches, or with --show or --by of bodies")
+    when.add_argument(
+        "--animate", action="store_true", help="a movie: of the contact patches, or with --show or --by of bodies"
+    )
     when.add_argument("--from", dest="first", type=float, metavar="T", help="first time of the movie, s")
     when.add_argument("--to", dest="last", type=float, metavar="T", help="last time of the movie, s")
     when.add_argument("--frames", type=int, metavar="N", help="frames of the movie at most; default: 60")
     when.add_argument("--rate", type=float, metavar="N", help="frames a second; default: 10")
 
     files = parser.add_argument_group("files")
-    files.add_argument("--out", metavar="DIR", help="folder for the pictures (made if it is not there); default: that of the results file")
+    files.add_argument(
+        "--out",
+        metavar="DIR",
+        help="folder for the pictures (made if it is not there); default: that of the results file",
+    )
     files.add_argument("--only", metavar="NAME,...", help=f"which pictures, of {', '.join(PICTURES)}; default: all")
-    files.add_argument("--format", metavar="KIND", help=f"{', '.join(FORMATS)}; of a movie {', '.join(MOVIES)} (png: one that moves; mp4 needs ffmpeg); default: png, gif")
+    files.add_argument(
+        "--format",
+        metavar="KIND",
+        help=(
+            f"{', '.join(FORMATS)}; of a movie {', '.join(MOVIES)} (png: one that moves; mp4 needs ffmpeg); default:"
+            " png, gif"
+        ),
+    )
     files.add_argument("--resolution", type=int, metavar="DPI", help="points an inch; default: 300, of a movie 110")
     files.add_argument("--overwrite", action="store_true", help="replace files that this script did not write, too")
-    files.add_argument("--program", default=str(root / "build" / "release" / "bin" / "railwave"), help="the railwave that finds the contact solution")
-    files.add_argument("--contact", metavar="FILE", help="take the contact solution from this file, of `railwave contact --hdf5`, instead")
+    files.add_argument(
+        "--program",
+        default=str(root / "build" / "release" / "bin" / "railwave"),
+        help="the railwave that finds the contact solution",
+    )
+    files.add_argument(
+        "--contact",
+        metavar="FILE",
+        help="take the contact solution from this file, of `railwave contact --hdf5`, instead",
+    )
     return parser
 
 
@@ -75,7 +141,10 @@ def parse(root=pathlib.Path("."), arguments=None):
     parser = make_parser(root)
     a = parser.parse_args(arguments)
     if sum(path is not None for path in (a.results, a.mesh, a.signal)) != 1:
-        parser.error("name either a results file or, after --mesh, a model that `railwave mesh` wrote, or, after --signal, what `railwave signal --hdf5` wrote")
+        parser.error(
+            "name either a results file or, after --mesh, a model that `railwave mesh` wrote, or, after --signal, what"
+            " `railwave signal --hdf5` wrote"
+        )
 
     def only_with(allowed, reason, **options):
         for name, value in options.items():
@@ -84,7 +153,10 @@ def parse(root=pathlib.Path("."), arguments=None):
                 parser.error(f"--{option}: {reason}")
 
     of_results = a.results is not None
-    only_with(of_results, "belongs to a results file", show=a.show, by=a.by, scale=a.scale, view=a.view, range=a.range, animate=a.animate, only=a.only, time=a.time, times=a.times, contact=a.contact)
+    only_with(
+        of_results, "belongs to a results file", show=a.show, by=a.by, scale=a.scale, view=a.view, range=a.range,
+        animate=a.animate, only=a.only, time=a.time, times=a.times, contact=a.contact,
+    )
     a.bodies = of_results and any(value is not None for value in (a.show, a.by, a.scale, a.view, a.range, a.around))
     only_with(a.bodies or a.mesh, "belongs to --mesh FILE, or to --show", around=a.around)
     only_with(a.around, "belongs to --around X,Y,Z", reach=a.reach)
@@ -110,7 +182,10 @@ def parse(root=pathlib.Path("."), arguments=None):
     try:
         read_view(a.view)
     except ValueError:
-        parser.error(f"--view {a.view}: give {', '.join(VIEWS)}, or two numbers, azimuth and elevation (-90 to 90) in degrees, e.g. --view=-60,25")
+        parser.error(
+            f"--view {a.view}: give {', '.join(VIEWS)}, or two numbers, azimuth and elevation (-90 to 90) in degrees,"
+            " e.g. --view=-60,25"
+        )
     a.around = numbers(a.around, 3, "--around", "0,0,0.1 in m", parser) if a.around else None
     a.reach = 0.3 if a.reach is None else a.reach
     if not a.reach > 0:

@@ -1,4 +1,5 @@
-"""Pictures and movies as files: PNG, PDF, SVG; GIF, PNG that moves, MP4. Each carries a mark; a file without it is not replaced."""
+"""Pictures and movies as files: PNG, PDF, SVG; GIF, PNG that moves, MP4. Each carries a mark; a file without it is not
+replaced."""
 
 import io
 import os
@@ -23,7 +24,8 @@ LARGEST = 1 << 28  # bytes of a file in which the mark is looked for
 
 
 def made_by_us(path):
-    """Whether a file is a picture or movie that these scripts wrote: it begins as its ending says and holds the mark."""
+    """Whether a file is a picture or movie that these scripts wrote: it begins as its ending says and holds the
+    mark."""
     begins = BEGINNINGS.get(os.path.splitext(path)[1].lower())
     if begins is None or os.path.getsize(path) > LARGEST:
         return False
@@ -34,8 +36,8 @@ def made_by_us(path):
 
 def place_for(path, overwrite=False, inputs=()):
     """Where a picture named `path` is written: links are followed. Throws BadFile where it must not be: an input of the
-    command, what is not a regular file, a file that may not be written, and, unless `overwrite`, one that these scripts did
-    not write."""
+    command, what is not a regular file, a file that may not be written, and, unless `overwrite`, one that these scripts
+    did not write."""
     real = os.path.realpath(path)
     folder = os.path.dirname(real)
     if not os.path.isdir(folder):
@@ -52,12 +54,16 @@ def place_for(path, overwrite=False, inputs=()):
     if not state.st_mode & 0o222:
         raise BadFile(f"cannot write {path}: {real} is read-only; make it writable (chmod u+w), or name another")
     if not overwrite and not made_by_us(real):
-        raise BadFile(f"{real} is there{there}, and these scripts did not write it: move it away, name another folder with --out, or replace it with --overwrite")
+        raise BadFile(
+            f"{real} is there{there}, and these scripts did not write it: move it away, name another folder with --out,"
+            " or replace it with --overwrite"
+        )
     return real
 
 
 def check_places(program, paths, overwrite):
-    """For a script before it computes for minutes: ends it with 2 and the reason where one of its pictures must not be written."""
+    """For a script before it computes for minutes: ends it with 2 and the reason where one of its pictures must not be
+    written."""
     try:
         for path in paths:
             place_for(str(path), overwrite)
@@ -121,12 +127,14 @@ def _one_palette(frames):
     there = there[np.argsort(-count, kind="stable")]
     colours = np.stack([there >> 16, there >> 8 & 255, there & 255], axis=1)
     colours = colours[(colours.min(axis=1) < 244) | (colours.min(axis=1) == 255)]
-    # The most frequent ones exactly: even areas. Of the rest, shades and edges of lines, as many that are spread over them. None
-    # but white is nearly white, or the ground would be grey.
+    # The most frequent ones exactly: even areas. Of the rest, shades and edges of lines, as many that are spread over
+    # them. None but white is nearly white, or the ground would be grey.
     entries = colours[:OFTEN].flatten().tolist()
     rest = np.unique(colours[OFTEN:] & 0xFC, axis=0)
     if len(rest):
-        strip = Image.fromarray(rest[None].astype(np.uint8), "RGB").quantize(256 - OFTEN, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+        strip = Image.fromarray(rest[None].astype(np.uint8), "RGB").quantize(
+            256 - OFTEN, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE
+        )
         entries += strip.getpalette()[: 3 * (256 - OFTEN)]
     palette = Image.new("P", (1, 1))
     palette.putpalette((entries + entries[:3] * 256)[: 3 * 256])
@@ -136,7 +144,10 @@ def _one_palette(frames):
 def check_movie(ending):
     """Throws BadFile where movies of this format can't be made on this machine."""
     if ending == "mp4" and not shutil.which("ffmpeg"):
-        raise BadFile("--format mp4 needs the program ffmpeg, which is not installed (Debian: apt-get install ffmpeg); gif and png need nothing more")
+        raise BadFile(
+            "--format mp4 needs the program ffmpeg, which is not installed (Debian: apt-get install ffmpeg); gif and"
+            " png need nothing more"
+        )
 
 
 def put_movie(frames, path, rate, overwrite=False, inputs=()):
@@ -147,9 +158,14 @@ def put_movie(frames, path, rate, overwrite=False, inputs=()):
     def write(name):
         if ending == ".gif":
             first, *rest = _one_palette(frames)
-            first.save(name, save_all=True, append_images=rest, duration=duration, loop=0, optimize=False, comment=MARK.encode())
+            first.save(
+                name, save_all=True, append_images=rest, duration=duration, loop=0, optimize=False,
+                comment=MARK.encode(),
+            )
         elif ending == ".png":
-            frames[0].save(name, save_all=True, append_images=frames[1:], duration=duration, loop=0, pnginfo=_png_mark())
+            frames[0].save(
+                name, save_all=True, append_images=frames[1:], duration=duration, loop=0, pnginfo=_png_mark()
+            )
         elif ending == ".mp4":
             _write_mp4(frames, name, rate)
         else:
@@ -161,8 +177,10 @@ def put_movie(frames, path, rate, overwrite=False, inputs=()):
 def _write_mp4(frames, path, rate):
     check_movie("mp4")
     width, height = (size - size % 2 for size in frames[0].size)  # H.264 wants even numbers
-    command = ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(rate), "-i", "-",
-               "-pix_fmt", "yuv420p", "-metadata", f"comment={MARK}", path]
+    command = [
+        "ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r",
+        str(rate), "-i", "-", "-pix_fmt", "yuv420p", "-metadata", f"comment={MARK}", path,
+    ]
     data = b"".join(frame.crop((0, 0, width, height)).tobytes() for frame in frames)
     done = subprocess.run(command, input=data, stderr=subprocess.PIPE, check=False)
     if done.returncode != 0:

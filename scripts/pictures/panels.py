@@ -1,4 +1,5 @@
-"""Panels that show one contact patch, after figures 4.19, 4.22, 4.24 and 5.6 of the thesis: each draws into given axes."""
+"""Panels that show one contact patch, after figures 4.19, 4.22, 4.24 and 5.6 of the thesis: each draws into given
+axes."""
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -44,7 +45,9 @@ def pressure_levels(peak):
 
 def draw_pressure(axes, fine, levels):
     """Colours by pressure, and the edge of contact."""
-    colours = axes.tricontourf(fine.mesh, np.sqrt(np.maximum(fine.square_of_pressure, 0)), levels=levels, cmap=style.PRESSURE_MAP)
+    colours = axes.tricontourf(
+        fine.mesh, np.sqrt(np.maximum(fine.square_of_pressure, 0)), levels=levels, cmap=style.PRESSURE_MAP
+    )
     draw_edge(axes, fine)
     return colours
 
@@ -71,7 +74,9 @@ def draw_stick_boundary(axes, patch, fine, slips):
     sticking = (~slips).astype(float)
     inside = np.flatnonzero(patch.touching)
     for node in np.flatnonzero(~patch.touching):
-        sticking[node] = sticking[inside[np.argmin(np.hypot(patch.x[inside] - patch.x[node], patch.y[inside] - patch.y[node]))]]
+        sticking[node] = sticking[
+            inside[np.argmin(np.hypot(patch.x[inside] - patch.x[node], patch.y[inside] - patch.y[node]))]
+        ]
     mesh, fine_sticking = fine.inside(sticking)
     axes.tricontour(mesh, fine_sticking, levels=[0.5], colors=style.STICK, linewidths=1.4, linestyles="--")
 
@@ -82,12 +87,15 @@ def draw_letters(axes, patch, slips):
         if region.sum() < 3:
             continue
         mine, others = np.flatnonzero(region), np.flatnonzero(~region)
-        distance = np.hypot(patch.x[mine][:, None] - patch.x[others], patch.y[mine][:, None] - patch.y[others]).min(axis=1, initial=1e3)
+        distance = np.hypot(patch.x[mine][:, None] - patch.x[others], patch.y[mine][:, None] - patch.y[others]).min(
+            axis=1, initial=1e3
+        )
         # Of nodes as deep as each other, that in the middle.
         middle = np.hypot(patch.x[mine] - patch.x[mine].mean(), patch.y[mine] - patch.y[mine].mean())
         node = mine[np.argmax(distance - 1e-3 * middle)]
         axes.text(
-            patch.x[node], patch.y[node], letter, ha="center", va="center", fontsize=style.TITLE, fontweight="bold", color=style.STICK, zorder=6,
+            patch.x[node], patch.y[node], letter, ha="center", va="center", fontsize=style.TITLE, fontweight="bold",
+            color=style.STICK, zorder=6,
             bbox={"boxstyle": "circle,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.75},
         )  # fmt: skip
 
@@ -105,21 +113,25 @@ def _thinned(patch, chosen):
 
 
 def draw_arrows(axes, patch, u, v, colour, largest=None, key=None):
-    """Arrows at the touching nodes, that of length `largest` (default: the patch's own) as long as arrows are apart; `key`,
-    a name and a unit: says beside the axes how long they are."""
+    """Arrows at the touching nodes, that of length `largest` (default: the patch's own) as long as arrows are apart;
+    `key`, a name and a unit: says beside the axes how long they are."""
     size = np.hypot(u, v)
     largest = largest or (size[patch.touching].max() if patch.touching.any() else 0)
     if not largest > 0:
         return
     chosen, distance = _thinned(patch, patch.touching & (size > 1e-3 * largest))
     arrows = axes.quiver(
-        patch.x[chosen], patch.y[chosen], u[chosen], v[chosen], angles="xy", scale_units="xy", scale=largest / (ARROW_CELLS * distance),
+        patch.x[chosen], patch.y[chosen], u[chosen], v[chosen], angles="xy", scale_units="xy",
+        scale=largest / (ARROW_CELLS * distance),
         color=colour, width=0.0035, headwidth=3.6, headlength=4.5, headaxislength=4, zorder=5,
     )  # fmt: skip
     if key:
         name, unit = key
         length = nice(largest)
-        axes.quiverkey(arrows, 0.8, 1.04, length, f"{name} {length:g} {unit}", labelpos="W", coordinates="axes", fontproperties={"size": style.TEXT})
+        axes.quiverkey(
+            arrows, 0.8, 1.04, length, f"{name} {length:g} {unit}", labelpos="W", coordinates="axes",
+            fontproperties={"size": style.TEXT},
+        )
 
 
 def set_window(axes, half, x_label=True, y_label=True):
@@ -144,7 +156,10 @@ def draw_cut(axes, cut, half, top, legend=True):
     if cut["traction_bound"].any():
         axes.plot(cut["distance"], cut["traction_bound"], color=style.BOUND, label="friction times pressure")
         axes.plot(cut["distance"], shear, color=style.SHEAR, label="shear, size")
-        axes.plot(cut["distance"], cut["shear_along"], color=style.SHEAR, linewidth=0.8, linestyle=":", label="longitudinal shear")
+        axes.plot(
+            cut["distance"], cut["shear_along"], color=style.SHEAR, linewidth=0.8, linestyle=":",
+            label="longitudinal shear",
+        )
     else:
         axes.plot(cut["distance"], cut["pressure"], color=style.BOUND, label="pressure (no friction)")
     inside, slips = cut["pressure"] > 0, cut["slips_by_force"] > 0.5
@@ -156,7 +171,10 @@ def draw_cut(axes, cut, half, top, legend=True):
             if letter == "A":
                 axes.axvspan(first, last, color=style.STICK, alpha=0.10, linewidth=0)
             if last - first > 0.06 * 2 * half:
-                axes.text(0.5 * (first + last), 0.93 * top, letter, ha="center", va="center", fontsize=style.TITLE, fontweight="bold", color=style.STICK)
+                axes.text(
+                    0.5 * (first + last), 0.93 * top, letter, ha="center", va="center", fontsize=style.TITLE,
+                    fontweight="bold", color=style.STICK,
+                )
     axes.axhline(0, color="black", linewidth=0.6)
     axes.set_xlim(-half, half)
     lowest = min(0.0, cut["shear_along"].min()) if len(cut["distance"]) else 0.0

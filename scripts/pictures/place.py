@@ -25,10 +25,15 @@ def draw_place(path, place, reach):
     palette = plt.get_cmap(style.LIST)(np.arange(len(kinds)) % 10)
     colour_of = {kind: palette[k] for k, kind in enumerate(kinds)}
     figure, axes = plt.subplots(figsize=(10, 6), layout="constrained")
-    surface.draw(axes, np.array([colour_of.get(name, palette[0]) for name in family])[surface.part], lines=False, edges=0.12, box=box)
+    surface.draw(
+        axes, np.array([colour_of.get(name, palette[0]) for name in family])[surface.part], lines=False, edges=0.12,
+        box=box,
+    )
     handles = [plt.Line2D([], [], marker="s", linestyle="", color=colour_of[kind]) for kind in kinds]
-    for name, lines, looks in (("springs and dashpots", surface.lines, {"color": "crimson", "linewidth": 0.8}),
-                               ("beams", getattr(surface, "beams", np.empty((0, 2, 3))), {"color": "black", "linewidth": 1.5})):
+    for name, lines, looks in (
+        ("springs and dashpots", surface.lines, {"color": "crimson", "linewidth": 0.8}),
+        ("beams", getattr(surface, "beams", np.empty((0, 2, 3))), {"color": "black", "linewidth": 1.5}),
+    ):
         lines = lines[inside(lines).all(axis=1)] if len(lines) else lines
         if len(lines):
             axes.add_collection(LineCollection(lines @ surface.axes, **looks))

@@ -13,7 +13,8 @@ BEST_COMPRESSION = 1100  # of zlib: what claims to hold more than its file can i
 
 
 def look_through(path):
-    """Reads a file's structure, its texts and what of its arrays is short. Throws what h5py throws, ValueError where they claim too much."""
+    """Reads a file's structure, its texts and what of its arrays is short. Throws what h5py throws, ValueError where
+    they claim too much."""
     import h5py
 
     size = os.path.getsize(path)
@@ -55,13 +56,17 @@ def child(path, work):
         return work()
     except Exception as error:  # from whatever library a number that makes no sense came to
         frame = traceback.extract_tb(error.__traceback__)[-1]
-        print(f"{path} is damaged, or of another version: {type(error).__name__}: {error} ({pathlib.Path(frame.filename).name}, line {frame.lineno})",
-              file=sys.stderr)
+        print(
+            f"{path} is damaged, or of another version: {type(error).__name__}:"
+            f" {error} ({pathlib.Path(frame.filename).name}, line {frame.lineno})",
+            file=sys.stderr,
+        )
         return 2
 
 
 def in_reading_child(path, work):
-    """Runs work(), which reads the file and returns an exit code, in a child process. Returns that code; 2 where a signal ended it, and says so."""
+    """Runs work(), which reads the file and returns an exit code, in a child process. Returns that code; 2 where a
+    signal ended it, and says so."""
     sys.stdout.flush()
     sys.stderr.flush()
     number = os.fork()
@@ -85,7 +90,11 @@ def in_reading_child(path, work):
     if code >= 0:
         return code
     if -code in CRASHES:
-        print(f"{path} is damaged: the HDF5 library crashed ({signal.Signals(-code).name}) when it was read; copy it again, or repeat the run", file=sys.stderr)
+        print(
+            f"{path} is damaged: the HDF5 library crashed ({signal.Signals(-code).name}) when it was read; copy it"
+            " again, or repeat the run",
+            file=sys.stderr,
+        )
         return 2
     if -code == signal.SIGPROF:
         print(f"{path} is damaged: reading it came to no end; copy it again, or repeat the run", file=sys.stderr)

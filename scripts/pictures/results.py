@@ -63,12 +63,17 @@ class Results:
         group = self._get("history")
         energies = {name: data[:] for name, data in self._get("history/energy").items()}
         contacts = {
-            name: (self._get(f"history/contact/{name}/normal_force")[:], self._get(f"history/contact/{name}/tangential_force")[:])
+            name: (
+                self._get(f"history/contact/{name}/normal_force")[:],
+                self._get(f"history/contact/{name}/tangential_force")[:],
+            )
             for name in self._get("history/contact")
         }
         time = group["time"][:]
         # A kill in the middle of a write may leave the arrays with different lengths.
-        n = min([len(time)] + [len(e) for e in energies.values()] + [len(f) for pair in contacts.values() for f in pair])
+        n = min(
+            [len(time)] + [len(e) for e in energies.values()] + [len(f) for pair in contacts.values() for f in pair]
+        )
         return time[:n], {k: e[:n] for k, e in energies.items()}, {k: (a[:n], b[:n]) for k, (a, b) in contacts.items()}
 
     def fields(self):
@@ -77,7 +82,12 @@ class Results:
 
     def contact_sides(self):
         """Both sides of each contact, as "contact NAME slave" and "contact NAME master", with the names of /fields."""
-        return {f"contact {name} {side}": ContactSide(group, side) for name, group in self._get("contact").items() for side in ("slave", "master") if side in group}
+        return {
+            f"contact {name} {side}": ContactSide(group, side)
+            for name, group in self._get("contact").items()
+            for side in ("slave", "master")
+            if side in group
+        }
 
     def friction(self, name):
         """Coefficient of friction of a contact."""

@@ -38,7 +38,17 @@ def apply():
     matplotlib.rcParams.update(SETTINGS)
 
 
-PREFIXES = ((1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k"), (1, ""), (1e-3, "m"), (1e-6, "\N{MICRO SIGN}"), (1e-9, "n"), (1e-12, "p"))
+PREFIXES = (
+    (1e12, "T"),
+    (1e9, "G"),
+    (1e6, "M"),
+    (1e3, "k"),
+    (1, ""),
+    (1e-3, "m"),
+    (1e-6, "\N{MICRO SIGN}"),
+    (1e-9, "n"),
+    (1e-12, "p"),
+)
 
 
 def scale_of(largest, prefixes=PREFIXES):
@@ -50,7 +60,8 @@ def scale_of(largest, prefixes=PREFIXES):
 
 
 def unit_of(largest, unit):
-    """Factor and unit with a prefix for a quantity of this size: 3e8 of "Pa" gives 1e-6 and "MPa"; m/s2 and no unit stay."""
+    """Factor and unit with a prefix for a quantity of this size: 3e8 of "Pa" gives 1e-6 and "MPa"; m/s2 and no unit
+    stay."""
     if unit in ("", "m/s2", "m/s\N{SUPERSCRIPT TWO}", "1", "-"):
         return 1.0, "" if unit in ("1", "-") else unit
     factor, prefix = scale_of(largest)

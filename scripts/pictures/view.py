@@ -1,4 +1,5 @@
-"""A direction from which bodies are looked at, and faces painted from there: back faces left out, the farthest first."""
+"""A direction from which bodies are looked at, and faces painted from there: back faces left out, the farthest
+first."""
 
 import numpy as np
 
@@ -32,7 +33,8 @@ class View:
         return points @ self._turn[:, :2]
 
     def along(self):
-        """Names and signs of the global axes that lie across and up the picture, such as ("x", 1); None where it is askew."""
+        """Names and signs of the global axes that lie across and up the picture, such as ("x", 1); None where it is
+        askew."""
         found = []
         for direction in (self.right, self.up):
             axis = int(np.argmax(np.abs(direction)))
@@ -40,8 +42,8 @@ class View:
         return found if None not in found else None
 
     def painted(self, corners, both_sides=False):
-        """Of faces (n, 4, 3), turned outwards (`both_sides`, for all or one for each: seen from both): numbers of those that are
-        seen, the farthest first; their polygons (m, 4, 2) on the picture; and how light each is, 0 to 1."""
+        """Of faces (n, 4, 3), turned outwards (`both_sides`, for all or one for each: seen from both): numbers of those
+        that are seen, the farthest first; their polygons (m, 4, 2) on the picture; and how light each is, 0 to 1."""
         turned = corners @ self._turn
         first, second = turned[:, 2] - turned[:, 0], turned[:, 3] - turned[:, 1]
         facing = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]

@@ -1,5 +1,6 @@
-"""The verification cases: how each is run, and what of it is compared with what is exact. A case is called with a function that
-runs it, a label, the number of elements over the contact's minor axis, overrides, and the points asked for."""
+"""The verification cases: how each is run, and what of it is compared with what is exact. A case is called with a
+function that runs it, a label, the number of elements over the contact's minor axis, overrides, and the points asked
+for."""
 
 import numpy as np
 
@@ -13,7 +14,11 @@ def hertz(name, part, across):
     minor = 2 * Hertz(126680, RADIUS, across).b
 
     def case(run, label, elements, overrides, points):
-        results = run(label, name, [*zone(part, minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
+        results = run(
+            label,
+            name,
+            [*zone(part, minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides],
+        )
         if results is None:
             return None
         state = results.state(0)
@@ -30,7 +35,10 @@ def hertz(name, part, across):
         ]
         fine = np.linspace(-1.05, 1.05, 801)
         row, column = np.argmin(np.abs(state.y[:, 0])), np.argmin(np.abs(state.x[0]))
-        for axis, x, p, reach in (("x", state.x[row], state.pressure[row], exact.a), ("y", state.y[:, column], state.pressure[:, column], exact.b)):
+        for axis, x, p, reach in (
+            ("x", state.x[row], state.pressure[row], exact.a),
+            ("y", state.y[:, column], state.pressure[:, column], exact.b),
+        ):
             inside = np.abs(x) < 1.3 * reach
             outcome.curves.append((f"pressure along {axis}", f"{axis}, mm", "MPa", [
                 ("Hertz", 1e3 * fine * reach, 1e-6 * exact.peak * np.sqrt(np.maximum(0, 1 - fine**2)), "-"),
@@ -42,9 +50,9 @@ def hertz(name, part, across):
 
 
 def corrected_approaches(results, part, exact):
-    """By how much points on the axis, two to four semi-axes under either surface, come nearer from first touch on; plus how far
-    Hertz's half-spaces move there. Of distant points this is the approach: near the contact the bodies' far ends add no more
-    than a rigid motion, which the difference does not see, and little strain."""
+    """By how much points on the axis, two to four semi-axes under either surface, come nearer from first touch on; plus
+    how far Hertz's half-spaces move there. Of distant points this is the approach: near the contact the bodies' far
+    ends add no more than a rigid motion, which the difference does not see, and little strain."""
     centre = results.file["fields"][part]["coordinates"][:][:, 2].min()  # the lowest point of the upper body
     below, moved_below = results.on_axis("block")
     above, moved_above = results.on_axis(part)
@@ -58,7 +66,11 @@ def corrected_approaches(results, part, exact):
 
 def cattaneo(run, label, elements, overrides, points):
     minor = 2 * Hertz(126680, RADIUS, RADIUS).a
-    results = run(label, "cattaneo", [*zone("sphere", minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides])
+    results = run(
+        label,
+        "cattaneo",
+        [*zone("sphere", minor / elements, round(0.5 * elements), -10.1e-3, 10.1e-3, 1.4 * minor), *overrides],
+    )
     if results is None:
         return None
     quiet = [k for k, t in enumerate(results.times()) if t > 1.0e-3]
@@ -79,7 +91,12 @@ def cattaneo(run, label, elements, overrides, points):
     outcome.figures = [
         ("tangential over friction times normal force", exact.share, exact.share, ""),
         ("its swing after the shift", (max(swing) - min(swing)) / abs(np.mean(swing)), 0, ""),
-        ("shear along the centre line, nodes' shares, L2", rms(shear[row, :, 0] - mean[row], mean[row], state.area[row]), 0, ""),
+        (
+            "shear along the centre line, nodes' shares, L2",
+            rms(shear[row, :, 0] - mean[row], mean[row], state.area[row]),
+            0,
+            "",
+        ),
         ("shear along the centre line, at the nodes, L2", rms(shear[row, :, 0] - line, line, state.area[row]), 0, ""),
         ("shear over the patch, nodes' shares, L2", rms(shear[..., 0] - mean, mean, state.area), 0, ""),
         ("stick radius, m", np.sqrt(stick / np.pi), exact.stick_radius, ""),
@@ -108,7 +125,11 @@ def carter(run, label, elements, overrides, points):
         size = 0.012 / elements
         motion = rolling_motion(CARTER_SPEED, 0, CARTER_SPEED * (1 + creepage) / CARTER_RADIUS, CARTER_HEIGHT)
         width = [f"meshes.roller.side_end={size:g}", f"meshes.block.size=[0.3,{size:g},0.1]"]
-        results = run(f"{label}-{wish}", "carter", [*zone("roller", size, round(0.5 * elements), -9.5e-3, 109.5e-3, size), *width, *motion, *overrides])
+        results = run(
+            f"{label}-{wish}",
+            "carter",
+            [*zone("roller", size, round(0.5 * elements), -9.5e-3, 109.5e-3, size), *width, *motion, *overrides],
+        )
         if results is None:
             continue
         force, swing, last = steady(results, 0.15)
@@ -116,8 +137,14 @@ def carter(run, label, elements, overrides, points):
         outcome = outcome or Outcome(results.step_size)
         outcome.figures += [
             (f"creep force, N/m, creepage {1e4 * creepage:.2f}e-4", force[0] / size, exact.force, ""),
-            ("    creepage for this force", Carter.creepage(exact.line, 0.45, min(1, force[0] / size / 0.45 / exact.line.force)), creepage, ""),
-            ("    swing of the creep force", swing[0] / abs(force[0]), 0, "")]
+            (
+                "    creepage for this force",
+                Carter.creepage(exact.line, 0.45, min(1, force[0] / size / 0.45 / exact.line.force)),
+                creepage,
+                "",
+            ),
+            ("    swing of the creep force", swing[0] / abs(force[0]), 0, ""),
+        ]
         curve.append((creepage, force[0] / abs(force[2]), exact.force / exact.line.force))
         states = [results.state(k) for k in last]
         x = np.mean([s.x[0] - s.centre()[0] for s in states[-1:]], axis=0)
@@ -129,8 +156,17 @@ def carter(run, label, elements, overrides, points):
         outcome.figures.append(("    shear, nodes' shares, L2", rms(both - mean, mean, state.area[0]), 0, ""))
         fine = np.linspace(-1.05, 1.05, 801) * exact.line.half_width
         inside = np.abs(x) < 1.3 * exact.line.half_width
-        outcome.curves.append((f"shear, creepage {1e4 * creepage:.1f}e-4 (peak pressure {100 * peak_error:+.1f} %)", "x, mm", "MPa", [
-            ("Carter", 1e3 * fine, 1e-6 * exact.shear(fine), "-"), ("computed", 1e3 * x[inside], 1e-6 * both[inside], "o")]))
+        outcome.curves.append(
+            (
+                f"shear, creepage {1e4 * creepage:.1f}e-4 (peak pressure {100 * peak_error:+.1f} %)",
+                "x, mm",
+                "MPa",
+                [
+                    ("Carter", 1e3 * fine, 1e-6 * exact.shear(fine), "-"),
+                    ("computed", 1e3 * x[inside], 1e-6 * both[inside], "o"),
+                ],
+            )
+        )
     if outcome:
         shares_carried = np.linspace(0, 1, 200)
         outcome.curves.insert(0, ("creep force over normal force", "creepage, 1e-4", "", [

@@ -1,13 +1,14 @@
-"""Steady rolling contact with friction of two half-spaces of one material: Kalker's exact three-dimensional theory on a grid of
-rectangles of constant traction. SI units.
+"""Steady rolling contact with friction of two half-spaces of one material: Kalker's exact three-dimensional theory on a
+grid of rectangles of constant traction. SI units.
 
-The patch rolls along +x. Tractions are those on the upper body, u its surface displacement less the lower one's: the integral of
-Boussinesq's and Cerruti's solutions over rectangles (Johnson 1985, section 3.6; Kalker 1990, appendix C). Material passes towards -x,
-so that over a cell of length h the upper body slips over the lower one by
+The patch rolls along +x. Tractions are those on the upper body, u its surface displacement less the lower one's: the
+integral of Boussinesq's and Cerruti's solutions over rectangles (Johnson 1985, section 3.6; Kalker 1990, appendix C).
+Material passes towards -x, so that over a cell of length h the upper body slips over the lower one by
     S = h w + u(x) - u(x + h),    w = -creepage + spin (-y, x).
-Coulomb: |q| <= mu p; S = 0 below, S against q at the bound. Creepages are positive where the creep force on the upper body is
-(a driven wheel's longitudinal one), spin is the upper body's about +z less the lower one's, over the velocity, 1/m. The upwind
-difference makes forces and stick area right to the first order in the cell: `converged` takes that away with two grids."""
+Coulomb: |q| <= mu p; S = 0 below, S against q at the bound. Creepages are positive where the creep force on the upper
+body is (a driven wheel's longitudinal one), spin is the upper body's about +z less the lower one's, over the velocity,
+1/m. The upwind difference makes forces and stick area right to the first order in the cell: `converged` takes that away
+with two grids."""
 
 import numpy as np
 
@@ -23,7 +24,8 @@ def influence(x, y, h, k):
 
 
 def solve_linear(apply, right, tolerance, most=500):
-    """GMRES: x with apply(x) = right. The problem here is of order zero, a difference of an integral, and needs no preconditioner."""
+    """GMRES: x with apply(x) = right. The problem here is of order zero, a difference of an integral, and needs no
+    preconditioner."""
     size = np.linalg.norm(right)
     basis, upper, turned = [right / size], np.zeros((most + 1, most)), np.zeros(most + 1)
     turns, turned[0] = [], size
@@ -46,8 +48,9 @@ def solve_linear(apply, right, tolerance, most=500):
 
 
 class SteadyRolling:
-    """@param hertz the normal contact (verification.exact.Hertz); creepages longitudinal, lateral, spin (1/m); `cells` over each
-    axis of its ellipse. Arrays over the cells inside: x, y, pressure, shear (n, 2), slips, slip (n, 2) over the way."""
+    """@param hertz the normal contact (verification.exact.Hertz); creepages longitudinal, lateral, spin (1/m); `cells`
+    over each axis of its ellipse. Arrays over the cells inside: x, y, pressure, shear (n, 2), slips, slip (n, 2) over
+    the way."""
 
     def __init__(self, hertz, friction, creepages, cells=40):
         self.hertz, self.friction, self.creepages, self.cells = hertz, friction, tuple(creepages), cells
@@ -68,7 +71,9 @@ class SteadyRolling:
         dx, dy = np.meshgrid(reach * self.h, reach * self.k)
         xx, yy, xy = influence(dx, dy, self.h, self.k) - influence(dx + self.h, dy, self.h, self.k)
         nu = self.hertz.material.poissons_ratio
-        kernel = np.array([xx + (1 - nu) * yy, yy + (1 - nu) * xx, nu * xy]) / (np.pi * self.hertz.material.shear_modulus())
+        kernel = np.array([xx + (1 - nu) * yy, yy + (1 - nu) * xx, nu * xy]) / (
+            np.pi * self.hertz.material.shear_modulus()
+        )
         self.own, self.kernel = kernel[0, 0, 0], np.fft.rfft2(kernel)
 
     def _elastic_slip(self, q):
@@ -81,7 +86,8 @@ class SteadyRolling:
         return slip[:, self.row, self.column].ravel()
 
     def _solve(self):
-        """Newton's iteration on q = projection of (q - rate S) onto the friction circle, which is the whole of Coulomb's law."""
+        """Newton's iteration on q = projection of (q - rate S) onto the friction circle, which is the whole of
+        Coulomb's law."""
         n, bound, rate = len(self.x), self.friction * self.pressure, 1 / self.own
         longitudinal, lateral, spin = self.creepages
         rigid = self.h * np.concatenate([-longitudinal - spin * self.y, -lateral + spin * self.x])
@@ -101,7 +107,11 @@ class SteadyRolling:
             if np.abs(error).max() < 1e-9 * bound.max():
                 break
             # The projection's derivative: nothing changes where it sticks; bound / size (1 - t t^T) where it slips.
-            pxx, pyy, pxy = np.where(slips, share * ty * ty, 1), np.where(slips, share * tx * tx, 1), np.where(slips, -share * tx * ty, 0)
+            pxx, pyy, pxy = (
+                np.where(slips, share * ty * ty, 1),
+                np.where(slips, share * tx * tx, 1),
+                np.where(slips, -share * tx * ty, 0),
+            )
 
             def derivative(change):
                 along, across = np.split(change - rate * self._elastic_slip(change), 2)
@@ -115,16 +125,18 @@ class SteadyRolling:
                 now = state(q + length * step)
             q = q + length * step
         else:
-            raise RuntimeError(f"steady rolling: no solution found for creepages {self.creepages} on {self.cells} cells")
+            raise RuntimeError(
+                f"steady rolling: no solution found for creepages {self.creepages} on {self.cells} cells"
+            )
         self.shear, self.slip, self.slips = q.reshape(2, n).T, slip.reshape(2, n).T / self.h, slips
         self.force = self.shear.sum(axis=0) * self.h * self.k
         self.moment = np.sum(self.x * self.shear[:, 1] - self.y * self.shear[:, 0]) * self.h * self.k
         self.stick_share = 1 - slips.mean()
 
     def creepages_round(self, inner, outer, points=60):
-        """Longitudinal, lateral creepage and spin of the rigid motion that fits best, by least squares, the surfaces' velocities
-        between two distances from the centre, in larger semi-axes: those prescribed and what the strained surfaces add as
-        they pass. Signs are the creepages'; tractions count as forces at the cells' middles."""
+        """Longitudinal, lateral creepage and spin of the rigid motion that fits best, by least squares, the surfaces'
+        velocities between two distances from the centre, in larger semi-axes: those prescribed and what the strained
+        surfaces add as they pass. Signs are the creepages'; tractions count as forces at the cells' middles."""
         nu, reach = self.hertz.material.poissons_ratio, outer * max(self.hertz.a, self.hertz.b)
         place = np.linspace(-reach, reach, points)
         x, y = (values.ravel() for values in np.meshgrid(place, place))
@@ -145,7 +157,9 @@ class SteadyRolling:
 
     def nearest(self, values, x, y):
         """Of values over the cells, those of the cell at each place; 0 outside."""
-        column, row = (np.floor(place / size + 0.5 * self.cells).astype(int) for place, size in ((x, self.h), (y, self.k)))
+        column, row = (
+            np.floor(place / size + 0.5 * self.cells).astype(int) for place, size in ((x, self.h), (y, self.k))
+        )
         inside = (column >= 0) & (column < self.cells) & (row >= 0) & (row < self.cells)
         grid = np.zeros((self.cells, self.cells, *values.shape[1:]), dtype=values.dtype)
         grid[self.row, self.column] = values
@@ -168,8 +182,8 @@ def converged(hertz, friction, creepages, cells=40):
 
 
 def creepage_for_force(hertz, friction, creepages, which, force, cells=40):
-    """The creepage `which` (0, 1, 2: along, across, spin) in place of that in `creepages` for which the force along (0) or across (1, 2)
-    comes out, by the secant rule from there."""
+    """The creepage `which` (0, 1, 2: along, across, spin) in place of that in `creepages` for which the force along (0)
+    or across (1, 2) comes out, by the secant rule from there."""
     component = 0 if which == 0 else 1
     scale = creepages[which]
     tried = []

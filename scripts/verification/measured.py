@@ -1,5 +1,5 @@
-"""What a run came out with, from its results file (docs/results-file.md): pressure and shear on the slave's mesh lines, areas
-finer than the mesh, forces. SI units."""
+"""What a run came out with, from its results file (docs/results-file.md): pressure and shear on the slave's mesh lines,
+areas finer than the mesh, forces. SI units."""
 
 import csv
 import pathlib
@@ -11,9 +11,9 @@ import numpy as np
 
 
 def outlines(x, y, value):
-    """Points of the line round `value` > 0 on a structured surface, (points, 2). Where a mesh line leaves the inside, the zero
-    of the parabola through the squares at its last three nodes inside, between the last one and the next node (as `railwave
-    contact` does, src/post/patch_area.cpp)."""
+    """Points of the line round `value` > 0 on a structured surface, (points, 2). Where a mesh line leaves the inside,
+    the zero of the parabola through the squares at its last three nodes inside, between the last one and the next node
+    (as `railwave contact` does, src/post/patch_area.cpp)."""
     points = []
     place = np.stack([x, y], axis=-1)
 
@@ -48,7 +48,8 @@ def outlines(x, y, value):
 
 
 def enclosed(points, mirrors=""):
-    """Area of the polygon through the points, by angle about their middle; mirrored first at x = 0 and y = 0 as said."""
+    """Area of the polygon through the points, by angle about their middle; mirrored first at x = 0 and y = 0 as
+    said."""
     for axis in mirrors:
         turned = points.copy()
         turned[:, "xy".index(axis)] *= -1
@@ -61,14 +62,18 @@ def enclosed(points, mirrors=""):
 
 
 def shares(x, y, exact, samples=12):
-    """Means of exact(x, y) over each node's share, weighted by its shape function: what the nodal forces of an exact stress would
-    be over the nodes' areas. A node's stress is such a mean, too."""
+    """Means of exact(x, y) over each node's share, weighted by its shape function: what the nodal forces of an exact
+    stress would be over the nodes' areas. A node's stress is such a mean, too."""
     total, weight = np.zeros(x.shape), np.zeros(x.shape)
     places = (np.arange(samples) + 0.5) / samples
     for s in places:
         for t in places:
-            corner = [((1 - s) * (1 - t), slice(None, -1), slice(None, -1)), (s * (1 - t), slice(None, -1), slice(1, None)),
-                      ((1 - s) * t, slice(1, None), slice(None, -1)), (s * t, slice(1, None), slice(1, None))]
+            corner = [
+                ((1 - s) * (1 - t), slice(None, -1), slice(None, -1)),
+                (s * (1 - t), slice(None, -1), slice(1, None)),
+                ((1 - s) * t, slice(1, None), slice(None, -1)),
+                (s * t, slice(1, None), slice(1, None)),
+            ]
             px, py = (sum(w * values[j, i] for w, j, i in corner) for values in (x, y))
             cell = np.abs((x[:-1, 1:] - x[:-1, :-1]) * (y[1:, :-1] - y[:-1, :-1]))
             value = exact(px, py) * cell
@@ -109,8 +114,9 @@ class State:
 
     @property
     def bound_left(self):
-        """mu p - q where that is more than a twentieth of its scale, 0 elsewhere. Its zero line, followed outwards from there, is
-        the edge of the stick zone; a node that slipped and has been let off by a trace, as by a passing wave, is not in it."""
+        """mu p - q where that is more than a twentieth of its scale, 0 elsewhere. Its zero line, followed outwards from
+        there, is the edge of the stick zone; a node that slipped and has been let off by a trace, as by a passing wave,
+        is not in it."""
         left = self.friction * self.pressure - np.linalg.norm(self.shear, axis=-1)
         return np.where(left > 0.05 * self.friction * self.pressure.max(), left, 0)
 
@@ -141,21 +147,27 @@ class Run:
         return self.contact["time"][:]
 
     def creepages(self, start, end):
-        """Longitudinal, lateral, spin of the largest patch at each output between these shares of the run, by `railwave contact`;
-        None without the program."""
+        """Longitudinal, lateral, spin of the largest patch at each output between these shares of the run, by `railwave
+        contact`; None without the program."""
         if self.program is None:
             return None
         with tempfile.TemporaryDirectory() as folder:
             table = pathlib.Path(folder) / "patches.csv"
             limits = ["--from", f"{start * self.times()[-1]:.9g}", "--to", f"{end * self.times()[-1] + 1e-6:.9g}"]
-            subprocess.run([self.program, "contact", self.path, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(
+                [self.program, "contact", self.path, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL
+            )
             with open(table, encoding="utf-8") as file:
                 largest = {}  # by time: numbers stay with patches, whatever their forces
                 for row in csv.DictReader(file):
-                    if row["patch"] != "0" and float(row["normal_force"]) > float(largest.get(row["time"], {"normal_force": 0})["normal_force"]):
+                    if row["patch"] != "0" and float(row["normal_force"]) > float(
+                        largest.get(row["time"], {"normal_force": 0})["normal_force"]
+                    ):
                         largest[row["time"]] = row
                 rows = list(largest.values())
-        return np.array([[float(row[f"{which}_creepage"]) for which in ("longitudinal", "lateral", "spin")] for row in rows])
+        return np.array(
+            [[float(row[f"{which}_creepage"]) for which in ("longitudinal", "lateral", "spin")] for row in rows]
+        )
 
     def history(self):
         """Time, normal and tangential force on the slave, (n, 3)."""
@@ -170,15 +182,19 @@ class Run:
         return balance, max(np.abs(values).max() for values in energy.values())
 
     def on_axis(self, part):
-        """Undeformed z and displacement u_z at the first output along the vertical through (0, 0) of a part whose columns of nodes
-        are upright there, between the four nearest columns; by z."""
+        """Undeformed z and displacement u_z at the first output along the vertical through (0, 0) of a part whose
+        columns of nodes are upright there, between the four nearest columns; by z."""
         fields = self.file["fields"][part]
         place, moved = np.round(fields["coordinates"][:], 9), fields["displacement"][0][:, 2]
         top = place[np.isclose(place[:, 2], place[np.argmin(np.hypot(place[:, 0], place[:, 1])), 2], atol=1e-4)]
 
         def around(values):
             below, above = values[values <= 0].max(), values[values >= 0].min()
-            return [(below, 1.0)] if below == above else [(below, above / (above - below)), (above, -below / (above - below))]
+            return (
+                [(below, 1.0)]
+                if below == above
+                else [(below, above / (above - below)), (above, -below / (above - below))]
+            )
 
         total = None
         for x, wx in around(top[:, 0]):

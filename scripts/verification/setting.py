@@ -11,16 +11,23 @@ RADIUS = 0.46
 class Outcome:
     step: float  # s
     figures: list = field(default_factory=list)  # (what, computed, exact, unit); exact 0: `computed` is a share
-    curves: list = field(default_factory=list)  # pictures: (title, abscissa name, ordinate name, [(label, x, y, style)])
+    # pictures: (title, abscissa name, ordinate name, [(label, x, y, style)])
+    curves: list = field(default_factory=list)
 
 
 def zone(body, size, layers, start, end, width):
-    """Overrides for a body and the block with cells of `size` at least from `start` to `end` and over `width`. The body has a
-    node at 0; the block's nodes lie aside, for a contact of nodes that meet exactly is a special case."""
-    values = dict(zone_size=size, zone_layers=layers, zone_start=-size * np.ceil(-start / size), zone_end=size * np.ceil(end / size),
-                  zone_width=2 * size * np.ceil(width / 2 / size))
+    """Overrides for a body and the block with cells of `size` at least from `start` to `end` and over `width`. The body
+    has a node at 0; the block's nodes lie aside, for a contact of nodes that meet exactly is a special case."""
+    values = dict(
+        zone_size=size, zone_layers=layers, zone_start=-size * np.ceil(-start / size),
+        zone_end=size * np.ceil(end / size), zone_width=2 * size * np.ceil(width / 2 / size),
+    )
     aside = dict(values, zone_start=values["zone_start"] - 0.37 * size, zone_centre=0.23 * size)
-    return [f"meshes.{mesh}.{key}={value:.12g}" for mesh, those in ((body, values), ("block", aside)) for key, value in those.items()]
+    return [
+        f"meshes.{mesh}.{key}={value:.12g}"
+        for mesh, those in ((body, values), ("block", aside))
+        for key, value in those.items()
+    ]
 
 
 def rms(error, exact, area):
@@ -29,14 +36,21 @@ def rms(error, exact, area):
 
 def rolling_motion(speed, sideways, turning, height, spinning=0):
     centre = f"[0,0,{height:.9g}]"
-    motion = [("velocity", f"[{speed:.9g},{sideways:.9g},0]"), ("angular_velocity", f"[0,{turning:.12g},{spinning:.9g}]"), ("centre", centre)]
-    return [f"parts.roller.position={centre}"] + [f"{section}.{key}={value}" for section in ("initial_motion.roll", "prescribed_motion.axle")
-                                                 for key, value in motion]
+    motion = [
+        ("velocity", f"[{speed:.9g},{sideways:.9g},0]"),
+        ("angular_velocity", f"[0,{turning:.12g},{spinning:.9g}]"),
+        ("centre", centre),
+    ]
+    return [f"parts.roller.position={centre}"] + [
+        f"{section}.{key}={value}"
+        for section in ("initial_motion.roll", "prescribed_motion.axle")
+        for key, value in motion
+    ]
 
 
 def steady(results, share):
-    """Tangential force along and across and normal force on the roller, their means over the last `share` of the run, and how
-    far they swing there; output times in it."""
+    """Tangential force along and across and normal force on the roller, their means over the last `share` of the run,
+    and how far they swing there; output times in it."""
     time, normal, tangential = results.history()
     late = time >= (1 - share) * time[-1]
     force = np.column_stack([tangential[late][:, :2], normal[late][:, 2]])

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Is it the run or the measure of its stick area that is off? The exact solutions of the force sets of thesis table 5.2, known only
-at nodes as far apart as a run's, measured as a run is (measured.stick_shares): mean and scatter over positions of the nodes.
+"""Is it the run or the measure of its stick area that is off? The exact solutions of the force sets of thesis table
+5.2, known only at nodes as far apart as a run's, measured as a run is (measured.stick_shares): mean and scatter over
+positions of the nodes.
     scripts/verification/stick_measure.py"""
 
 import pathlib
@@ -20,8 +21,11 @@ def sampled(solution, spacing, positions, seed=1):
     """Stick shares (zero line, count) over the solution's own share, (positions, 2)."""
     random, shares = np.random.default_rng(seed), []
     for _ in range(positions):
-        along, across = (np.arange(-np.ceil(reach / spacing) - 1, np.ceil(reach / spacing) + 2) * spacing + spacing * (random.random() - 0.5)
-                         for reach in (solution.hertz.a, solution.hertz.b))
+        along, across = (
+            np.arange(-np.ceil(reach / spacing) - 1, np.ceil(reach / spacing) + 2) * spacing
+            + spacing * (random.random() - 0.5)
+            for reach in (solution.hertz.a, solution.hertz.b)
+        )
         x, y = np.meshgrid(along, across)
         shear, sticks = (solution.nearest(values, x, y) for values in (solution.shear, ~solution.slips))
         pressure = solution.hertz.pressure(x, y)
@@ -31,7 +35,10 @@ def sampled(solution, spacing, positions, seed=1):
 
 def main():
     minor = 2 * Hertz(126680, RADIUS, RADIUS_ACROSS).b
-    print("| set | zero line, ten elements | zero line, twenty | by count, ten | by count, twenty |\n|---|---|---|---|---|")
+    print(
+        "| set | zero line, ten elements | zero line, twenty | by count, ten | by count, twenty"
+        " |\n|---|---|---|---|---|"
+    )
     for letter, row in table_5_2().items():
         hertz = Hertz(row["normal_N"], RADIUS, RADIUS_ACROSS)
         solution = SteadyRolling(hertz, 0.45, (row["longitudinal_creepage"], row["lateral_creepage"], 0), 100)

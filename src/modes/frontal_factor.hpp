@@ -4,7 +4,7 @@
 
 namespace railwave {
 
-/// A = L D L^T of a sparse symmetric matrix, indefinite or not, without pivoting: multifrontal (Duff & Reid 1983),
+/// A = L D L^T of a sparse symmetric matrix, indefinite or not, without pivoting: multifrontal (Duff and Reid 1983),
 /// dense blocks over the fronts of a nested dissection.
 class FrontalFactor {
  public:

@@ -22,8 +22,8 @@ struct FrequencyResponse {
 };
 
 /// Acceleration over force, H1 = mean of F* A over mean of F* F, with the coherence |mean F* A|^2 / (mean |F|^2 mean
-/// |A|^2) (Bendat and Piersol). The acceleration's transform over the record is s^2 times that of the displacement less
-/// a cubic which has its values and velocities at both ends, plus that of the cubic's own acceleration: a mesh's
+/// |A|^2) (Bendat and Piersol 2010). The acceleration's transform over the record is s^2 times that of the displacement
+/// less a cubic which has its values and velocities at both ends, plus that of the cubic's own acceleration: a mesh's
 /// vibrations above half the sampling rate fold back into sampled accelerations, but hardly into displacements; and
 /// without the cubic the record's end would count as a jump. With an exponential window, by exp(-decay t) on force and
 /// response alike, it is the response at the complex frequency s = decay + i w exactly: a mode of pole -d + i w_d shows

@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-/// Morlet's wavelet pi^(-1/4) exp(i w0 t/s) exp(-(t/s)^2 / 2) at scales s_j = s_0 2^(j spacing), by Torrence and Compo,
-/// A practical guide to wavelet analysis, Bull. Am. Meteorol. Soc. 79 (1998). Their equations are named below.
+/// Morlet's wavelet pi^(-1/4) exp(i w0 t/s) exp(-(t/s)^2 / 2) at scales s_j = s_0 2^(j spacing), by Torrence and Compo
+/// 1998. Their equations are named below.
 struct WaveletOptions {
   double w0 = 6;           ///< non-dimensional frequency of the wavelet
   double spacing = 0.125;  ///< of scales, octaves
@@ -55,8 +55,8 @@ Wavelet wavelet_transform(const std::vector<double>& values, double interval, co
 /// below 0 counts as 0.
 double lag_one(const std::vector<double>& values);
 
-/// Power at each scale that red noise of the same variance and lag-1 correlation exceeds at 5 % of the times (eq. 16
-/// and 18).
+/// Power at each scale that red noise of the same variance and lag-1 correlation exceeds at 5 % of the times (Torrence
+/// and Compo 1998, eqs. 16 and 18).
 std::vector<double> red_noise_power(const Wavelet& wavelet, double variance, double correlation);
 
 }  // namespace railwave

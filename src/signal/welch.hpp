@@ -6,7 +6,7 @@
 
 namespace railwave {
 
-/// How Welch's method cuts a signal up.
+/// How Welch's method (Welch 1967) cuts a signal up.
 struct WelchOptions {
   std::size_t segment = 0;  ///< samples in each; 0: such that there are eight, or one of everything if that is short
   double overlap = 0.5;     ///< share of a segment that the next has too, below 1

@@ -1,7 +1,7 @@
 """Goes over every key of the case file with numbers and texts that nobody means, and judges what `railwave check` says.
 
-The keys come from the program itself (`railwave reference --schema`), so that a new key is tried without a word here; the scenes below
-hold an entry of every section and of every type.
+The keys come from the program itself (`railwave reference --schema`), so that a new key is tried without a word here;
+the scenes below hold an entry of every section and of every type.
 """
 
 import concurrent.futures
@@ -181,10 +181,14 @@ def one_mesh(text, sections=""):
     return STEEL + f"[meshes.body]\n{text}\n[parts.body]\nmesh = \"body\"\nmaterial = \"steel\"\n" + sections + TIME
 
 
-WHEEL = "zone_size = 0.008\nzone_width = 0.024\nzone_length = 0.1\nzone_start = -0.05\nzone_layers = 1\npath_start = -0.3\npath_size = 0.01\n" \
-        "section_size = 0.012\ncore_size = 0.09"
-RAIL = "zone_size = 0.004\nzone_width = 0.024\nzone_layers = 2\npath_start = -0.1\npath_end = 0.2\npath_size = 0.01\nsection_size = 0.01\n" \
-       "inclination = 0.0\nzone_centre = 0.0"
+WHEEL = (
+    "zone_size = 0.008\nzone_width = 0.024\nzone_length = 0.1\nzone_start = -0.05\nzone_layers = 1\n"
+    "path_start = -0.3\npath_size = 0.01\nsection_size = 0.012\ncore_size = 0.09"
+)
+RAIL = (
+    "zone_size = 0.004\nzone_width = 0.024\nzone_layers = 2\npath_start = -0.1\npath_end = 0.2\npath_size = 0.01\n"
+    "section_size = 0.01\ninclination = 0.0\nzone_centre = 0.0"
+)
 FILE_MESH = """*NODE
 1, 0, 0, 0
 2, 1, 0, 0
@@ -199,6 +203,11 @@ FILE_MESH = """*NODE
 """
 HEIGHTS = "x,y,dz\n" + "".join(f"{x},{y},1e-6\n" for x in (-0.1, 0.2) for y in (-0.02, 0.02))
 
+# Of a track's rail the track itself says where zone and path lie.
+TRACK_RAIL = RAIL
+for line in ("zone_centre = 0.0", "path_start = -0.1", "path_end = 0.2", "path_size = 0.01"):
+    TRACK_RAIL = TRACK_RAIL.replace(line, "")
+
 SCENES = {
     "blocks": BLOCKS,
     "wheel": one_mesh(f'type = "wheel"\n{WHEEL}'),
@@ -209,11 +218,15 @@ SCENES = {
     "cylinder": one_mesh('type = "cylinder"\nlength_divisions = 4'),
     "file": one_mesh('type = "file"\npath = "cube.inp"'),
     "wheelset": one_mesh(f'type = "wheelset"\nhalf = true\n{WHEEL}'),
-    "plate": one_mesh(f'type = "rail"\n{RAIL}',
-                      '[meshes.plate]\ntype = "fishplate"\nrail = "body"\nstart = -0.1\nend = 0.1\ngap_start = -0.01\ngap_end = 0.01\n'
-                      '[parts.plate]\nmesh = "plate"\nmaterial = "steel"\n'
-                      '[meshes.pad]\ntype = "rail_pad"\nrail = "body"\n[parts.pad]\nmesh = "pad"\nmaterial = "steel"\n'),
-    "track": STEEL + f"""
+    "plate": one_mesh(
+        f'type = "rail"\n{RAIL}',
+        '[meshes.plate]\ntype = "fishplate"\nrail = "body"\nstart = -0.1\nend = 0.1\ngap_start = -0.01\n'
+        'gap_end = 0.01\n[parts.plate]\nmesh = "plate"\nmaterial = "steel"\n[meshes.pad]\ntype = "rail_pad"\n'
+        'rail = "body"\n[parts.pad]\nmesh = "pad"\nmaterial = "steel"\n',
+    ),
+    "track": (
+        STEEL
+        + f"""
 [sleepers.own]
 divisions = [2, 4, 1]
 pad = "solid"
@@ -231,18 +244,24 @@ gap = 0.008
 fishplates = true
 zone_start = -0.02
 zone_end = 0.03
-{RAIL.replace("zone_centre = 0.0", "").replace("path_start = -0.1", "").replace("path_end = 0.2", "").replace("path_size = 0.01", "")}
+{TRACK_RAIL}
 coarse_size = 0.1
 core_size = 0.1
-""" + TIME,
+"""
+        + TIME
+    ),
 }
 
-NUMBERS = ["0", "-0.0", "1e-300", "-1e-300", "1e300", "-1e300", "nan", "inf", "-1", "1", "1e9", "1e-9", "9223372036854775807"]
+NUMBERS = [
+    "0", "-0.0", "1e-300", "-1e-300", "1e300", "-1e300", "nan", "inf", "-1", "1", "1e9", "1e-9", "9223372036854775807",
+]
 TEXTS = ['""', '"-"', '"../x"', '"a/b"', '"' + "x" * 300 + '"', '"\\u0007"', '"é ñ"']
 
 
 def schema():
-    return json.loads(subprocess.run([PROGRAM, "reference", "--schema"], capture_output=True, check=True, text=True).stdout)
+    return json.loads(
+        subprocess.run([PROGRAM, "reference", "--schema"], capture_output=True, check=True, text=True).stdout
+    )
 
 
 def entries(scene_text):
@@ -287,7 +306,8 @@ def values_of(key, numbers, texts):
 
 
 def trials(numbers=tuple(NUMBERS), texts=tuple(TEXTS), scenes=None):
-    """(scene's name, 'section.name.key', value): everything once; what several entries have alike, in the first of them."""
+    """(scene's name, 'section.name.key', value): everything once; what several entries have alike, in the first of
+    them."""
     document, tried = schema(), set()
     for scene, text in (scenes or SCENES).items():
         for section, name, entry in entries(text):
@@ -311,7 +331,8 @@ def write_scenes(folder, scenes=None):
 
 
 def say(folder, scene, *sets, command="check", more=()):
-    """Exit code, standard output and error of a command on a scene with overrides; the exit code is None where it takes too long."""
+    """Exit code, standard output and error of a command on a scene with overrides; the exit code is None where it takes
+    too long."""
     words = [PROGRAM, command, scene + ".toml"] + [word for one in sets for word in ("--set", one)] + list(more)
     try:
         done = subprocess.run(words, cwd=folder, capture_output=True, timeout=SECONDS, stdin=subprocess.DEVNULL)

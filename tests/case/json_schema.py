@@ -1,10 +1,33 @@
-"""As much of JSON Schema as the case file's schema uses; a word that is not known here is an error, so that nothing is passed over."""
+"""As much of JSON Schema as the case file's schema uses; a word that is not known here is an error, so that nothing is
+passed over."""
 
 
 def mistakes(value, schema, place="case"):
     """Where a value, as tomllib reads it, does not fit a schema: a list of texts."""
-    known = {"$schema", "title", "description", "type", "properties", "required", "additionalProperties", "propertyNames", "minProperties", "enum", "const",
-             "minimum", "maximum", "exclusiveMinimum", "exclusiveMaximum", "items", "prefixItems", "minItems", "maxItems", "oneOf", "anyOf", "pattern"}
+    known = {
+        "$schema",
+        "title",
+        "description",
+        "type",
+        "properties",
+        "required",
+        "additionalProperties",
+        "propertyNames",
+        "minProperties",
+        "enum",
+        "const",
+        "minimum",
+        "maximum",
+        "exclusiveMinimum",
+        "exclusiveMaximum",
+        "items",
+        "prefixItems",
+        "minItems",
+        "maxItems",
+        "oneOf",
+        "anyOf",
+        "pattern",
+    }
     unknown = set(schema) - known
     if unknown:
         raise ValueError(f"the schema has {unknown}, which is not known here")
@@ -14,8 +37,16 @@ def mistakes(value, schema, place="case"):
         found.append(f"{place}: {text}")
 
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    kinds = {"object": isinstance(value, dict), "array": isinstance(value, list), "string": isinstance(value, str), "boolean": isinstance(value, bool),
-             "number": number, "integer": number and float(value).is_integer() if number and value == value and abs(value) != float("inf") else False}
+    kinds = {
+        "object": isinstance(value, dict),
+        "array": isinstance(value, list),
+        "string": isinstance(value, str),
+        "boolean": isinstance(value, bool),
+        "number": number,
+        "integer": number and float(value).is_integer()
+        if number and value == value and abs(value) != float("inf")
+        else False,
+    }
     if "type" in schema and not kinds[schema["type"]]:
         wrong(f"is no {schema['type']}")
         return found
@@ -24,8 +55,12 @@ def mistakes(value, schema, place="case"):
     if "const" in schema and value != schema["const"]:
         wrong(f"is not {schema['const']}")
     if number:
-        for word, holds in (("minimum", lambda a: value >= a), ("maximum", lambda a: value <= a), ("exclusiveMinimum", lambda a: value > a),
-                            ("exclusiveMaximum", lambda a: value < a)):
+        for word, holds in (
+            ("minimum", lambda a: value >= a),
+            ("maximum", lambda a: value <= a),
+            ("exclusiveMinimum", lambda a: value > a),
+            ("exclusiveMaximum", lambda a: value < a),
+        ):
             if word in schema and not holds(schema[word]):
                 wrong(f"is {value}, {word} {schema[word]}")
         if value != value or abs(value) == float("inf"):

@@ -1,5 +1,5 @@
-"""What README.md and docs/ say of commands, options and keys is what the program has, and the other way round; the JSON schema takes every
-case that the program takes, and refuses the broken ones that a schema can refuse."""
+"""What README.md and docs/ say of commands, options and keys is what the program has, and the other way round; the JSON
+schema takes every case that the program takes, and refuses the broken ones that a schema can refuse."""
 
 import json
 import os
@@ -19,7 +19,9 @@ SINGLE = ("settle", "time", "checkpoint", "solver", "watch", "output", "gravity"
 
 
 def help_of(*command):
-    return subprocess.run([extreme_values.PROGRAM, *command, "--help"], capture_output=True, check=True, text=True).stdout
+    return subprocess.run(
+        [extreme_values.PROGRAM, *command, "--help"], capture_output=True, check=True, text=True
+    ).stdout
 
 
 def commands():
@@ -44,7 +46,9 @@ def code_of(page):
     text = page.read_text(encoding="utf-8").replace("\\\n", " ")
     blocks = re.findall(r"```[a-z]*\n(.*?)```", text, re.S)
     lines = [line.strip() for block in blocks for line in block.splitlines()]
-    return lines + [span.replace("\n", " ") for span in re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", text, flags=re.S))]
+    return lines + [
+        span.replace("\n", " ") for span in re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", text, flags=re.S))
+    ]
 
 
 def command_lines():
@@ -83,14 +87,26 @@ class Commands(unittest.TestCase):
                     self.assertRegex(text, re.escape(option) + r"(?![\w-])")
 
     def test_options_without_a_command_exist_somewhere(self):
-        others = "\n".join(path.read_text(encoding="utf-8", errors="replace") for path in (SOURCE / "scripts").rglob("*") if path.is_file())
-        others += "\n".join(path.read_text(encoding="utf-8") for path in [*SOURCE.glob("benchmarks/**/*.py"), *SOURCE.glob("benchmarks/**/*.cpp"), *SOURCE.glob("tests/**/*.py")])
+        others = "\n".join(
+            path.read_text(encoding="utf-8", errors="replace")
+            for path in (SOURCE / "scripts").rglob("*")
+            if path.is_file()
+        )
+        others += "\n".join(
+            path.read_text(encoding="utf-8")
+            for path in [
+                *SOURCE.glob("benchmarks/**/*.py"), *SOURCE.glob("benchmarks/**/*.cpp"), *SOURCE.glob("tests/**/*.py"),
+            ]
+        )
         every = set.union(*self.known.values())
         foreign = {"--version", "--schedule-random", "--output-on-failure"}
         for page in PAGES:
             for code in code_of(page):
                 for option in re.findall(r"(?<![\w-])--[a-z][a-z0-9-]+", code):
-                    if re.match(r"(ctest|cmake|apt|git|mpirun|kokkos|nvcc|perf|valgrind)", code) or option in every | foreign:
+                    if (
+                        re.match(r"(ctest|cmake|apt|git|mpirun|kokkos|nvcc|perf|valgrind)", code)
+                        or option in every | foreign
+                    ):
                         continue
                     with self.subTest(page=page.name, code=code):
                         self.assertIn(f'"{option}"' if f'"{option}"' in others else option, others)
@@ -129,7 +145,9 @@ class Keys(unittest.TestCase):
 
     def test_defaults_of_the_watch_are_those_of_the_table(self):
         properties, seen = self.schema["properties"]["watch"]["properties"], 0
-        for key, default in re.findall(r"\| `([a-z_]+)` \| ([0-9.e-]+)", (SOURCE / "docs/watch.md").read_text(encoding="utf-8")):
+        for key, default in re.findall(
+            r"\| `([a-z_]+)` \| ([0-9.e-]+)", (SOURCE / "docs/watch.md").read_text(encoding="utf-8")
+        ):
             if key in properties:
                 told = re.search(r"default ([0-9.e+-]+)$", properties[key]["description"])
                 self.assertEqual(float(default), float(told[1]), key)
@@ -140,8 +158,11 @@ class Keys(unittest.TestCase):
 class Schema(unittest.TestCase):
     schema = extreme_values.schema()
     # Complaints that a schema can make too: kinds of values, ranges, choices, unknown and missing keys.
-    words = re.compile(r"must be (above|below|at least|at most|between) [-0-9.e+]+( and (below|at most) [-0-9.e+]+)?( [A-Za-z/0-9]+)?$|unknown (key|section)|"
-                       r"is missing; must(?!.* unless )|must be (a number|true or false|three numbers|a whole number|text in quotes|')")
+    words = re.compile(
+        r"must be (above|below|at least|at most|between) [-0-9.e+]+( and (below|at most) [-0-9.e+]+)?("
+        r" [A-Za-z/0-9]+)?$|unknown (key|section)|"
+        r"is missing; must(?!.* unless )|must be (a number|true or false|three numbers|a whole number|text in quotes|')"
+    )
 
     def test_takes_every_case(self):
         cases = [*SOURCE.glob("cases/**/*.toml"), *SOURCE.glob("tests/**/*.toml")]
@@ -172,7 +193,8 @@ class Schema(unittest.TestCase):
 
 
 class Limits(unittest.TestCase):
-    """Values outside of what the schema states are refused by the program: a scene's numbers all at once, as it tells all mistakes."""
+    """Values outside of what the schema states are refused by the program: a scene's numbers all at once, as it tells
+    all mistakes."""
 
     def test_program_refuses_what_the_schema_refuses(self):
         import tempfile
@@ -186,10 +208,18 @@ class Limits(unittest.TestCase):
                     for key, about in extreme_values.keys_of(document, section, entry).items():
                         inner = about.get("items", about)
                         high = inner.get("maximum", inner.get("exclusiveMaximum"))
-                        if inner.get("type") not in ("number", "integer") or high is None or (section, entry.get("type"), key) in tried:
+                        if (
+                            inner.get("type") not in ("number", "integer")
+                            or high is None
+                            or (section, entry.get("type"), key) in tried
+                        ):
                             continue
                         tried.add((section, entry.get("type"), key))
-                        value = str(int(high) + 1) if inner["type"] == "integer" else repr(float(high) * (1.001 if high > 0 else 0.999) + (high == 0))
+                        value = (
+                            str(int(high) + 1)
+                            if inner["type"] == "integer"
+                            else repr(float(high) * (1.001 if high > 0 else 0.999) + (high == 0))
+                        )
                         value = value if inner is about else "[" + ", ".join([value] * about.get("minItems", 1)) + "]"
                         wrong.append((".".join(part for part in (section, name, key) if part), key, value))
                 for first in range(0, len(wrong), 20):

@@ -1,5 +1,6 @@
-"""Every key of the case file is tried with every number and text of extreme_values.py: `railwave check` answers within seconds, with exit code
-0 or 2, and its message names the key or the entry, in fewer than 600 characters, without infinities and endless digits."""
+"""Every key of the case file is tried with every number and text of extreme_values.py: `railwave check` answers within
+seconds, with exit code 0 or 2, and its message names the key or the entry, in fewer than 600 characters, without
+infinities and endless digits."""
 
 import os
 import re

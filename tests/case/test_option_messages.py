@@ -1,4 +1,5 @@
-"""Options and words of the command line that nobody means: each gets an answer that says what is wrong, what is allowed and how to mend it."""
+"""Options and words of the command line that nobody means: each gets an answer that says what is wrong, what is allowed
+and how to mend it."""
 
 import os
 import re
@@ -10,15 +11,41 @@ import extreme_values
 from test_docs_and_program import commands
 
 NUMBERS = ["nan", "-inf", "1e300", "10min", "0x10", "9" * 400]
-POSITIVE = {"--wall-time", "--up-to", "--resolution", "--segment", "--scale-spacing", "--window-end", "--prominence", "--order", "--rolling-velocity"}
+POSITIVE = {
+    "--wall-time",
+    "--up-to",
+    "--resolution",
+    "--segment",
+    "--scale-spacing",
+    "--window-end",
+    "--prominence",
+    "--order",
+    "--rolling-velocity",
+}
 NUMERIC = POSITIVE | {"--from", "--to", "--low", "--high", "--overlap", "--w0", "--ring", "--rolling-direction"}
 FILES = {"--csv", "--out", "--hdf5", "--nodes", "--cuts"}
-WORDS = {"--set", "--part", "--axle", "--input", "--response", "--quantity", "--window", "--row", "--at", "--direction", "--channel", "--trend"}
+WORDS = {
+    "--set",
+    "--part",
+    "--axle",
+    "--input",
+    "--response",
+    "--quantity",
+    "--window",
+    "--row",
+    "--at",
+    "--direction",
+    "--channel",
+    "--trend",
+}
 FLAGS = {"--restart", "--keep-state", "--overwrite", "--average", "--markdown", "--schema", "--help", "--version"}
 
 
 def answer(*words, folder=None):
-    done = subprocess.run([extreme_values.PROGRAM, *words], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL, cwd=folder)
+    done = subprocess.run(
+        [extreme_values.PROGRAM, *words],
+        capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL, cwd=folder,
+    )
     return done.returncode, done.stderr if done.returncode else done.stdout
 
 
@@ -57,7 +84,11 @@ class OptionMessages(unittest.TestCase):
     def test_every_option_is_of_a_known_kind(self):
         for command, options in commands().items():
             with self.subTest(command=command):
-                self.assertEqual(options - NUMERIC - FILES - WORDS - FLAGS, set(), "an option of numbers or files needs an entry in option_checks.cpp, and one here")
+                self.assertEqual(
+                    options - NUMERIC - FILES - WORDS - FLAGS,
+                    set(),
+                    "an option of numbers or files needs an entry in option_checks.cpp, and one here",
+                )
 
     def test_files(self):
         for command, options in commands().items():
@@ -78,7 +109,9 @@ class OptionMessages(unittest.TestCase):
         self.refused(["signal"], "a kind of analysis is missing; there are: psd")
         self.refused([], "a command is missing; there are: run, check")
         self.refused(["--vresion"], "there is no option '--vresion'; did you mean '--version'?")
-        self.refused(["check", "x.toml", "--sett", "time.end=1"], "check: there is no option '--sett'; did you mean '--set'?")
+        self.refused(
+            ["check", "x.toml", "--sett", "time.end=1"], "check: there is no option '--sett'; did you mean '--set'?"
+        )
         self.refused(["run", "x.toml", "--walltime=3"], "did you mean '--wall-time'?")
         self.refused(["check", "x.toml", "y.toml"], "'y.toml' is one word too many")
         self.refused(["run", "x.toml", "--wall-time"], "--wall-time")

@@ -1,5 +1,5 @@
-"""What takes long says what it is at, on the standard error; what is quick says nothing. The timer's signal is sent by hand here, so that nobody
-has to wait."""
+"""What takes long says what it is at, on the standard error; what is quick says nothing. The timer's signal is sent by
+hand here, so that nobody has to wait."""
 
 import os
 import signal
@@ -24,8 +24,13 @@ class Patience(unittest.TestCase):
     def test_the_signal_tells_how_long_and_does_no_harm(self):
         with tempfile.TemporaryDirectory() as folder:
             extreme_values.write_scenes(folder, {"cylinder": extreme_values.SCENES["cylinder"]})
-            run = subprocess.Popen([extreme_values.PROGRAM, "run", "cylinder.toml", "--set", "time.end=9", "--set", "output.history_interval=1",
-                                    "--set", "output.progress_interval=0.01"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            run = subprocess.Popen(
+                [
+                    extreme_values.PROGRAM, "run", "cylinder.toml", "--set", "time.end=9", "--set",
+                    "output.history_interval=1", "--set", "output.progress_interval=0.01",
+                ],
+                cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            )
             for line in run.stdout:  # the handler is there before anything is printed
                 if "step" in line:
                     break

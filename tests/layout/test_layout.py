@@ -1,69 +1,135 @@
 #!/usr/bin/python3
-"""Holds the sources to the layout: folders include one another one way only, and C++ is as .clang-format has it, within 120 columns."""
+"""Holds the sources to scripts/dev/check_layout, and that script to finding each fault that it names: a made-up folder
+without a fault passes, and with one fault does not."""
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(os.environ.get("RAILWAVE_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
-FOLDERS = ("kernels", "src", "tests", "benchmarks")
-# What each folder's files may include besides their own; "" is src itself.
-MAY_INCLUDE = {
-    "kernels": (),
-    "case": (),
-    "mesh": ("case",),
-    "model": ("case", "mesh", "kernels"),
-    "solve": ("case", "mesh", "kernels", "model"),
-    "output": ("case", "mesh", "kernels", "model", "solve"),
-    "signal": ("case",),
-    "post": ("case", "model", "output", "signal"),
-    "modes": ("case", "mesh", "model", "solve", "output"),
-    "": ("case", "mesh", "kernels", "model", "solve", "output", "signal", "post", "modes"),
-}
-CLANG_FORMAT_VERSION = 14  # Debian 12's; others break lines elsewhere
+SCRIPT = ROOT / "scripts" / "dev" / "check_layout"
 
 
-def sources(folders=FOLDERS):
-    return [path for folder in folders for path in sorted((ROOT / folder).rglob("*")) if path.suffix in (".hpp", ".cpp", ".c")]
+def loaded():
+    loader = importlib.machinery.SourceFileLoader("check_layout", str(SCRIPT))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_layout", loader))
+    loader.exec_module(module)
+    return module
 
 
-def folder_of(name):
-    """Of a file of kernels or src, or of what an include names."""
-    parts = pathlib.PurePath(name).parts
-    return parts[0] if len(parts) > 1 else ""
+RULES = loaded()
 
 
-def clang_format():
-    for name in (f"clang-format-{CLANG_FORMAT_VERSION}", "clang-format"):
-        found = shutil.which(name)
-        if found and f"version {CLANG_FORMAT_VERSION}." in subprocess.run([found, "--version"], capture_output=True, text=True, check=True).stdout:
-            return found
-    return None
+def check(folder):
+    return subprocess.run([sys.executable, "-B", SCRIPT, folder], capture_output=True, text=True, check=False)
 
 
-class Layout(unittest.TestCase):
-    def test_folders_include_one_way(self):
-        for path in sources(("kernels", "src")):
-            own = "kernels" if path.is_relative_to(ROOT / "kernels") else folder_of(path.relative_to(ROOT / "src"))
-            self.assertIn(own, MAY_INCLUDE, f"{path}: say in this test what this folder may include")
-            for number, line in enumerate(path.read_text().splitlines(), 1):
-                included = re.match(r'\s*#\s*include\s+"([^"]+)"', line)
-                if included and folder_of(included[1]) not in (own, *MAY_INCLUDE[own]):
-                    self.fail(f"{path}:{number}: {own or 'src'} must not include {included[1]}")
+class Sources(unittest.TestCase):
+    def test_layout(self):
+        done = check(ROOT)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
-    def test_no_line_is_longer_than_120_columns(self):
-        long = [f"{path}:{number}" for path in sources() for number, line in enumerate(path.read_text().splitlines(), 1) if len(line) > 120]
-        self.assertEqual(long, [])
 
-    @unittest.skipUnless(clang_format(), f"clang-format {CLANG_FORMAT_VERSION} is not here")
+class MadeUp(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        shutil.copy(ROOT / ".clang-format", self.folder)
+        for name in RULES.KNOWN_TWICE:
+            self.write(f"src/case/{name}", "")
+            self.write(f"src/mesh/{name}", "")
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+
+    def assert_faults(self, *wanted):
+        """Each fault begins with its place and says what it is."""
+        done = check(self.folder)
+        told = done.stdout.splitlines()
+        self.assertEqual(len(told), len(wanted), done.stdout + done.stderr)
+        for line, (place, what) in zip(told, wanted):
+            self.assertTrue(line.startswith(place + ": "), line)
+            self.assertIn(what, line)
+        self.assertEqual(done.returncode, 1 if wanted else 0, done.stderr)
+
+    def test_a_sound_folder_passes(self):
+        self.write("src/mesh/tread.cpp", '#include "case/rail.hpp"\n')
+        self.write("src/case/rail.hpp", "#include <vector>\n")
+        self.write("kernels/lanes.hpp", "#include <Kokkos_Core.hpp>\n#include \"kernels/team.hpp\"\n")
+        self.write("scripts/run", "#!/usr/bin/env bash\n" + "#" * 120 + "\n")
+        self.write("README.md", "long " * 100)
+        self.write("build/generated.cpp", "//" + "-" * 200)
+        self.assert_faults()
+
+    def test_long_lines(self):
+        # As characters, not as bytes.
+        self.write("tests/case/test_rail.py", "#" + "\N{GREEK SMALL LETTER MU}" * 119 + "\n")
+        self.assert_faults()
+        for name in ("src/rail.cpp", "src/rail.hpp", "tests/case/test_rail.py", "scripts/lib/rail.sh"):
+            with self.subTest(name):
+                start = "// " if name.startswith("src") else "# "
+                self.write(name, "\n" + start + "-" * 121 + "\n")
+                done = check(self.folder)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"{name}:2: the line has {121 + len(start)} columns", done.stdout)
+                (self.folder / name).unlink()
+        for shell in ("/usr/bin/env bash", "/bin/sh", "/usr/bin/python3"):
+            with self.subTest(shell):
+                self.write("scripts/rail", f"#!{shell}\n" + "#" * 121 + "\n")
+                self.assert_faults(("scripts/rail:2", "121 columns"))
+
+    def test_includes_against_the_order(self):
+        self.write("src/mesh/tread.cpp", '#include "case/rail.hpp"\n#include "model/wheel.hpp"\n')
+        self.assert_faults(("src/mesh/tread.cpp:2", "mesh includes model/wheel.hpp"))
+        self.write("src/mesh/tread.cpp", "")
+        self.write("kernels/lanes.hpp", '#include "model/wheel.hpp"\n')
+        self.assert_faults(("kernels/lanes.hpp:1", "kernels includes model/wheel.hpp"))
+        self.write("kernels/lanes.hpp", "")
+        self.write("src/case/rail.hpp", "#include <Kokkos_Core.hpp>\n")
+        self.assert_faults(("src/case/rail.hpp:1", "case knows nothing of Kokkos"))
+        self.write("src/case/rail.hpp", "")
+        self.write("src/sleeper/pad.hpp", "")
+        self.assert_faults(("src/sleeper/pad.hpp", "no row in MAY_INCLUDE"))
+
+    def test_names_twice(self):
+        self.write("src/model/rail.hpp", "")
+        self.write("kernels/rail.hpp", "")
+        self.assert_faults(("kernels/rail.hpp and src/model/rail.hpp", "files of one name"))
+
+    def test_names_that_are_no_longer_twice(self):
+        name = min(RULES.KNOWN_TWICE)
+        (self.folder / "src" / "mesh" / name).unlink()
+        self.assert_faults(("KNOWN_TWICE", f"{name} is no longer the name of two files"))
+
+    def test_too_many_short_files(self):
+        have = 2 * len(RULES.KNOWN_TWICE)
+        for number in range(RULES.MOST_SHORT_FILES - have):
+            self.write(f"src/model/part_{number}.hpp", "#pragma once\n")
+        self.write("src/model/long.hpp", "#pragma once\n" * RULES.SHORT)
+        self.assert_faults()
+        self.write("src/model/long.hpp", "#pragma once\n" * (RULES.SHORT - 1))
+        self.assert_faults(("src and kernels", f"{RULES.MOST_SHORT_FILES + 1} files have less than"))
+
+    @unittest.skipUnless(RULES.clang_format(), f"clang-format {RULES.CLANG_FORMAT_VERSION} is not here")
     def test_format(self):
-        done = subprocess.run([clang_format(), "--dry-run", *map(str, sources())], capture_output=True, text=True, check=False, cwd=ROOT)
-        wrong = sorted(set(re.findall(r"^(\S+?):\d+:\d+: warning", done.stderr, re.MULTILINE)))
-        self.assertEqual(wrong, [], "to mend: clang-format -i these files")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.write("src/rail.cpp", "int  rail;\n")
+        self.assert_faults(("src/rail.cpp", "is not as .clang-format has it"))
+
+
+class Order(unittest.TestCase):
+    def test_the_table_goes_one_way(self):
+        self.addCleanup(RULES.MAY_INCLUDE.update, case=RULES.MAY_INCLUDE["case"])
+        RULES.MAY_INCLUDE["case"] = ("solve",)
+        (fault,) = RULES.includes_against_the_order(ROOT, [])
+        self.assertIn("'case' may include 'solve'", fault)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Holds `railwave check` against the example decks of CalculiX that have 8-node hexahedra. They are free software under
-# the GPL and so no part of this project: Debian's package calculix-ccx-test is fetched into a temporary folder, which is
-# deleted afterwards. Needs no root.
+# the GPL and so no part of this project: Debian's package calculix-ccx-test is fetched into a temporary folder, which
+# is deleted afterwards. Needs no root.
 #
 #   tests/mesh_files/calculix_examples.sh [RAILWAVE]    RAILWAVE: the program, build/release/bin/railwave by default
 #
@@ -17,9 +17,9 @@ package=calculix-ccx-test
 railwave=${1:-$project_root/build/release/bin/railwave}
 
 # Decks of hexahedra only, which must be read.
-must_be_read=" beam8b beam8f beam8p beam8t changefric changesurfbeh contact1 contact3 contact6 contact7 contact8 contact9 \
-contactenergy cubespring equrem1 equrem2 equrem3 fricloop friction1 friction2 hueeber1 hueeber2 hueeber3 hueeber4 \
-oneel8ra scheibe2f2f scheibe2n2f sens_orien1 sensitivity_I sensitivity_V sensitivity_VI "
+must_be_read=" beam8b beam8f beam8p beam8t changefric changesurfbeh contact1 contact3 contact6 contact7 contact8 \
+contact9 contactenergy cubespring equrem1 equrem2 equrem3 fricloop friction1 friction2 hueeber1 hueeber2 hueeber3 \
+hueeber4 oneel8ra scheibe2f2f scheibe2n2f sens_orien1 sensitivity_I sensitivity_V sensitivity_VI "
 
 skip() {
     say "skipped: $*"

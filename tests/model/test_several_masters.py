@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A contact whose master is a list of surfaces: how it is read, what is refused, and that it presses as one surface does."""
+"""A contact whose master is a list of surfaces: how it is read, what is refused, and that it presses as one surface
+does."""
 import os
 import pathlib
 import subprocess
@@ -15,7 +16,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
 from roller_and_block import MESHES  # noqa: E402
 from two_blocks import STEEL  # noqa: E402
 
-# One plate of 60 mm and two of 30 mm, with the same nodes; rigid, so that all that matters is on which faces the slider's nodes lie.
+# One plate of 60 mm and two of 30 mm, with the same nodes; rigid, so that all that matters is on which faces the
+# slider's nodes lie.
 ONE = """
 [meshes.plate]
 type = "box"
@@ -112,19 +114,49 @@ class SeveralMasters(unittest.TestCase):
         twice = '[contacts.more]\nslave = "slider.z_min"\nmaster = "second.z_max"\n'
         turned = '[contacts.more]\nslave = "first.z_max"\nmaster = ["slider.z_min"]\n'
         table = {
-            "one named twice": (slider('["first.z_max", "first.z_max"]', 0.01, 0), "[contacts.slide] master: has 'first.z_max' twice"),
-            "the slave among them": (slider('["first.z_max", "slider.z_min"]', 0.01, 0), "master: has 'slider.z_min', which is the `slave`"),
+            "one named twice": (
+                slider('["first.z_max", "first.z_max"]', 0.01, 0),
+                "[contacts.slide] master: has 'first.z_max' twice",
+            ),
+            "the slave among them": (
+                slider('["first.z_max", "slider.z_min"]', 0.01, 0),
+                "master: has 'slider.z_min', which is the `slave`",
+            ),
             "none": (slider("[]", 0.01, 0), "master: is empty, must be a name in quotes or a list of such"),
             "an empty name": (slider('""', 0.01, 0), "master: is empty, must be a name in quotes or a list of such"),
             "a number": (slider("3", 0.01, 0), "must be a name in quotes or a list of such"),
-            "a number among them": (slider('["first.z_max", 3]', 0.01, 0), "must be a name in quotes or a list of such"),
-            "an unknown part": (slider('["first.z_max", "secund.z_max"]', 0.01, 0), "there is no part 'secund'; did you mean 'second.z_max'?"),
-            "an unknown surface": (slider('["first.z_max", "second.z_top"]', 0.01, 0), "there is no set 'second.z_top'"),
-            "a contact with one of them": (slider(TWO_MASTERS, 0.01, 0) + twice, "[contacts.more]: has 'second.z_max' and 'slider.z_min' like [contacts.slide]"),
-            "a contact with one of them, exchanged": (slider(TWO_MASTERS, 0.01, 0) + turned, "[contacts.more]: has 'first.z_max' and 'slider.z_min' like [contacts.slide]"),
-            "a tie to one of them": (slider(TWO_MASTERS, 0.01, 0) + tie, "[ties.bond]: has 'second.z_max' and 'slider.z_min' like [contacts.slide]"),
-            "the gap closed towards the own part": (slider('["first.z_max", "slider.x_max"]', 0.01, 0, "close_gap = [0, 0, -1]"), "one of the masters are of the part 'slider'"),
-            "nodes of the slave among them": (slider('["first.z_max", "slider.x_max"]', 0.01, 0), "'slider.z_min' and 'first.z_max, slider.x_max' share 5 nodes"),
+            "a number among them": (
+                slider('["first.z_max", 3]', 0.01, 0),
+                "must be a name in quotes or a list of such",
+            ),
+            "an unknown part": (
+                slider('["first.z_max", "secund.z_max"]', 0.01, 0),
+                "there is no part 'secund'; did you mean 'second.z_max'?",
+            ),
+            "an unknown surface": (
+                slider('["first.z_max", "second.z_top"]', 0.01, 0),
+                "there is no set 'second.z_top'",
+            ),
+            "a contact with one of them": (
+                slider(TWO_MASTERS, 0.01, 0) + twice,
+                "[contacts.more]: has 'second.z_max' and 'slider.z_min' like [contacts.slide]",
+            ),
+            "a contact with one of them, exchanged": (
+                slider(TWO_MASTERS, 0.01, 0) + turned,
+                "[contacts.more]: has 'first.z_max' and 'slider.z_min' like [contacts.slide]",
+            ),
+            "a tie to one of them": (
+                slider(TWO_MASTERS, 0.01, 0) + tie,
+                "[ties.bond]: has 'second.z_max' and 'slider.z_min' like [contacts.slide]",
+            ),
+            "the gap closed towards the own part": (
+                slider('["first.z_max", "slider.x_max"]', 0.01, 0, "close_gap = [0, 0, -1]"),
+                "one of the masters are of the part 'slider'",
+            ),
+            "nodes of the slave among them": (
+                slider('["first.z_max", "slider.x_max"]', 0.01, 0),
+                "'slider.z_min' and 'first.z_max, slider.x_max' share 5 nodes",
+            ),
         }
         for what, (sections, wanted) in table.items():
             with self.subTest(what):
@@ -132,10 +164,16 @@ class SeveralMasters(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stdout)
                 self.assertIn(wanted, done.stderr)
                 self.assertRegex(done.stderr, r"case\.toml:\d+: ")
-        crowned = '[meshes.crowned]\ntype = "crowned_block"\n[parts.crowned]\nmesh = "crowned"\nmaterial = "steel"\nposition = [1, 0, 0]\n'
+        crowned = (
+            '[meshes.crowned]\ntype = "crowned_block"\n[parts.crowned]\nmesh = "crowned"\nmaterial = "steel"\n'
+            'position = [1, 0, 0]\n'
+        )
         done = self.check(two + crowned + slider('["crowned.top", "crowned.zone"]', 0.01, 0))
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertIn("[contacts.slide] master: 'crowned.top' and 'crowned.zone' have faces in common, which would press twice", done.stderr)
+        self.assertIn(
+            "[contacts.slide] master: 'crowned.top' and 'crowned.zone' have faces in common, which would press twice",
+            done.stderr,
+        )
 
     def test_check_names_them_and_one_may_stand_in_a_list(self):
         done = self.check(STEEL + TWO + slider(TWO_MASTERS, 0.01, 0))
@@ -144,7 +182,9 @@ class SeveralMasters(unittest.TestCase):
         alone = self.check(STEEL + ONE + slider('"plate.z_max"', 0.01, 0)).stdout
         self.assertEqual(self.check(STEEL + ONE + slider('["plate.z_max"]', 0.01, 0)).stdout, alone)
         self.assertIn("contact slide, friction", alone)
-        done = self.check(STEEL + TWO + slider('"first.z_max"', 0.01, 0), "--set", f"contacts.slide.master={TWO_MASTERS}")
+        done = self.check(
+            STEEL + TWO + slider('"first.z_max"', 0.01, 0), "--set", f"contacts.slide.master={TWO_MASTERS}"
+        )
         self.assertIn("contact slide on first.z_max, second.z_max", done.stdout)
 
     def test_presses_as_one_surface(self):
@@ -166,7 +206,9 @@ class SeveralMasters(unittest.TestCase):
         self.assertGreater(largest, 300)
         np.testing.assert_allclose(found[0] + found[1] + found[2], 0, rtol=0, atol=1e-9 * largest)
         # At the line between the plates two nodes press in the place of one.
-        np.testing.assert_allclose(found[0][-10:].mean(axis=0), wanted[0][-10:].mean(axis=0), rtol=0, atol=0.2 * largest)
+        np.testing.assert_allclose(
+            found[0][-10:].mean(axis=0), wanted[0][-10:].mean(axis=0), rtol=0, atol=0.2 * largest
+        )
 
     def test_results_say_which_facet_is_whose(self):
         results, said = self.run_case(STEEL + TWO + slider(TWO_MASTERS, 0.02495, 0), "two")
@@ -183,7 +225,9 @@ class SeveralMasters(unittest.TestCase):
             self.assertNotIn("surfaces", results["contact/slide/master"].attrs)
 
     def test_the_stiffness_is_that_of_the_material_under_each_face(self):
-        soft = TWO.replace('[parts.second]\nmesh = "plate"\nmaterial = "steel"', '[parts.second]\nmesh = "plate"\nmaterial = "soft"') + STEEL.replace("steel", "soft").replace("210e9", "105e9")
+        soft = TWO.replace(
+            '[parts.second]\nmesh = "plate"\nmaterial = "steel"', '[parts.second]\nmesh = "plate"\nmaterial = "soft"'
+        ) + STEEL.replace("steel", "soft").replace("210e9", "105e9")
         results, _ = self.run_case(STEEL + soft + slider(TWO_MASTERS, 0.02495, 0), "two")
         with results:
             slave = results["contact/slide/slave"]
@@ -195,7 +239,9 @@ class SeveralMasters(unittest.TestCase):
                 self.assertAlmostEqual(stiffness[mine].max() / stiffness[other].max(), 0.5, delta=1e-9)
 
     def test_modes_leave_the_contact_out(self):
-        (self.folder / "case.toml").write_text((STEEL + TWO + slider(TWO_MASTERS, 0.02495, 0)).replace('["x", "y", "z"]', '["x"]'))
+        (self.folder / "case.toml").write_text(
+            (STEEL + TWO + slider(TWO_MASTERS, 0.02495, 0)).replace('["x", "y", "z"]', '["x"]')
+        )
         for part in ("second", "slider"):
             done = call(self.folder, "modes", "case.toml", "--part", part, "--up-to", "1")
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -228,7 +274,9 @@ end = 1e-6
         done = self.check(text)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertNotIn("warning: ", done.stdout)
-        self.assertRegex(done.stdout, r"\[initial_motion\.start\] rolls at \[0, 50(\.00\d*)?, 0\] rad/s|rolls at \[0, 49\.99\d*, 0\]")
+        self.assertRegex(
+            done.stdout, r"\[initial_motion\.start\] rolls at \[0, 50(\.00\d*)?, 0\] rad/s|rolls at \[0, 49\.99\d*, 0\]"
+        )
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""`railwave modes --out`: what is in its files, that ParaView's reader takes them, and that scripts/mode_shapes draws them."""
+"""`railwave modes --out`: what is in its files, that ParaView's reader takes them, and that scripts/mode_shapes draws
+them."""
 
 import os
 import subprocess
@@ -59,7 +60,8 @@ class ModeFile(unittest.TestCase):
             file.write(CASE)
         cls.table = os.path.join(cls.scratch.name, "modes.csv")
         cls.done = subprocess.run(
-            [PROGRAM, "modes", case, "--up-to", "3000", "--out", cls.path, "--csv", cls.table], capture_output=True, text=True, check=False
+            [PROGRAM, "modes", case, "--up-to", "3000", "--out", cls.path, "--csv", cls.table], capture_output=True,
+            text=True, check=False
         )
         assert cls.done.returncode == 0, cls.done.stderr
 
@@ -77,7 +79,9 @@ class ModeFile(unittest.TestCase):
             self.assertEqual([str(name) for name in file.attrs["part_names"]], ["ring", "block"])
             self.assertEqual([ring.attrs[f"axis_{c}"] for c in "xyz"], [0, 1, 0])
             self.assertNotIn("axis_x", block.attrs)
-            largest = np.maximum(*(np.linalg.norm(part["displacement"][:], axis=2).max(axis=1) for part in (ring, block)))
+            largest = np.maximum(
+                *(np.linalg.norm(part["displacement"][:], axis=2).max(axis=1) for part in (ring, block))
+            )
             np.testing.assert_allclose(largest, 1, rtol=1e-12)
             held = block["coordinates"][:, 0] == 0
             self.assertEqual(held.sum(), 9)
@@ -110,11 +114,15 @@ class ModeFile(unittest.TestCase):
     def test_they_are_drawn(self):
         picture = os.path.join(self.scratch.name, "drawn.png")
         script = os.path.join(ROOT, "scripts", "mode_shapes")
-        done = subprocess.run([sys.executable, "-B", script, self.path, "--out", picture], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [sys.executable, "-B", script, self.path, "--out", picture], capture_output=True, text=True, check=False
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(picture, "rb") as file:
             self.assertEqual(file.read(8), b"\x89PNG\r\n\x1a\n")
-        done = subprocess.run([sys.executable, "-B", script, self.path, "--only", "99"], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [sys.executable, "-B", script, self.path, "--only", "99"], capture_output=True, text=True, check=False
+        )
         self.assertEqual(done.returncode, 2)
         self.assertIn("there is no mode 99", done.stderr)
 

@@ -8,7 +8,8 @@ import unittest
 
 ROOT = os.environ["RAILWAVE_SOURCE_DIR"]
 PROGRAM = os.path.join(os.environ["RAILWAVE_BIN_DIR"], "railwave")
-THESIS = {("axial", 0, 0): 183, ("axial", 0, 3): 1075, ("axial", 0, 4): 1934}  # Hz, by kind, nodal circles, nodal diameters
+# Hz, by kind, nodal circles, nodal diameters
+THESIS = {("axial", 0, 0): 183, ("axial", 0, 3): 1075, ("axial", 0, 4): 1934}
 
 
 class WheelModes(unittest.TestCase):
@@ -16,7 +17,9 @@ class WheelModes(unittest.TestCase):
         with tempfile.TemporaryDirectory(prefix="railwave-modes-") as scratch:
             table = os.path.join(scratch, "wheel.csv")
             case = os.path.join(ROOT, "cases", "wheel_modes.toml")
-            done = subprocess.run([PROGRAM, "modes", case, "--up-to", "2000", "--csv", table], capture_output=True, text=True, check=False)
+            done = subprocess.run(
+                [PROGRAM, "modes", case, "--up-to", "2000", "--csv", table], capture_output=True, text=True, check=False
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(table, newline="", encoding="utf-8") as file:
                 rows = list(csv.DictReader(file))

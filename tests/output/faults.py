@@ -1,5 +1,5 @@
-"""What the tests of faults share: a folder with a case, runs of the program under a failing disk, without rights or memory, and the table
-of what was told, which docs/faults.md holds."""
+"""What the tests of faults share: a folder with a case, runs of the program under a failing disk, without rights or
+memory, and the table of what was told, which docs/faults.md holds."""
 
 import atexit
 import functools
@@ -43,8 +43,8 @@ LONG = 0.3  # s: some minutes, so that no test sees its end; its results fit ont
 
 @functools.lru_cache(maxsize=None)
 def between(name):
-    """The library tests/output/NAME.c, to stand between the program and the system (LD_PRELOAD), built in a folder of this process's own;
-    without a C compiler these tests are skipped."""
+    """The library tests/output/NAME.c, to stand between the program and the system (LD_PRELOAD), built in a folder of
+    this process's own; without a C compiler these tests are skipped."""
     compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if not compiler:
         raise unittest.SkipTest("no C compiler")
@@ -52,12 +52,19 @@ def between(name):
     atexit.register(folder.cleanup)
     os.chmod(folder.name, 0o755)  # the program may run as somebody else
     library = pathlib.Path(folder.name) / f"{name}.so"
-    subprocess.run([*compiler.split(), "-O1", "-shared", "-fPIC", "-o", library, SOURCE / "tests" / "output" / f"{name}.c", "-ldl"], check=True)
+    subprocess.run(
+        [
+            *compiler.split(), "-O1", "-shared", "-fPIC", "-o", library, SOURCE / "tests" / "output" / f"{name}.c",
+            "-ldl",
+        ],
+        check=True,
+    )
     return library
 
 
 def sanitized():
-    """Whether the program is built with AddressSanitizer or ThreadSanitizer, which take address space without end for themselves."""
+    """Whether the program is built with AddressSanitizer or ThreadSanitizer, which take address space without end for
+    themselves."""
     return thread_sanitized() or b"__asan_init" in pathlib.Path(PROGRAM).read_bytes()
 
 
@@ -66,8 +73,8 @@ def thread_sanitized():
 
 
 def limited(what, soft, hard=None):
-    """The command that runs what stands behind it within a limit: "as" and "stack" in bytes, "fsize" in bytes, "cpu" in s. Not `preexec_fn`: it
-    runs Python between fork and exec, which can hang for ever where the test has threads."""
+    """The command that runs what stands behind it within a limit: "as" and "stack" in bytes, "fsize" in bytes, "cpu" in
+    s. Not `preexec_fn`: it runs Python between fork and exec, which can hang for ever where the test has threads."""
     return ["prlimit", f"--{what}={soft}:{hard or soft}"]
 
 
@@ -79,7 +86,11 @@ def arrays_of(results):
     """A digest of every dataset's bytes, by its name: unittest takes hours to tell how millions of bytes differ."""
     found = {}
     with h5py.File(results, "r") as file:
-        file.visititems(lambda name, item: found.update({name: digest(item[()].tobytes())}) if isinstance(item, h5py.Dataset) else None)
+        file.visititems(
+            lambda name, item: found.update({name: digest(item[()].tobytes())})
+            if isinstance(item, h5py.Dataset)
+            else None
+        )
     return found
 
 
@@ -97,12 +108,19 @@ class Folder(unittest.TestCase):
     def start(self, *arguments, before=(), faults=None, **options):
         environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_PROC_BIND="false", OMP_WAIT_POLICY="passive")
         if faults:
-            environment.update({"FAULTY_" + name.upper(): str(value) for name, value in faults.items()}, LD_PRELOAD=str(between("faulty_disk")))
+            environment.update(
+                {"FAULTY_" + name.upper(): str(value) for name, value in faults.items()},
+                LD_PRELOAD=str(between("faulty_disk")),
+            )
             environment.setdefault("FAULTY_FOLDER", str(self.folder))
             # AddressSanitizer would else insist on being loaded first.
-            environment["ASAN_OPTIONS"] = ":".join(filter(None, [environment.get("ASAN_OPTIONS"), "verify_asan_link_order=0"]))
+            environment["ASAN_OPTIONS"] = ":".join(
+                filter(None, [environment.get("ASAN_OPTIONS"), "verify_asan_link_order=0"])
+            )
         environment.update(options.pop("environment", {}))
-        options = dict(cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) | options
+        options = (
+            dict(cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) | options
+        )
         run = subprocess.Popen([*before, PROGRAM, *arguments], **options)
         self.addCleanup(run.communicate)
         self.addCleanup(run.kill)
@@ -143,7 +161,11 @@ class Folder(unittest.TestCase):
         """A row of the table: with RAILWAVE_FAULTS=FILE it is added there; see docs/faults.md."""
         text = next(line for line in text.splitlines() if line.strip())
         text = text.replace(str(self.folder) + "/", "").replace(str(self.folder), "FOLDER").replace("railwave: ", "", 1)
-        text = re.sub(r"\b\d+\.\d+e-\d+ s|\b[0-9]+\.[0-9]+(?= [kMG]B)", lambda found: "..." + found.group()[-2:] if found.group().endswith(" s") else "...", text)
+        text = re.sub(
+            r"\b\d+\.\d+e-\d+ s|\b[0-9]+\.[0-9]+(?= [kMG]B)",
+            lambda found: "..." + found.group()[-2:] if found.group().endswith(" s") else "...",
+            text,
+        )
         if os.environ.get("RAILWAVE_FAULTS"):
             with open(os.environ["RAILWAVE_FAULTS"], "a") as file:
                 file.write(json.dumps([what, code, text]) + "\n")

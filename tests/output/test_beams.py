@@ -1,5 +1,5 @@
-"""Beams in the files: lines with section forces in the results, lines in what `railwave mesh` writes, both read by ParaView's
-reader, and drawn by scripts/picture."""
+"""Beams in the files: lines with section forces in the results, lines in what `railwave mesh` writes, both read by
+ParaView's reader, and drawn by scripts/picture."""
 
 import os
 import subprocess
@@ -99,17 +99,24 @@ class Beams(unittest.TestCase):
             self.assertEqual(set(file["fields"]), {"block"})
             shank = file["beams/shank"]
             self.assertEqual(shank.attrs["kind"], "beam")
-            self.assertEqual(set(shank), {"nodes", "coordinates", "elements", "connectivity", "time", "step", "displacement", "force", "moment"})
+            self.assertEqual(
+                set(shank),
+                {"nodes", "coordinates", "elements", "connectivity", "time", "step", "displacement", "force", "moment"},
+            )
             ends = shank["coordinates"][:][shank["connectivity"][:]]
             np.testing.assert_allclose(ends[:, 0, 2], -0.02 + 0.03 * np.arange(4), atol=1e-15)
             np.testing.assert_allclose(ends[:, 1, 2], 0.01 + 0.03 * np.arange(4), atol=1e-15)
             self.assertEqual(len(shank["time"]), 3)
             np.testing.assert_array_equal(file["beams/washer/elements"][:], np.arange(4, 13))
-            np.testing.assert_allclose(file["beams/washer/coordinates"][:][file["beams/washer/connectivity"][:]][:, 0], [[0.04, 0.04, 0.1]] * 9)
+            np.testing.assert_allclose(
+                file["beams/washer/coordinates"][:][file["beams/washer/connectivity"][:]][:, 0], [[0.04, 0.04, 0.1]] * 9
+            )
             np.testing.assert_allclose(shank["force"][0], [[12500, 0, 0]] * 4, rtol=1e-12, atol=1e-6)
             for name in file["beams"]:
                 for what in ("force", "moment"):
-                    np.testing.assert_array_equal(file[f"beams/{name}/{what}"][:], file[f"history/beam/{name}/{what}"][:])
+                    np.testing.assert_array_equal(
+                        file[f"beams/{name}/{what}"][:], file[f"history/beam/{name}/{what}"][:]
+                    )
             # The bolt presses the block together: its ends near each other.
             moved = shank["displacement"][-1][shank["connectivity"][:]]
             self.assertLess(moved[-1, 1, 2], 0)
@@ -128,7 +135,9 @@ class Beams(unittest.TestCase):
         with h5py.File(self.path("run.h5")) as file:
             force = file["beams/shank/force"][-1]
         for cell in range(4):
-            self.assertAlmostEqual(shank.GetCellData().GetArray("force").GetTuple(cell)[0], force[cell, 0], delta=1e-9 * force[cell, 0])
+            self.assertAlmostEqual(
+                shank.GetCellData().GetArray("force").GetTuple(cell)[0], force[cell, 0], delta=1e-9 * force[cell, 0]
+            )
         self.assertIsNotNone(shank.GetPointData().GetArray("displacement"))
 
     def test_model(self):

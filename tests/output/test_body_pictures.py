@@ -1,4 +1,5 @@
-"""Bodies by a field as pictures and movies (scripts/picture --show, --by, --animate), their formats, and which files are replaced."""
+"""Bodies by a field as pictures and movies (scripts/picture --show, --by, --animate), their formats, and which files
+are replaced."""
 
 import contextlib
 import io
@@ -34,7 +35,9 @@ from pictures.view import View, read_view
 
 
 def picture(*arguments):
-    return subprocess.run([sys.executable, os.path.join(SCRIPTS, "picture"), *arguments], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, os.path.join(SCRIPTS, "picture"), *arguments], capture_output=True, text=True
+    )
 
 
 def box(divisions, size=1.0):
@@ -54,8 +57,15 @@ def made_up(path, nodes, elements, places, stress=None):
         file.create_group("contact")
         group = file.create_group("fields/body")
         group.attrs["kind"] = "volume"
-        for name, data in (("nodes", np.arange(len(nodes))), ("coordinates", nodes), ("elements", np.arange(len(elements))), ("connectivity", elements),
-                           ("time", 1e-3 * np.arange(len(places))), ("step", np.arange(len(places))), ("displacement", places - nodes)):
+        for name, data in (
+            ("nodes", np.arange(len(nodes))),
+            ("coordinates", nodes),
+            ("elements", np.arange(len(elements))),
+            ("connectivity", elements),
+            ("time", 1e-3 * np.arange(len(places))),
+            ("step", np.arange(len(places))),
+            ("displacement", places - nodes),
+        ):
             group[name] = data
         if stress is not None:
             group["stress"] = stress
@@ -91,14 +101,27 @@ class WhatIsDrawn(unittest.TestCase):
         np.testing.assert_allclose(von_mises(stress), [100, 50 * 3**0.5, 0], atol=1e-12)
         with tempfile.TemporaryDirectory() as folder:
             nodes, elements = box(1)
-            path = made_up(os.path.join(folder, "r.h5"), nodes, elements, np.stack([nodes, nodes + [1e-3, 2e-3, -2e-3]]), np.stack([np.zeros((1, 6)), stress[2:]]))
+            path = made_up(
+                os.path.join(folder, "r.h5"), nodes, elements, np.stack([nodes, nodes + [1e-3, 2e-3, -2e-3]]),
+                np.stack([np.zeros((1, 6)), stress[2:]]),
+            )
             group = Results(path).fields()["body"]
-            for text, value, unit, signed in (("displacement", 3e-3, "m", False), ("displacement:z", -2e-3, "m", True), ("pressure", 30, "Pa", True),
-                                              ("stress:yy", -30, "Pa", True), ("von_mises", 0, "Pa", False), ("stress", 0, "Pa", False)):
+            for text, value, unit, signed in (
+                ("displacement", 3e-3, "m", False),
+                ("displacement:z", -2e-3, "m", True),
+                ("pressure", 30, "Pa", True),
+                ("stress:yy", -30, "Pa", True),
+                ("von_mises", 0, "Pa", False),
+                ("stress", 0, "Pa", False),
+            ):
                 quantity = Quantity(text, [group])
                 np.testing.assert_allclose(quantity.of(group, 1), value, atol=1e-12, err_msg=text)
                 self.assertEqual((quantity.unit, quantity.signed), (unit, signed), text)
-            for text, words in (("velocity", "holds no 'velocity'; this file has displacement, stress"), ("stress:xq", "there is no 'xq'"), ("displacement:xx", "one of displacement:x")):
+            for text, words in (
+                ("velocity", "holds no 'velocity'; this file has displacement, stress"),
+                ("stress:xq", "there is no 'xq'"),
+                ("displacement:xx", "one of displacement:x"),
+            ):
                 with self.assertRaises(BadFile) as caught:
                     Quantity(text, [group])
                 self.assertIn(words, str(caught.exception))
@@ -197,19 +220,29 @@ class Files(unittest.TestCase):
             with Image.open(path) as image:
                 self.assertEqual(image.n_frames, 5)
             self.assertTrue(made_by_us(path))
-        self.draw("--by", "velocity", "--animate", "--from", "1e-4", "--to", "3e-4", "--frames", "2", "--resolution", "40")
+        self.draw(
+            "--by", "velocity", "--animate", "--from", "1e-4", "--to", "3e-4", "--frames", "2", "--resolution", "40"
+        )
         with Image.open(os.path.join(self.out, "run-scene-velocity.gif")) as image:
             self.assertEqual(image.n_frames, 2)
         if shutil.which("ffmpeg"):
             self.draw("--by", "velocity", "--animate", "--format", "mp4", "--resolution", "40")
             self.assertTrue(made_by_us(os.path.join(self.out, "run-scene-velocity.mp4")))
         else:
-            self.assertIn("needs the program ffmpeg", self.draw("--by", "velocity", "--animate", "--format", "mp4", code=2))
+            self.assertIn(
+                "needs the program ffmpeg", self.draw("--by", "velocity", "--animate", "--format", "mp4", code=2)
+            )
 
     def test_surfaces_and_places(self):
         self.draw("--show", "block.top,block.lower", "--by", "displacement:z", "--view", "top", "--resolution", "40")
-        self.draw("--by", "plastic_strain", "--around", "0.005,0.005,0.005", "--reach", "0.006", "--view=30,40", "--resolution", "40")
-        self.assertEqual(sorted(os.listdir(self.out)), ["run-block.top-block.lower-displacement-z.png", "run-scene-plastic_strain.png"])
+        self.draw(
+            "--by", "plastic_strain", "--around", "0.005,0.005,0.005", "--reach", "0.006", "--view=30,40",
+            "--resolution", "40",
+        )
+        self.assertEqual(
+            sorted(os.listdir(self.out)),
+            ["run-block.top-block.lower-displacement-z.png", "run-scene-plastic_strain.png"],
+        )
 
     def test_options_that_do_not_fit_are_told(self):
         for arguments, words in (

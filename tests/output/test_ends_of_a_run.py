@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""How `railwave run` ends when it is interrupted and when the disk is full: what the results hold, what is said, exit codes."""
+"""How `railwave run` ends when it is interrupted and when the disk is full: what the results hold, what is said, exit
+codes."""
 
 import os
 import pathlib
@@ -59,8 +60,11 @@ class EndsOfARun(unittest.TestCase):
 
     def start(self, end, **options):
         (self.folder / "case.toml").write_text(CASE.format(end=end))
-        return subprocess.Popen([PROGRAM, "run", "case.toml"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                text=True, **options)
+        return subprocess.Popen(
+            [PROGRAM, "run", "case.toml"],
+            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+            **options
+        )
 
     def test_interrupted(self):
         run = self.start(end=1e3)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A full disk, missing rights, files that vanish or are open elsewhere: each is told, with the exit code, and nothing that was there is
-lost."""
+"""A full disk, missing rights, files that vanish or are open elsewhere: each is told, with the exit code, and nothing
+that was there is lost."""
 
 import contextlib
 import os
@@ -27,7 +27,8 @@ class FullDisk(Folder):
         self.assertEqual(self.arrays(), wanted)
 
     def test_results(self):
-        """At whatever call the disk is full: the results are readable, and the run can be taken up where a checkpoint was."""
+        """At whatever call the disk is full: the results are readable, and the run can be taken up where a checkpoint
+        was."""
         self.run_case()
         older = self.results.read_bytes()
         with h5py.File(self.results, "r") as file:
@@ -60,10 +61,15 @@ class FullDisk(Folder):
         self.assertGreater(resumed, 3)
 
     def test_small_disk(self):
-        """A real one, where the system lets us have it: too small from the beginning, and filled by somebody else later."""
+        """A real one, where the system lets us have it: too small from the beginning, and filled by somebody else
+        later."""
         disk = self.folder / "disk"
         disk.mkdir()
-        if shutil.which("mount") is None or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700m", "none", disk], capture_output=True).returncode != 0:
+        if (
+            shutil.which("mount") is None
+            or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=700m", "none", disk], capture_output=True).returncode
+            != 0
+        ):
             self.skipTest("no right to mount a small disk")
         self.addCleanup(subprocess.run, ["umount", disk])
         self.case(end=LONG)
@@ -98,7 +104,12 @@ class FullDisk(Folder):
 
     def test_settled_state(self):
         self.case(more="[settle]\nmethod = \"newton\"\n[gravity]\nacceleration = [0, 0, -9.81]\n")
-        text = (self.folder / "case.toml").read_text().replace("0.02001]", "0.02]").replace("velocity = [2, 1, -12]", "velocity = [2, 1, 0]")
+        text = (
+            (self.folder / "case.toml")
+            .read_text()
+            .replace("0.02001]", "0.02]")
+            .replace("velocity = [2, 1, -12]", "velocity = [2, 1, 0]")
+        )
         (self.folder / "case.toml").write_text(text)
         complaint, said = self.run_case(faults=dict(fail=3, only="settled-"))
         line = next(line for line in said.splitlines() if "could not be kept" in line)
@@ -109,7 +120,8 @@ class FullDisk(Folder):
     def test_what_other_commands_write(self):
         self.run_case()
         commands = {
-            "mesh": (["mesh", "case.toml", "--out", "made.h5"], 1), "contact --csv": (["contact", "results.h5", "--csv", "made.csv"], 2),
+            "mesh": (["mesh", "case.toml", "--out", "made.h5"], 1),
+            "contact --csv": (["contact", "results.h5", "--csv", "made.csv"], 2),
             "contact --hdf5": (["contact", "results.h5", "--hdf5", "made.h5"], 2),
             "modes --csv": (["modes", "case.toml", "--up-to", "50000", "--csv", "made.csv"], 2),
             "modes --out": (["modes", "case.toml", "--up-to", "50000", "--out", "made.h5"], 1),
@@ -269,7 +281,12 @@ class Vanished(Folder):
 
     def test_inputs(self):
         text = (self.folder / "case.toml").read_text()
-        (self.folder / "case.toml").write_text(text.replace('[parts.upper]\nmesh = "upper"', '[meshes.gone]\ntype = "file"\npath = "gone.inp"\n[parts.upper]\nmesh = "gone"'))
+        (self.folder / "case.toml").write_text(
+            text.replace(
+                '[parts.upper]\nmesh = "upper"',
+                '[meshes.gone]\ntype = "file"\npath = "gone.inp"\n[parts.upper]\nmesh = "gone"',
+            )
+        )
         complaint, _ = self.run_case(code=2)
         self.assertIn("gone.inp", complaint)
         self.told("mesh file vanished", 2, complaint)
@@ -314,10 +331,15 @@ class OpenElsewhere(Folder):
         while not self.results.exists():
             self.assertIsNone(run.poll())
             time.sleep(0.01)
-        script = "import h5py, sys; f = h5py.File('results.h5', 'r'); t = f['history/time'][()]; assert len(t) >= 1 and t[0] == 0"
+        script = (
+            "import h5py, sys; f = h5py.File('results.h5', 'r'); t = f['history/time'][()]; assert len(t) >= 1 and t[0]"
+            " == 0"
+        )
         for _ in range(20):  # who looks just while the file grows finds it too short, and looks again
-            looked = subprocess.run([sys.executable, "-c", script], cwd=self.folder, env=dict(os.environ, HDF5_USE_FILE_LOCKING="FALSE"),
-                                    capture_output=True, text=True)
+            looked = subprocess.run(
+                [sys.executable, "-c", script],
+                cwd=self.folder, env=dict(os.environ, HDF5_USE_FILE_LOCKING="FALSE"), capture_output=True, text=True,
+            )
             if looked.returncode == 0:
                 break
         self.assertEqual(looked.returncode, 0, looked.stderr)

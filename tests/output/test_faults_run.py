@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is told, with the exit code, and nothing that was there is lost."""
+"""Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is told, with the exit code, and nothing
+that was there is lost."""
 
 import concurrent.futures
 import pathlib
@@ -15,8 +16,8 @@ from faults import LONG, Folder, arrays_of, limited, sanitized  # noqa: E402
 @unittest.skipIf(sanitized(), "the address space can't be limited under a sanitizer")
 class Memory(Folder):
     def test_too_large(self):
-        """Whatever it is that finds no memory before a run begins: a message, no abort, and older results stay. With less the mesh is refused by its size,
-        with more the run begins."""
+        """Whatever it is that finds no memory before a run begins: a message, no abort, and older results stay. With
+        less the mesh is refused by its size, with more the run begins."""
         self.run_case()
         before = self.everything()
         text = (self.folder / "case.toml").read_text()
@@ -34,7 +35,11 @@ class Memory(Folder):
                     self.assertIn("need about", complaint)
                 elif run.returncode != 127:
                     self.assertEqual(run.returncode, 1, complaint)
-                    self.assertRegex(complaint, r"(?m)^railwave: out of memory: .*; this machine has .*, this process may take .*; take a coarser mesh")
+                    self.assertRegex(
+                        complaint,
+                        r"(?m)^railwave: out of memory: .*; this machine has .*, this process may take .*; take a"
+                        r" coarser mesh",
+                    )
                     self.told("out of memory", 1, complaint)
                     told += 1
                 self.assertEqual({**self.everything(), "large.toml": ""}, {**before, "large.toml": ""})
@@ -43,8 +48,9 @@ class Memory(Folder):
     hangs = False
 
     def test_at_any_moment(self):
-        """Every limit in steps of 1 MB, from the smallest in which the program starts to where the run comes to its end: it neither hangs
-        nor aborts nor crashes, leaves no half-written file, and what it leaves can be read; at its end all is there."""
+        """Every limit in steps of 1 MB, from the smallest in which the program starts to where the run comes to its
+        end: it neither hangs nor aborts nor crashes, leaves no half-written file, and what it leaves can be read; at
+        its end all is there."""
         wanted = self.whole_run()
         with concurrent.futures.ThreadPoolExecutor(4) as several:
             ends = list(several.map(self.run_within, range(34, 121)))
@@ -65,7 +71,8 @@ class Memory(Folder):
         self.assertEqual(ends[-1][3], wanted)
 
     def run_within(self, megabytes):
-        """(megabytes, exit code, what it said on stderr, the arrays of its results, files without names) in a folder of its own."""
+        """(megabytes, exit code, what it said on stderr, the arrays of its results, files without names) in a folder of
+        its own."""
         if self.hangs:
             return megabytes, 1, "railwave: not run, after one that hangs", {}, []
         folder = self.folder / str(megabytes)
@@ -79,7 +86,13 @@ class Memory(Folder):
             self.hangs = True
             return megabytes, "it hangs", run.communicate()[1], {}, []
         found = arrays_of(folder / "results.h5") if (folder / "results.h5").exists() else {}
-        return megabytes, run.returncode, complaint, found, [path.name for path in folder.iterdir() if ".new" in path.name]
+        return (
+            megabytes,
+            run.returncode,
+            complaint,
+            found,
+            [path.name for path in folder.iterdir() if ".new" in path.name],
+        )
 
 
 class DamagedCheckpoint(Folder):
@@ -89,7 +102,10 @@ class DamagedCheckpoint(Folder):
         sound = self.checkpoint.read_bytes()
         middle = len(sound) // 2
         kinds = {
-            "a flipped bit": (sound[:middle] + bytes([sound[middle] ^ 8]) + sound[middle + 1:], "its checksum is not that of what it holds"),
+            "a flipped bit": (
+                sound[:middle] + bytes([sound[middle] ^ 8]) + sound[middle + 1 :],
+                "its checksum is not that of what it holds",
+            ),
             "cut off": (sound[:middle], "it is not whole"),
             "empty": (b"", "it is not whole"),
             "zeros": (bytes(len(sound)), "it is not whole"),
@@ -126,7 +142,9 @@ class Clock(Folder):
         self.case(end=LONG)
         complaint, said = self.run_case("--wall-time", "1", code=4, faults=dict(clock=31536000))
         self.assertIn("the wall time is spent", said)
-        self.told("clock jumps by a year", 0, "nothing: intervals and wall time are measured by a clock that does not jump")
+        self.told(
+            "clock jumps by a year", 0, "nothing: intervals and wall time are measured by a clock that does not jump"
+        )
 
 
 class Kill(Folder):

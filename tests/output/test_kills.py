@@ -18,7 +18,11 @@ PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 
 class Kills(unittest.TestCase):
     def test_killed_runs_are_taken_up_again(self):
-        done = subprocess.run([sys.executable, "-B", SCRIPT, "--kills", "6", "--seed", "7", "--program", PROGRAM], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-B", SCRIPT, "--kills", "6", "--seed", "7", "--program", PROGRAM],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertIn("6 kills: 6 of 6 taken up again", done.stdout)
 

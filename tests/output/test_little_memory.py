@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""HDF5 without memory crashes, so it is entered only with a margin: the margin is several times what any call takes, and where memory ends at any
-moment, or is little for a command that reads, the program says so and leaves nothing half written."""
+"""HDF5 without memory crashes, so it is entered only with a margin: the margin is several times what any call takes,
+and where memory ends at any moment, or is little for a command that reads, the program says so and leaves nothing half
+written."""
 
 import concurrent.futures
 import pathlib
@@ -13,7 +14,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 from faults import SOURCE, Folder, arrays_of, between, limited, sanitized  # noqa: E402
 
 MANY_OUTPUTS = """
-history_sets = ["upper.x_min", "upper.x_max", "upper.y_min", "upper.y_max", "lower.x_min", "lower.x_max", "lower.y_min", "lower.y_max"]
+history_sets = ["upper.x_min", "upper.x_max", "upper.y_min", "upper.y_max", "lower.x_min", "lower.x_max", \
+"lower.y_min", "lower.y_max"]
 """
 
 
@@ -31,17 +33,25 @@ class LittleMemory(Folder):
         return self.start(*arguments, cwd=folder or self.folder, environment=environment)
 
     def measured(self, *arguments):
-        """How often anything but HDF5 asked for memory, the most that was taken, the most that HDF5 took between two looks; bytes."""
+        """How often anything but HDF5 asked for memory, the most that was taken, the most that HDF5 took between two
+        looks; bytes."""
         self.ends(self.start_with(*arguments, _TELL=self.folder / "told"), 0)
         return [int(word) for word in (self.folder / "told").read_text().split()]
 
     def test_margin(self):
-        """The most that HDF5 takes for one call of our wrapper is below a quarter of the margin, in files small and large."""
+        """The most that HDF5 takes for one call of our wrapper is below a quarter of the margin, in files small and
+        large."""
         text = (self.folder / "case.toml").read_text() + MANY_OUTPUTS
-        larger = text.replace("divisions = [3, 3, 2]", "divisions = [40, 40, 16]").replace("field_interval = 4e-6", "field_interval = 2e-6")
+        larger = text.replace("divisions = [3, 3, 2]", "divisions = [40, 40, 16]").replace(
+            "field_interval = 4e-6", "field_interval = 2e-6"
+        )
         for size, case in (("small", text), ("large", larger.replace("end = 6e-05", "end = 8e-06"))):
             (self.folder / "case.toml").write_text(case)
-            for arguments in (["run", "case.toml", "--keep-state"], ["contact", "results.h5", "--hdf5", "contact.h5"], ["mesh", "case.toml"]):
+            for arguments in (
+                ["run", "case.toml", "--keep-state"],
+                ["contact", "results.h5", "--hdf5", "contact.h5"],
+                ["mesh", "case.toml"],
+            ):
                 with self.subTest(size=size, command=arguments[0]):
                     asked, most, of_hdf5 = self.measured(*arguments)
                     self.assertGreater(of_hdf5, 10000)  # it was seen at all
@@ -78,12 +88,18 @@ class LittleMemory(Folder):
         return at, run.returncode, complaint, found, [path.name for path in folder.iterdir() if ".new" in path.name]
 
     def test_other_commands(self):
-        """What reads or writes other files: within the same limits, and as soon as it ends well its output is the right one."""
+        """What reads or writes other files: within the same limits, and as soon as it ends well its output is the right
+        one."""
         self.run_case()
         channel = ["--channel", "contact.between.normal_force.z"]
-        commands = {"contact": ["contact", "results.h5", "--csv", "a.csv", "--hdf5", "a.h5"], "mesh": ["mesh", "case.toml", "--out", "a.h5"],
-                    "modes": ["modes", "case.toml", "--csv", "a.csv", "--out", "a.h5"], "psd": ["signal", "psd", "results.h5", *channel, "--csv", "a.csv"],
-                    "reference": ["reference"], "check": ["check", "case.toml"]}
+        commands = {
+            "contact": ["contact", "results.h5", "--csv", "a.csv", "--hdf5", "a.h5"],
+            "mesh": ["mesh", "case.toml", "--out", "a.h5"],
+            "modes": ["modes", "case.toml", "--csv", "a.csv", "--out", "a.h5"],
+            "psd": ["signal", "psd", "results.h5", *channel, "--csv", "a.csv"],
+            "reference": ["reference"],
+            "check": ["check", "case.toml"],
+        }
         for name, command in commands.items():
             for made in self.folder.glob("a.*"):
                 made.unlink()
@@ -102,7 +118,9 @@ class LittleMemory(Folder):
                     if run.returncode == 1:
                         self.assertRegex(complaint, r"(?m)^railwave: out of memory")
                     if run.returncode == 0:
-                        self.assertEqual(re.sub(r"\d+\.\d+ GB|[\d.]+ s\b", "", said), re.sub(r"\d+\.\d+ GB|[\d.]+ s\b", "", wanted))
+                        self.assertEqual(
+                            re.sub(r"\d+\.\d+ GB|[\d.]+ s\b", "", said), re.sub(r"\d+\.\d+ GB|[\d.]+ s\b", "", wanted)
+                        )
                         self.assertEqual(set(self.everything()), set(before))
                         worked = True
                         break

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Nothing that a user owns is destroyed: every kind of file that may lie where a command is told to write, by every option that names a file to
-write. Whatever happens, everything in the folder is as it was, but for what the rule of docs/faults.md ("Who may write where") lets be replaced."""
+"""Nothing that a user owns is destroyed: every kind of file that may lie where a command is told to write, by every
+option that names a file to write. Whatever happens, everything in the folder is as it was, but for what the rule of
+docs/faults.md ("Who may write where") lets be replaced."""
 
 import os
 import pathlib
@@ -97,14 +98,19 @@ COMMANDS = {
     "signal --csv": ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--csv", "{}"],
     "signal --hdf5": ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--hdf5", "{}"],
 }
-INPUTS = {"run": ("case.toml", "cube.inp", "elements.inp", "push.csv"), "mesh": ("case.toml", "cube.inp", "elements.inp", "push.csv"),
-          "modes": ("case.toml", "cube.inp", "elements.inp", "push.csv")}
+INPUTS = {
+    "run": ("case.toml", "cube.inp", "elements.inp", "push.csv"),
+    "mesh": ("case.toml", "cube.inp", "elements.inp", "push.csv"),
+    "modes": ("case.toml", "cube.inp", "elements.inp", "push.csv"),
+}
 XDMF = '<?xml version="1.0" ?>\n<Xdmf Version="3.0"><Domain/></Xdmf>\n'
 
 
 def run(folder, words):
     environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_PROC_BIND="false", OMP_WAIT_POLICY="passive")
-    return subprocess.run([PROGRAM, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(
+        [PROGRAM, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=60, check=False
+    )
 
 
 def made_up_device(path):
@@ -117,7 +123,8 @@ def made_up_device(path):
 
 
 def furnish(folder, own):
-    """The folder of a careless user: a case with its inputs, results and all sorts of other things. Returns the names."""
+    """The folder of a careless user: a case with its inputs, results and all sorts of other things. Returns the
+    names."""
     (folder / "case.toml").write_text(CASE)
     (folder / "cube.inp").write_text(MESH)
     (folder / "elements.inp").write_text(ELEMENTS)
@@ -155,9 +162,13 @@ def furnish(folder, own):
         (folder / f"link to {target}").symlink_to(target)
     (folder / "circle").symlink_to("circle")
     (folder / "link to nowhere").symlink_to("no folder/file")
-    names = ["case.toml", "cube.inp", "elements.inp", "push.csv", "own.h5", "own.xdmf", "notes.txt", "table.csv", "frequencies.csv", "foreign.h5", "cut.h5", "fields.xdmf",
-             "measured.h5", "picture.png", "empty", "protected.h5", "a folder", "pipe", "socket", "hard.toml", "link to notes.txt", "link to case.toml",
-             "link to own.h5", "link to foreign.h5", "link to a folder", "link to pipe", "circle", "link to nowhere", "no folder/file", "a folder/", ""]
+    names = [
+        "case.toml", "cube.inp", "elements.inp", "push.csv", "own.h5", "own.xdmf", "notes.txt", "table.csv",
+        "frequencies.csv", "foreign.h5", "cut.h5", "fields.xdmf", "measured.h5", "picture.png", "empty", "protected.h5",
+        "a folder", "pipe", "socket", "hard.toml", "link to notes.txt", "link to case.toml", "link to own.h5",
+        "link to foreign.h5", "link to a folder", "link to pipe", "circle", "link to nowhere", "no folder/file",
+        "a folder/", "",
+    ]
     if made_up_device(folder / "device"):
         names.append("device")
     return names
@@ -185,7 +196,12 @@ class NothingDestroyed(unittest.TestCase):
         cls.addClassCleanup(cls.scratch.cleanup)
         cls.own = pathlib.Path(cls.scratch.name) / "own"
         cls.own.mkdir()
-        for name, text in (("case.toml", CASE), ("cube.inp", MESH), ("elements.inp", ELEMENTS), ("push.csv", "0, 0\n1e-3, 1\n")):
+        for name, text in (
+            ("case.toml", CASE),
+            ("cube.inp", MESH),
+            ("elements.inp", ELEMENTS),
+            ("push.csv", "0, 0\n1e-3, 1\n"),
+        ):
             (cls.own / name).write_text(text)
         done = run(cls.own, ["run", "case.toml", "--set", "output.file=own.h5"])
         assert done.returncode == 0, done.stdout + done.stderr
@@ -200,7 +216,8 @@ class NothingDestroyed(unittest.TestCase):
         return [word.replace("{}", path) for word in COMMANDS[command]] + list(options)
 
     def test_without_overwrite(self):
-        """Everything is refused, before any work, but own results by a run: none of these is of the kind that the command writes."""
+        """Everything is refused, before any work, but own results by a run: none of these is of the kind that the
+        command writes."""
         before, count = picture(self.folder), 0
         for command in COMMANDS:
             for name in self.names:
@@ -219,7 +236,10 @@ class NothingDestroyed(unittest.TestCase):
 
     def test_inputs_and_what_is_no_file_even_with_overwrite(self):
         before, count = picture(self.folder), 0
-        others = ["a folder", "pipe", "socket", "circle", "link to a folder", "link to pipe", "link to nowhere", "no folder/file", "a folder/", ""]
+        others = [
+            "a folder", "pipe", "socket", "circle", "link to a folder", "link to pipe", "link to nowhere",
+            "no folder/file", "a folder/", "",
+        ]
         others += ["device"] if "device" in self.names else []
         for command in COMMANDS:
             own = INPUTS.get(command.split()[0], ("own.h5",))
@@ -240,18 +260,25 @@ class NothingDestroyed(unittest.TestCase):
                         self.assertNotIn("by --overwrite", done.stderr)
                     self.assertTrue(done.stderr.startswith("railwave: "), done.stderr)
                     self.assertEqual(after, before)
-        print(f"{count} combinations of input or no file and command with --overwrite: nothing changed", file=sys.stderr)
+        print(
+            f"{count} combinations of input or no file and command with --overwrite: nothing changed", file=sys.stderr
+        )
 
     def test_overwrite_replaces_what_it_names_and_nothing_else(self):
         count = 0
-        files = ["notes.txt", "table.csv", "foreign.h5", "cut.h5", "fields.xdmf", "picture.png", "empty", "protected.h5", "link to notes.txt", "link to foreign.h5"]
+        files = [
+            "notes.txt", "table.csv", "foreign.h5", "cut.h5", "fields.xdmf", "picture.png", "empty", "protected.h5",
+            "link to notes.txt", "link to foreign.h5",
+        ]
         for command in COMMANDS:
             if command.startswith("decay"):
                 continue  # wants a row of probes
             for name in files:
                 if name == "fields.xdmf" and command.endswith(("--out", "output.file")):
                     continue  # it would be its own companion
-                with self.subTest(command=command, file=name), tempfile.TemporaryDirectory(prefix="railwave-", dir=self.scratch.name) as place:
+                with self.subTest(command=command, file=name), tempfile.TemporaryDirectory(
+                    prefix="railwave-", dir=self.scratch.name
+                ) as place:
                     folder = pathlib.Path(place)
                     furnish(folder, self.own)
                     before = picture(folder)
@@ -270,13 +297,26 @@ class NothingDestroyed(unittest.TestCase):
                     if name not in ("protected.h5",) and not command.startswith("run checkpoint"):
                         done = run(folder, self.words(command, name))
                         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
-                    self.assertEqual([path.name for path in folder.rglob("*.new*")] + [path.name for path in folder.rglob("*.lock")], [])
-        print(f"{count} combinations of kind of file and command with --overwrite: nothing else changed", file=sys.stderr)
+                    self.assertEqual(
+                        [path.name for path in folder.rglob("*.new*")] + [path.name for path in folder.rglob("*.lock")],
+                        [],
+                    )
+        print(
+            f"{count} combinations of kind of file and command with --overwrite: nothing else changed", file=sys.stderr
+        )
 
     def test_companions_and_siblings(self):
         """What lies beside the named file is not replaced either."""
-        for command, named, beside in (("run output.file", "a.h5", ("a.xdmf", "a.fault.h5", "a.fault.xdmf", "a.checkpoint.h5", "a.checkpoint.h5.previous")),
-                                       ("run checkpoint.file", "c.h5", ("c.h5.previous",)), ("mesh --out", "m.h5", ("m.xdmf",)), ("modes --out", "m.h5", ("m.xdmf",))):
+        for command, named, beside in (
+            (
+                "run output.file",
+                "a.h5",
+                ("a.xdmf", "a.fault.h5", "a.fault.xdmf", "a.checkpoint.h5", "a.checkpoint.h5.previous"),
+            ),
+            ("run checkpoint.file", "c.h5", ("c.h5.previous",)),
+            ("mesh --out", "m.h5", ("m.xdmf",)),
+            ("modes --out", "m.h5", ("m.xdmf",)),
+        ):
             for name in beside:
                 with self.subTest(command=command, beside=name):
                     (self.folder / name).write_text("somebody's")
@@ -312,13 +352,20 @@ class NothingDestroyed(unittest.TestCase):
         (self.folder / "sub").mkdir()
         (self.folder / "link").symlink_to("sub")
         before = picture(self.folder)
-        for words in (["contact", "own.h5", "--csv", "a.csv", "--nodes", "a.csv"], ["contact", "own.h5", "--csv", "sub/a.csv", "--cuts", "link/../sub/a.csv"],
-                      ["contact", "own.h5", "--csv", "./a.csv", "--hdf5", "a.csv"], ["modes", "case.toml", "--csv", "a.h5", "--out", "a.h5"],
-                      ["modes", "case.toml", "--csv", "a.xdmf", "--out", "a.h5"], ["mesh", "case.toml", "--out", "m.xdmf"],
-                      ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--csv", "a.h5.new", "--hdf5", "a.h5"],
-                      [*RUN, "--set", "output.file=a.xdmf"], [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=sub/../a.h5"],
-                      [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.fault.h5"], [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.xdmf"],
-                      [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.h5.new"]):
+        for words in (
+            ["contact", "own.h5", "--csv", "a.csv", "--nodes", "a.csv"],
+            ["contact", "own.h5", "--csv", "sub/a.csv", "--cuts", "link/../sub/a.csv"],
+            ["contact", "own.h5", "--csv", "./a.csv", "--hdf5", "a.csv"],
+            ["modes", "case.toml", "--csv", "a.h5", "--out", "a.h5"],
+            ["modes", "case.toml", "--csv", "a.xdmf", "--out", "a.h5"],
+            ["mesh", "case.toml", "--out", "m.xdmf"],
+            ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--csv", "a.h5.new", "--hdf5", "a.h5"],
+            [*RUN, "--set", "output.file=a.xdmf"],
+            [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=sub/../a.h5"],
+            [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.fault.h5"],
+            [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.xdmf"],
+            [*RUN, "--set", "output.file=a.h5", "--set", "checkpoint.file=a.h5.new"],
+        ):
             for more in ([], ["--overwrite"]):
                 with self.subTest(words=words, more=more):
                     done = run(self.folder, [*words, *more])
@@ -328,7 +375,12 @@ class NothingDestroyed(unittest.TestCase):
 
     def test_dangling_links_make_their_target(self):
         (self.folder / "sub").mkdir()
-        for command, made in (("run output.file", "sub/x.h5"), ("mesh --out", "sub/x.h5"), ("contact --csv", "sub/x.csv"), ("contact --hdf5", "sub/y.h5")):
+        for command, made in (
+            ("run output.file", "sub/x.h5"),
+            ("mesh --out", "sub/x.h5"),
+            ("contact --csv", "sub/x.csv"),
+            ("contact --hdf5", "sub/y.h5"),
+        ):
             with self.subTest(command=command):
                 link = self.folder / ("new" + pathlib.Path(made).suffix)
                 link.symlink_to(made)
@@ -345,10 +397,20 @@ class NothingDestroyed(unittest.TestCase):
         """Neither waited for nor read."""
         kinds = ["pipe", "socket", "a folder", "link to pipe"] + (["device"] if "device" in self.names else [])
         for name in kinds:
-            commands = [["run", name], ["check", name], ["mesh", name], ["modes", name], ["contact", name], ["frf", name], ["decay", name],
-                        ["signal", "psd", name, "--channel", "energy.kinetic"], ["run", "case.toml", "--set", f"curves.push.file={name}"],
-                        ["run", "case.toml", "--set", f"meshes.lower.path={name}"], ["run", "case.toml", "--restart", "--set", f"output.file={name}"],
-                        ["run", "case.toml", "--restart", "--set", "output.file=own.h5", "--set", f"checkpoint.file={name}"]]
+            commands = [
+                ["run", name],
+                ["check", name],
+                ["mesh", name],
+                ["modes", name],
+                ["contact", name],
+                ["frf", name],
+                ["decay", name],
+                ["signal", "psd", name, "--channel", "energy.kinetic"],
+                ["run", "case.toml", "--set", f"curves.push.file={name}"],
+                ["run", "case.toml", "--set", f"meshes.lower.path={name}"],
+                ["run", "case.toml", "--restart", "--set", f"output.file={name}"],
+                ["run", "case.toml", "--restart", "--set", "output.file=own.h5", "--set", f"checkpoint.file={name}"],
+            ]
             for words in commands:
                 with self.subTest(words=words):
                     done = run(self.folder, words)

@@ -20,7 +20,11 @@ PROGRAM = os.path.join(os.environ.get("RAILWAVE_BIN_DIR", ""), "railwave")
 
 
 def picture(*arguments, options=(), program=PROGRAM):
-    return subprocess.run([sys.executable, *options, os.path.join(SCRIPTS, "picture"), *arguments, "--program", program], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, *options, os.path.join(SCRIPTS, "picture"), *arguments, "--program", program],
+        capture_output=True,
+        text=True,
+    )
 
 
 def png_size(path):
@@ -53,7 +57,9 @@ class Pictures(unittest.TestCase):
 
     def test_only_what_is_asked_for(self):
         out = os.path.join(self.sample.folder, "some")
-        result = picture(self.sample.path, "--out", out, "--only", "row,forces", "--times", "1e-4,4e-4", "--resolution", "60")
+        result = picture(
+            self.sample.path, "--out", out, "--only", "row,forces", "--times", "1e-4,4e-4", "--resolution", "60"
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(out)), ["run-forces.png", "run-tread-row.png"])
         result = picture(self.sample.path, "--only", "patches")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Histories of stress and strain at a point and over element sets, evenly spaced to the last sample, from the case file to the commands that
-read them."""
+"""Histories of stress and strain at a point and over element sets, evenly spaced to the last sample, from the case file
+to the commands that read them."""
 
 import os
 import pathlib
@@ -106,7 +106,10 @@ class PointHistories(unittest.TestCase):
             sets = file["history/set"]
             samples = len(file["history/time"])
             inside = sets["bar.inside"]
-            self.assertEqual(set(inside), {"displacement", "stress", "strain", "position", "element_centre", "asked_position", "elements"})
+            self.assertEqual(
+                set(inside),
+                {"displacement", "stress", "strain", "position", "element_centre", "asked_position", "elements"},
+            )
             self.assertEqual((inside["stress"].shape, inside["strain"].shape), ((samples, 6), (samples, 6)))
             np.testing.assert_allclose(inside["asked_position"], [0.0112, 0.0041, 0.0061])
             np.testing.assert_allclose(inside["element_centre"], [0.0125, 0.0025, 0.0075])
@@ -114,8 +117,12 @@ class PointHistories(unittest.TestCase):
             self.assertEqual(inside.attrs["asked_by"], "probe inside")
             # At rest at the end: uniaxial stress.
             np.testing.assert_allclose(inside["stress"][-1], [1e8, 0, 0, 0, 0, 0], atol=2e5)
-            np.testing.assert_allclose(inside["strain"][-1], np.array([1, -0.3, -0.3, 0, 0, 0]) * 1e8 / 210e9, atol=1e-6)
-            self.assertEqual(set(sets["bar.row_3"]), {"stress", "position", "element_centre", "asked_position", "elements"})
+            np.testing.assert_allclose(
+                inside["strain"][-1], np.array([1, -0.3, -0.3, 0, 0, 0]) * 1e8 / 210e9, atol=1e-6
+            )
+            self.assertEqual(
+                set(sets["bar.row_3"]), {"stress", "position", "element_centre", "asked_position", "elements"}
+            )
             np.testing.assert_array_equal(sets["bar.row_3/position"], sets["bar.row_3/element_centre"])
             self.assertEqual(set(sets["bar.usual"]), {"displacement", "velocity", "acceleration", "position"})
             half = sets["bar.half"]
@@ -127,17 +134,25 @@ class PointHistories(unittest.TestCase):
             times = np.searchsorted(file["history/time"][:], fields["time"][:] - 1e-12)
             self.assertGreater(len(times), 5)
             for name in ("bar.inside", "bar.row_1", "bar.row_4"):
-                np.testing.assert_array_equal(sets[name]["stress"][times], fields["stress"][:, sets[name]["elements"][0]])
-            np.testing.assert_allclose(half["stress"][times], fields["stress"][:, half["elements"][:]].mean(axis=1), rtol=1e-12, atol=1e-3)
+                np.testing.assert_array_equal(
+                    sets[name]["stress"][times], fields["stress"][:, sets[name]["elements"][0]]
+                )
+            np.testing.assert_allclose(
+                half["stress"][times], fields["stress"][:, half["elements"][:]].mean(axis=1), rtol=1e-12, atol=1e-3
+            )
             self.assertEqual(file["fields/bar.half/stress"].shape, (len(times), 8, 6))
 
     def test_plastic_strain_comes_by_itself_where_a_material_yields(self):
-        self.write(material="yield_stress = 60e6\ntangent_modulus = 2e9", instead=[('"stress", "strain"]', '"stress", "strain", "plastic_strain"]')])
+        self.write(
+            material="yield_stress = 60e6\ntangent_modulus = 2e9",
+            instead=[('"stress", "strain"]', '"stress", "strain", "plastic_strain"]')],
+        )
         self.run_case()
         with self.results() as file:
             inside, half = file["history/set/bar.inside"], file["history/set/bar.half"]
             stress, flow = inside["stress"][:, 0], inside["plastic_strain"][:]
-            self.assertAlmostEqual(flow[-1] / ((stress.max() - 60e6) * (1 / 2e9 - 1 / 210e9)), 1, delta=0.01)  # the peak lies between two samples
+            # the peak lies between two samples
+            self.assertAlmostEqual(flow[-1] / ((stress.max() - 60e6) * (1 / 2e9 - 1 / 210e9)), 1, delta=0.01)
             np.testing.assert_allclose(inside["strain"][:, 0], flow + stress / 210e9, atol=2e-5)
             self.assertGreater(flow[-1], 0.015)
             self.assertIn("plastic_strain", half)
@@ -147,23 +162,35 @@ class PointHistories(unittest.TestCase):
         self.write(instead=[("position = [0.0112, 0.0041, 0.0061]", "position = [0.0112, 0.0041, 0.2]")])
         said = self.railwave("check", "case.toml")
         self.assertIn("bar.row_1: 1 element, in one with its centre at [0.0025, 0.0025, 0.0075], 2.96 mm away", said)
-        self.assertRegex(said, r"warning: bar.inside \(line \d+\) is asked for at \[0.0112, 0.0041, 0.2\] m, which lies in no element of the part")
+        self.assertRegex(
+            said,
+            r"warning: bar.inside \(line \d+\) is asked for at \[0.0112, 0.0041, 0.2\] m, which lies in no element"
+            r" of the part",
+        )
         self.assertIn("samples of histories every 1e-05 s", said)
 
     def test_channels(self):
         self.write()
         self.run_case()
-        said = self.railwave("signal", "bandpass", "results.h5", "--channel", "bar.inside.stress.xx", "--csv", "xx.csv", "--low", "100", "--high", "20000")
+        said = self.railwave(
+            "signal", "bandpass", "results.h5", "--channel", "bar.inside.stress.xx", "--csv", "xx.csv", "--low", "100",
+            "--high", "20000",
+        )
         self.assertIn("bar.inside.stress.xx", said)
         self.assertIn("[Pa]", (self.folder / "xx.csv").read_text().splitlines()[0])
         self.railwave("signal", "psd", "results.h5", "--channel", "bar.row_*.stress.mises")
         self.railwave("signal", "psd", "results.h5", "--channel", "bar.half.strain.yz")
-        for channel, complaint in [("bar.inside.stress", "needs a component"), ("bar.inside.stress.zzz", "'zzz' is no component; it may be xx, yy"),
-                                   ("bar.inside.velocity.x", "the run did not write the velocity of bar.inside"),
-                                   ("bar.row_1.strain.xx", "the run did not write the strain of bar.row_1"),
-                                   ("bar.usual.stress.xx", "there is no history of a set 'bar.usual' with its stress"),
-                                   ("bar.half.strain.mises", "'mises' is no component")]:
-            self.assertIn(complaint, self.railwave("signal", "psd", "results.h5", "--channel", channel, code=2), channel)
+        for channel, complaint in [
+            ("bar.inside.stress", "needs a component"),
+            ("bar.inside.stress.zzz", "'zzz' is no component; it may be xx, yy"),
+            ("bar.inside.velocity.x", "the run did not write the velocity of bar.inside"),
+            ("bar.row_1.strain.xx", "the run did not write the strain of bar.row_1"),
+            ("bar.usual.stress.xx", "there is no history of a set 'bar.usual' with its stress"),
+            ("bar.half.strain.mises", "'mises' is no component"),
+        ]:
+            self.assertIn(
+                complaint, self.railwave("signal", "psd", "results.h5", "--channel", channel, code=2), channel
+            )
         with self.results() as file:
             self.assertNotIn("history/set/bar.half/velocity", file)
 
@@ -174,8 +201,15 @@ class PointHistories(unittest.TestCase):
             np.testing.assert_allclose(times, interval * np.arange(len(times)), rtol=1e-12, atol=1e-18)
 
     def test_samples_are_evenly_spaced_to_the_last(self):
-        for end, interval, fields, exact in (("2e-4", "1e-5", "5e-5", True), ("2e-4", "3e-6", "7e-5", False), ("1.37e-4", "1e-5", "0", False),
-                                             ("2e-4", "4.4e-7", "1e-4", False), ("2e-4", "1.1e-6", "5e-5", False), ("2e-4", "0", "4e-5", True), ("1e-4", "1", "0", False)):
+        for end, interval, fields, exact in (
+            ("2e-4", "1e-5", "5e-5", True),
+            ("2e-4", "3e-6", "7e-5", False),
+            ("1.37e-4", "1e-5", "0", False),
+            ("2e-4", "4.4e-7", "1e-4", False),
+            ("2e-4", "1.1e-6", "5e-5", False),
+            ("2e-4", "0", "4e-5", True),
+            ("1e-4", "1", "0", False),
+        ):
             self.write(end=end, interval=interval, fields=fields)
             self.run_case()
             with self.results() as file:
@@ -209,7 +243,9 @@ class PointHistories(unittest.TestCase):
         def arrays(path):
             found = {}
             with h5py.File(path, "r") as file:
-                file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+                file.visititems(
+                    lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None
+                )
             return found
 
         self.write(end="1e-4")
@@ -224,12 +260,24 @@ class PointHistories(unittest.TestCase):
 
     def test_mistakes(self):
         for old, new, complaint in [
-                ('quantities = ["stress"]', 'quantities = ["stres"]', "did you mean 'stress'"),
-                ('quantities = ["stress"]', "quantities = []", "is empty, so nothing would be recorded"),
-                ("box = [[0, 0, 0], [0.01, 1, 1]]", "box = [[0.0101, 0, 0], [0.0102, 1, 1]]", "no element of 'bar' has its centre in it; the nearest has it at [0.0125,"),
-                ("box = [[0, 0, 0], [0.01, 1, 1]]", "radius = 0.1", "is missing; must be a box"),
-                ('history_sets = ["bar.half"]', 'history_sets = ["bar.halv"]', "there is no set 'bar.halv'; did you mean 'bar.half'?"),
-                ("[element_sets.half]", "[element_sets.inside]", "makes the element set 'bar.inside', which is there already"),
+            ('quantities = ["stress"]', 'quantities = ["stres"]', "did you mean 'stress'"),
+            ('quantities = ["stress"]', "quantities = []", "is empty, so nothing would be recorded"),
+            (
+                "box = [[0, 0, 0], [0.01, 1, 1]]",
+                "box = [[0.0101, 0, 0], [0.0102, 1, 1]]",
+                "no element of 'bar' has its centre in it; the nearest has it at [0.0125,",
+            ),
+            ("box = [[0, 0, 0], [0.01, 1, 1]]", "radius = 0.1", "is missing; must be a box"),
+            (
+                'history_sets = ["bar.half"]',
+                'history_sets = ["bar.halv"]',
+                "there is no set 'bar.halv'; did you mean 'bar.half'?",
+            ),
+            (
+                "[element_sets.half]",
+                "[element_sets.inside]",
+                "makes the element set 'bar.inside', which is there already",
+            ),
         ]:
             self.write(instead=[(old, new)])
             said = self.railwave("run", "case.toml", code=2)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A run that is stopped and taken up again ends with the results of the unbroken one, bit for bit; what can't be taken up is refused."""
+"""A run that is stopped and taken up again ends with the results of the unbroken one, bit for bit; what can't be taken
+up is refused."""
 
 import hashlib
 import os
@@ -149,25 +150,51 @@ directions = ["x"]
 """
 
 KINDS = {
-    "penalty": dict(of_contact="damping = 0.1\nfriction_decay = 0.5\ndynamic_friction = 0.1", of_upper="stiffness_damping = 2e-8\nmass_damping = 20"),
+    "penalty": dict(
+        of_contact="damping = 0.1\nfriction_decay = 0.5\ndynamic_friction = 0.1",
+        of_upper="stiffness_damping = 2e-8\nmass_damping = 20",
+    ),
     "multiplier": dict(of_contact='algorithm = "multiplier"'),
     "much_else": dict(more=BEAMS + ENDS + PUSHED, end=6e-4),
-    "symmetric_and_settled": dict(of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'),
-    "subcycling": dict(more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS, of_upper="stiffness_damping = 2e-9", end=4e-4,
-                       instead={"divisions = [5, 5, 4]": "divisions = [14, 14, 4]", "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
-                                "divisions = [6, 5, 3]": "divisions = [6, 5, 8]", "0.03001]": "0.08001]"}),
-    "mixed": dict(more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8", end=6e-4),
+    "symmetric_and_settled": dict(
+        of_contact="symmetric = true", more="[settle]\ncache = false\n", of_upper='hourglass = "stiffness"'
+    ),
+    "subcycling": dict(
+        more="[solver]\nsubcycling = true\n" + WEIGHT.format(hub="upper.z_max") + ENDS,
+        of_upper="stiffness_damping = 2e-9",
+        end=4e-4,
+        instead={
+            "divisions = [5, 5, 4]": "divisions = [14, 14, 4]",
+            "size = [0.06, 0.05, 0.03]": "size = [0.06, 0.05, 0.08]",
+            "divisions = [6, 5, 3]": "divisions = [6, 5, 8]",
+            "0.03001]": "0.08001]",
+        },
+    ),
+    "mixed": dict(
+        more='[solver]\nprecision = "mixed"\n' + BEAMS + ENDS + PUSHED, of_upper="stiffness_damping = 2e-8", end=6e-4
+    ),
     "float": dict(more='[solver]\nprecision = "float"\n' + BEAMS, of_upper="linear_bulk_viscosity = 0.1", end=6e-4),
-    "float_multiplier": dict(more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'),
-    "watched": dict(more="[watch]\nspeed = 1\npenetration = 1e-4\nchatter = 1\nhourglass_share = 1e-3\nhourglass_distortion = 1e-5\n"
-                         "volume_ratio = 0.999\nenergy_error = 1e-4\nkinetic_growth = 1e-6\n"),
-    "global_step": dict(more='[solver]\nstep_estimate = "global"\nrenew_steps = 97\n',
-                        instead={"[0, 0, -1e5]": "[0, 0, -9.81]", "velocity = [2, 1, -2]": "velocity = [2, 1, -12]"}),
+    "float_multiplier": dict(
+        more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'
+    ),
+    "watched": dict(
+        more=(
+            "[watch]\nspeed = 1\npenetration = 1e-4\nchatter = 1\nhourglass_share = 1e-3\n"
+            "hourglass_distortion = 1e-5\nvolume_ratio = 0.999\nenergy_error = 1e-4\nkinetic_growth = 1e-6\n"
+        )
+    ),
+    "global_step": dict(
+        more='[solver]\nstep_estimate = "global"\nrenew_steps = 97\n',
+        instead={"[0, 0, -1e5]": "[0, 0, -9.81]", "velocity = [2, 1, -2]": "velocity = [2, 1, -12]"},
+    ),
 }
 
 
 def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, instead=()):
-    text = BLOCKS.format(of_contact=of_contact, of_upper=of_upper, upper=upper, end=end, field_interval=field_interval) + more
+    text = (
+        BLOCKS.format(of_contact=of_contact, of_upper=of_upper, upper=upper, end=end, field_interval=field_interval)
+        + more
+    )
     for old in instead:
         assert old in text
         text = text.replace(old, instead[old])
@@ -197,7 +224,10 @@ class Folder(unittest.TestCase):
         (self.folder / "case.toml").write_text(text)
 
     def start(self, *options):
-        return subprocess.Popen([PROGRAM, "run", "case.toml", *options], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(
+            [PROGRAM, "run", "case.toml", *options],
+            cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )
 
     def run_to_end(self, *options, code=0):
         run = self.start(*options)
@@ -219,7 +249,11 @@ class Folder(unittest.TestCase):
     def assert_same(self, one, other):
         first, second = arrays(one), arrays(other)
         self.assertEqual(sorted(first), sorted(second))
-        different = [name for name in first if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()]
+        different = [
+            name
+            for name in first
+            if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()
+        ]
         self.assertEqual(different, [])
         self.assertEqual(one.with_suffix(".xdmf").read_text(), other.with_suffix(".xdmf").read_text())
 
@@ -267,7 +301,8 @@ class EndsThatMove(Folder):
     """A run may go on to a later end: what was computed stays as it is, and the steps stay as they were."""
 
     def stays(self, before):
-        """Whether the results begin with all that was computed before, bit for bit; but for the output at the end, which is off the intervals."""
+        """Whether the results begin with all that was computed before, bit for bit; but for the output at the end,
+        which is off the intervals."""
         now = arrays(self.results)
         self.assertEqual(sorted(before), sorted(now))
         for name, value in before.items():
@@ -301,7 +336,16 @@ class EndsThatMove(Folder):
         self.write(case())
         self.stop()
         kept = {path: path.read_bytes() for path in self.folder.iterdir()}
-        later = ("--set", "time.end=1.5e-3", "--set", "watch.active=false", "--set", "output.progress_interval=9", "--set", "title=longer")
+        later = (
+            "--set",
+            "time.end=1.5e-3",
+            "--set",
+            "watch.active=false",
+            "--set",
+            "output.progress_interval=9",
+            "--set",
+            "title=longer",
+        )
         self.run_to_end("--restart", *later)
         at_once = arrays(self.results)
         for path, content in kept.items():
@@ -384,7 +428,9 @@ class WhatCannotBeTakenUp(Folder):
         self.assertIn(f"step {step}, t =", said)
 
     def test_no_place_for_checkpoints(self):
-        self.assertIn("checkpoint.file: nowhere/a.h5 goes to", self.run_to_end("--set", "checkpoint.file=nowhere/a.h5", code=2))
+        self.assertIn(
+            "checkpoint.file: nowhere/a.h5 goes to", self.run_to_end("--set", "checkpoint.file=nowhere/a.h5", code=2)
+        )
         self.assertIn("is the results file", self.run_to_end("--set", "checkpoint.file=results.h5", code=2))
 
     def test_checkpoint_that_cannot_be_written(self):
@@ -432,7 +478,10 @@ class WhatIsNotReplaced(Folder):
                 before.pop("results.h5.lock", None)  # of the killed run
                 before.pop("results.checkpoint.h5.lock", None)
                 after = self.everything()
-                self.assertEqual({name: after[name] for name in before if ".new" not in name}, {name: before[name] for name in before if ".new" not in name})
+                self.assertEqual(
+                    {name: after[name] for name in before if ".new" not in name},
+                    {name: before[name] for name in before if ".new" not in name},
+                )
                 said = self.run_to_end("--overwrite")
                 self.assertNotIn("restart:", said)
                 self.assertFalse(self.checkpoint.exists())
@@ -453,7 +502,9 @@ class WhatIsNotReplaced(Folder):
         said = self.run_to_end(code=2)
         self.assertIn("results.checkpoint.h5 is the checkpoint of another run", said)
         self.assertIn("--overwrite", said)
-        said = self.run_to_end("--set", "output.file=other.h5", "--set", "checkpoint.file=results.checkpoint.h5", code=2)
+        said = self.run_to_end(
+            "--set", "output.file=other.h5", "--set", "checkpoint.file=results.checkpoint.h5", code=2
+        )
         self.assertIn("is the checkpoint of another run", said)
         self.assertEqual(self.everything(), before)
         self.run_to_end("--overwrite")
@@ -469,7 +520,9 @@ class WhatIsNotReplaced(Folder):
             time.sleep(0.002)
         (self.folder / "link.h5").symlink_to("state.h5")
         for name in ("state.h5", "./state.h5", "link.h5", str(self.folder / "state.h5")):
-            said = self.run_to_end("--set", "output.file=other.h5", "--set", f"checkpoint.file={name}", "--overwrite", code=2)
+            said = self.run_to_end(
+                "--set", "output.file=other.h5", "--set", f"checkpoint.file={name}", "--overwrite", code=2
+            )
             self.assertIn(f"checkpoint.file: another run is writing {name} now", said)
         said = self.run_to_end("--set", "checkpoint.file=another.h5", code=2)
         self.assertIn("output.file: another run is writing results.h5 now", said)

@@ -31,7 +31,9 @@ history_interval = 1e-4
 
 
 def run(folder, *words):
-    return subprocess.run([PROGRAM, "run", "case.toml", *words], cwd=folder, capture_output=True, text=True, timeout=120)
+    return subprocess.run(
+        [PROGRAM, "run", "case.toml", *words], cwd=folder, capture_output=True, text=True, timeout=120
+    )
 
 
 class RestartStep(unittest.TestCase):

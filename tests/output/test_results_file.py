@@ -58,10 +58,23 @@ class ResultsFile(unittest.TestCase):
         np.testing.assert_array_equal(history["energy/external_work"][:], 1.5 * step)
         self.assertEqual(
             set(history["energy"]),
-            {"kinetic", "internal", "hourglass", "contact", "friction", "connector", "damping", "plastic", "external_work", "balance_error"},
+            {
+                "kinetic",
+                "internal",
+                "hourglass",
+                "contact",
+                "friction",
+                "connector",
+                "damping",
+                "plastic",
+                "external_work",
+                "balance_error",
+            },
         )
         contact = history["contact/tread"]
-        np.testing.assert_array_equal(contact["master_force"][:], -contact["normal_force"][:] - contact["tangential_force"][:])
+        np.testing.assert_array_equal(
+            contact["master_force"][:], -contact["normal_force"][:] - contact["tangential_force"][:]
+        )
         np.testing.assert_array_equal(contact["nodes_slipping"][:], step)
         corner = history["set/block.corner"]
         np.testing.assert_array_equal(corner["displacement"][:], step[:, None] + np.arange(3.0))
@@ -82,7 +95,11 @@ class ResultsFile(unittest.TestCase):
 
     def test_fields(self):
         self.assertEqual(set(self.file["fields"]), {"block", "block.lower", "block.top"})
-        for name, corners, elements, nodes in [("block", 8, 24, 60), ("block.lower", 8, 12, 40), ("block.top", 4, 12, 20)]:
+        for name, corners, elements, nodes in [
+            ("block", 8, 24, 60),
+            ("block.lower", 8, 12, 40),
+            ("block.top", 4, 12, 20),
+        ]:
             group = self.file["fields"][name]
             self.assertEqual(group["connectivity"].shape, (elements, corners))
             self.assertEqual(group["coordinates"].shape, (nodes, 3))
@@ -104,7 +121,9 @@ class ResultsFile(unittest.TestCase):
     def test_contact(self):
         group = self.file["contact/tread"]
         self.assertEqual(group.attrs["friction"], 0.4)
-        self.assertEqual((group["slave"].attrs["surface"], group["master"].attrs["surface"]), ("wheel.tread", "rail.head"))
+        self.assertEqual(
+            (group["slave"].attrs["surface"], group["master"].attrs["surface"]), ("wheel.tread", "rail.head")
+        )
         np.testing.assert_array_equal(group["step"][:], OUTPUT_STEPS)
         slave, master = group["slave"], group["master"]
         nodes = len(slave["nodes"])
@@ -143,7 +162,9 @@ class KilledRun(unittest.TestCase):
                     self.assertFalse(np.isnan(data[:]).any())
                 group = file["fields/block"]
                 for i, time in enumerate(group["time"][:]):
-                    np.testing.assert_allclose(group["velocity"][i], node_field("velocity", group["nodes"][:], time), rtol=1e-14)
+                    np.testing.assert_allclose(
+                        group["velocity"][i], node_field("velocity", group["nodes"][:], time), rtol=1e-14
+                    )
                 self.assertEqual(len(group["time"]), 4)
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Where a case names no file its run writes into results/NAME/, a folder of its own, and tells at its end where that is and what to type next."""
+"""Where a case names no file its run writes into results/NAME/, a folder of its own, and tells at its end where that is
+and what to type next."""
 
 import os
 import pathlib
@@ -19,7 +20,11 @@ class ResultsFolder(Folder):
     def case(self, end=6e-6, more=""):
         super().case(end, more)
         path = self.folder / "case.toml"
-        path.write_text(path.read_text().replace('file = "results.h5"\n', "field_interval = 0\n", 1).replace("field_interval = 4e-6\n", "", 1))
+        path.write_text(
+            path.read_text()
+            .replace('file = "results.h5"\n', "field_interval = 0\n", 1)
+            .replace("field_interval = 4e-6\n", "", 1)
+        )
 
     def run_it(self, *words, code=0):
         return self.ends(self.start(*words), code)
@@ -29,7 +34,13 @@ class ResultsFolder(Folder):
 
     def test_a_folder_of_its_own(self):
         _, said = self.run_it("run", "case.toml", "--keep-state")
-        self.assertEqual(self.names(), ["case.toml", "results", "results/case", "results/case/case.checkpoint.h5", "results/case/case.h5", "results/case/case.xdmf"])
+        self.assertEqual(
+            self.names(),
+            [
+                "case.toml", "results", "results/case", "results/case/case.checkpoint.h5", "results/case/case.h5",
+                "results/case/case.xdmf",
+            ],
+        )
         self.assertIn("results: results/case/case.h5\n", said)
         with h5py.File(self.folder / "results/case/case.h5", "r") as file:
             self.assertEqual(file.attrs["completed"], 1)
@@ -48,7 +59,11 @@ class ResultsFolder(Folder):
             self.assertTrue((self.folder / words[-1]).exists(), command)
             if words[0] == "paraview":
                 continue
-            words = [PROGRAM, *words[1:]] if words[0] == "railwave" else [sys.executable, SOURCE / words[0], *words[1:], "--program", PROGRAM]
+            words = (
+                [PROGRAM, *words[1:]]
+                if words[0] == "railwave"
+                else [sys.executable, SOURCE / words[0], *words[1:], "--program", PROGRAM]
+            )
             done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.folder / "results/case/case-energies.png").exists())
@@ -61,7 +76,9 @@ class ResultsFolder(Folder):
         complaint, _ = self.run_it("run", "case.toml", code=2)
         self.assertIn("results/case/case.h5 holds a run that has not ended", complaint)
         _, said = self.run_it("check", "case.toml")
-        self.assertIn("note: 'railwave run' would refuse: output.file: results/case/case.h5 holds a run that has not ended", said)
+        self.assertIn(
+            "note: 'railwave run' would refuse: output.file: results/case/case.h5 holds a run that has not ended", said
+        )
         _, said = self.run_it("run", "case.toml", "--restart", "--wall-time", "0.5", code=4)
         self.assertIn("restart: goes on from results/case/case.checkpoint.h5", said)
 

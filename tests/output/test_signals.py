@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What ends a run from outside, at any of its stages: a signal, a limit of processor time or of file size, a closed terminal."""
+"""What ends a run from outside, at any of its stages: a signal, a limit of processor time or of file size, a closed
+terminal."""
 
 import signal
 import sys
@@ -72,11 +73,17 @@ class Signals(Folder):
         self.ends(run, 130)
 
     def test_before_the_run(self):
-        """While it reads, meshes and sets up there is nothing to keep: it ends at once, and so do commands that write files."""
+        """While it reads, meshes and sets up there is nothing to keep: it ends at once, and so do commands that write
+        files."""
         text = (self.folder / "case.toml").read_text()
         (self.folder / "case.toml").write_text(text.replace(*FINE).replace("end = 6e-05", f"end = {LONG}"))
         before = self.everything()
-        for command in (["run", "case.toml"], ["mesh", "case.toml"], ["modes", "case.toml", "--out", "modes.h5"], ["check", "case.toml"]):
+        for command in (
+            ["run", "case.toml"],
+            ["mesh", "case.toml"],
+            ["modes", "case.toml", "--out", "modes.h5"],
+            ["check", "case.toml"],
+        ):
             for one in (signal.SIGTERM, signal.SIGHUP):
                 with self.subTest(command=command[0], signal=one.name):
                     run = self.start(*command)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What goes to standard output gets there or is missed: a full disk, a reader that has gone, a descriptor that was closed at the start."""
+"""What goes to standard output gets there or is missed: a full disk, a reader that has gone, a descriptor that was
+closed at the start."""
 
 import errno
 import os
@@ -13,9 +14,21 @@ from faults import PROGRAM, SOURCE, Folder, between  # noqa: E402
 
 LOST = "railwave: not all that was to go to standard output got there: "
 CHANNEL = ["--channel", "contact.between.normal_force.z"]
-COMMANDS = [["--help"], ["--version"], ["run", "--help"], ["help"], ["help", "parts"], ["reference", "--schema"], ["reference", "--markdown"],
-            ["check", "case.toml"], ["mesh", "case.toml", "--out", "mesh.h5"], ["modes", "case.toml", "--up-to", "100000"], ["contact", "results.h5"],
-            ["signal", "psd", "results.h5", *CHANNEL], ["run", "case.toml", "--set", "output.file=again.h5"]]
+COMMANDS = [
+    ["--help"],
+    ["--version"],
+    ["run", "--help"],
+    ["help"],
+    ["help", "parts"],
+    ["reference", "--schema"],
+    ["reference", "--markdown"],
+    ["check", "case.toml"],
+    ["mesh", "case.toml", "--out", "mesh.h5"],
+    ["modes", "case.toml", "--up-to", "100000"],
+    ["contact", "results.h5"],
+    ["signal", "psd", "results.h5", *CHANNEL],
+    ["run", "case.toml", "--set", "output.file=again.h5"],
+]
 
 
 class StandardOutput(Folder):
@@ -31,7 +44,10 @@ class StandardOutput(Folder):
                 path.unlink()
 
     def test_disk_full(self):
-        for why, reason in ((errno.ENOSPC, "No space left on device; free some space there"), (errno.EIO, "Input/output error")):
+        for why, reason in (
+            (errno.ENOSPC, "No space left on device; free some space there"),
+            (errno.EIO, "Input/output error"),
+        ):
             for command in COMMANDS:
                 with self.subTest(command=command, why=why):
                     self.remove_made()
@@ -59,8 +75,10 @@ class StandardOutput(Folder):
         self.assertTrue((self.folder / "again.h5").exists())
 
     def test_first_lines_only(self):
-        text = subprocess.run(f"'{PROGRAM}' reference --markdown | head -n 1; exit ${{PIPESTATUS[0]}}", shell=True, executable="/bin/bash", cwd=self.folder,
-                              capture_output=True, text=True, check=False)
+        text = subprocess.run(
+            f"'{PROGRAM}' reference --markdown | head -n 1; exit ${{PIPESTATUS[0]}}", shell=True,
+            executable="/bin/bash", cwd=self.folder, capture_output=True, text=True, check=False,
+        )
         self.assertEqual((text.returncode, text.stderr, text.stdout.count("\n")), (0, "", 1))
 
     def test_closed_at_the_start(self):
@@ -82,23 +100,37 @@ class StandardOutput(Folder):
         def close(command, **options):
             reads, writes = os.pipe()
             os.close(reads)
-            run = subprocess.Popen(command, stdout=writes, stderr=subprocess.PIPE, text=True, cwd=self.folder, **options)
+            run = subprocess.Popen(
+                command, stdout=writes, stderr=subprocess.PIPE, text=True, cwd=self.folder, **options
+            )
             os.close(writes)
             complaint = run.communicate(timeout=300)[1]
             return run.returncode, complaint
         self.ends(self.start("mesh", "case.toml", "--out", "mesh.h5"), 0)
         self.assertEqual(close([sys.executable, "-B", SOURCE / "scripts" / "picture", "--mesh", "mesh.h5"]), (0, ""))
         self.assertTrue(list(self.folder.glob("*.png")))
-        scripts = [path for path in sorted((SOURCE / "scripts").iterdir()) if path.is_file() and path.read_bytes().startswith(b"#!/usr/bin/python3")]
+        scripts = [
+            path
+            for path in sorted((SOURCE / "scripts").iterdir())
+            if path.is_file() and path.read_bytes().startswith(b"#!/usr/bin/python3")
+        ]
         self.assertGreater(len(scripts), 10)
         for script in scripts:
             with self.subTest(script=script.name):
                 self.assertEqual(close([sys.executable, "-B", script, "--help"]), (0, ""))
-        environment = dict(os.environ, FAULTY_FOLDER=str(self.folder), FAULTY_FAIL="1", FAULTY_ONLY="said.txt", LD_PRELOAD=str(between("faulty_disk")))
+        environment = dict(
+            os.environ, FAULTY_FOLDER=str(self.folder), FAULTY_FAIL="1", FAULTY_ONLY="said.txt",
+            LD_PRELOAD=str(between("faulty_disk")),
+        )
         with open(self.folder / "said.txt", "wb") as said:
-            run = subprocess.run([sys.executable, "-B", SOURCE / "scripts" / "picture", "--help"], stdout=said, stderr=subprocess.PIPE, text=True,
-                                 env=environment, cwd=self.folder, check=False)
-        self.assertEqual((run.returncode, run.stderr), (1, "picture: not all that was to go to standard output got there: No space left on device\n"))
+            run = subprocess.run(
+                [sys.executable, "-B", SOURCE / "scripts" / "picture", "--help"],
+                stdout=said, stderr=subprocess.PIPE, text=True, env=environment, cwd=self.folder, check=False,
+            )
+        self.assertEqual(
+            (run.returncode, run.stderr),
+            (1, "picture: not all that was to go to standard output got there: No space left on device\n"),
+        )
 
 
 if __name__ == "__main__":

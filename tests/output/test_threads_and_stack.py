@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Numbers of threads, devices and sizes of stacks that users set in their environment: what cannot be is refused with a message, and
-nothing ends by a signal."""
+"""Numbers of threads, devices and sizes of stacks that users set in their environment: what cannot be is refused with a
+message, and nothing ends by a signal."""
 
 import os
 import pathlib
@@ -15,7 +15,9 @@ except SystemExit:
     sys.exit(77)
 
 REFUSED = {
-    "OMP_NUM_THREADS": ["700", "513", "0", "-1", "abc", "1000000", "99999999999999999999", "2.5", "4,", "4,0", "4,x", "0x10", "1e3"],
+    "OMP_NUM_THREADS": [
+        "700", "513", "0", "-1", "abc", "1000000", "99999999999999999999", "2.5", "4,", "4,0", "4,x", "0x10", "1e3",
+    ],
     "KOKKOS_NUM_THREADS": ["700", "1000000", "0", "-1", "abc", "4,2", "2.5"],
     "OMP_STACKSIZE": ["1", "16", "16k", "100B", "0", "-1", "abc", "M", "8X", "1000000G"],
     "GOMP_STACKSIZE": ["16"],
@@ -24,9 +26,20 @@ REFUSED = {
     "KOKKOS_RAND_DEVICES": ["0", "x"],
     "KOKKOS_SKIP_DEVICE": ["x"],
 }
-TAKEN = [{"OMP_NUM_THREADS": "3"}, {"OMP_NUM_THREADS": "2,4"}, {"OMP_NUM_THREADS": " 2 "}, {"OMP_NUM_THREADS": ""}, {"KOKKOS_NUM_THREADS": "3"},
-         {"KOKKOS_NUM_THREADS": ""}, {"KOKKOS_DEVICE_ID": ""}, {"OMP_STACKSIZE": "512"}, {"OMP_STACKSIZE": "2 M"}, {"OMP_THREAD_LIMIT": "1"},
-         {"OMP_DYNAMIC": "true"}, {"OMP_MAX_ACTIVE_LEVELS": "0"}]
+TAKEN = [
+    {"OMP_NUM_THREADS": "3"},
+    {"OMP_NUM_THREADS": "2,4"},
+    {"OMP_NUM_THREADS": " 2 "},
+    {"OMP_NUM_THREADS": ""},
+    {"KOKKOS_NUM_THREADS": "3"},
+    {"KOKKOS_NUM_THREADS": ""},
+    {"KOKKOS_DEVICE_ID": ""},
+    {"OMP_STACKSIZE": "512"},
+    {"OMP_STACKSIZE": "2 M"},
+    {"OMP_THREAD_LIMIT": "1"},
+    {"OMP_DYNAMIC": "true"},
+    {"OMP_MAX_ACTIVE_LEVELS": "0"},
+]
 
 
 @unittest.skipIf(thread_sanitized(), "ThreadSanitizer takes the barriers of GNU's OpenMP for races")
@@ -38,10 +51,14 @@ class Environment(unittest.TestCase):
         (self.folder / "case.toml").write_text(CASE.format(end=2e-5))
 
     def run_case(self, *words, stack=None, **variables):
-        environment = {name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "KOKKOS_", "GOMP_"))}
+        environment = {
+            name: value for name, value in os.environ.items() if not name.startswith(("OMP_", "KOKKOS_", "GOMP_"))
+        }
         environment.update({"OMP_NUM_THREADS": "2", "OMP_WAIT_POLICY": "passive"}, **variables)
         before = limited("stack", stack) if stack else []
-        return subprocess.run([*before, PROGRAM, *words], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120)
+        return subprocess.run(
+            [*before, PROGRAM, *words], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=120
+        )
 
     def numbers(self):
         done = self.run_case("contact", "results.h5", "--csv", "t.csv")
@@ -77,7 +94,13 @@ class Environment(unittest.TestCase):
     @unittest.skipIf(sanitized(), "a sanitizer wants more stack before the program begins")
     def test_small_stacks(self):
         for kilobytes in (32, 64, 128, 256, 512, 1024):
-            for words in (("check", "case.toml"), ("run", "case.toml"), ("contact", "results.h5"), ("reference",), ("modes", "case.toml", "--up-to", "1e5")):
+            for words in (
+                ("check", "case.toml"),
+                ("run", "case.toml"),
+                ("contact", "results.h5"),
+                ("reference",),
+                ("modes", "case.toml", "--up-to", "1e5"),
+            ):
                 with self.subTest(stack=kilobytes, command=words[0]):
                     done = self.run_case(*words, stack=kilobytes << 10)
                     self.assertIn(done.returncode, (0, 2) if words[0] == "modes" else (0,), done.stderr)

@@ -23,7 +23,9 @@ tangent_modulus = 2e9
 """
 
 # One block falls on another; a spring, beams, loads and a row of probes besides: all that a results file may hold.
-BLOCKS = two_blocks(([0.06, 0.05, 0.03], [6, 5, 3]), ([0.04, 0.04, 0.03], [4, 4, 3]), [0.005, 0.005, 0.03001], STEEL) + """\
+BLOCKS = two_blocks(
+    ([0.06, 0.05, 0.03], [6, 5, 3]), ([0.04, 0.04, 0.03], [4, 4, 3]), [0.005, 0.005, 0.03001], STEEL
+) + """\
 friction_decay = 0.5
 dynamic_friction = 0.1
 [points.hub]
@@ -80,11 +82,16 @@ history_sets = ["hub", "lower.core"]
 
 # Units of what stands in these places; everything else must have some.
 KNOWN = {
-    "history/time": "s", "history/energy/damping": "J", "history/energy/balance_error": "J", "history/set/lower.row_2/stress": "Pa",
-    "history/set/lower.row_2/strain": "1", "history/set/lower.row_2/element_centre": "m", "history/set/hub/acceleration": "m/s2",
-    "history/load/turn/moment": "N m", "history/load/press/force": "N", "history/beam/spokes/moment": "N m", "history/contact/between/nodes_slipping": "1",
-    "fields/upper/stress": "Pa", "fields/upper/plastic_strain": "1", "fields/upper/connectivity": "1", "fields/lower.z_max/velocity": "m/s",
-    "beams/spokes/force": "N", "contact/between/slave/area": "m2", "contact/between/master/shear": "Pa", "contact/between/slave/friction": "1",
+    "history/time": "s", "history/energy/damping": "J", "history/energy/balance_error": "J",
+    "history/set/lower.row_2/stress": "Pa",
+    "history/set/lower.row_2/strain": "1", "history/set/lower.row_2/element_centre": "m",
+    "history/set/hub/acceleration": "m/s2",
+    "history/load/turn/moment": "N m", "history/load/press/force": "N", "history/beam/spokes/moment": "N m",
+    "history/contact/between/nodes_slipping": "1",
+    "fields/upper/stress": "Pa", "fields/upper/plastic_strain": "1", "fields/upper/connectivity": "1",
+    "fields/lower.z_max/velocity": "m/s",
+    "beams/spokes/force": "N", "contact/between/slave/area": "m2", "contact/between/master/shear": "Pa",
+    "contact/between/slave/friction": "1",
     "contact/between/slave/gap": "m", "contact/between/step": "1",
 }
 
@@ -132,8 +139,18 @@ class Units(unittest.TestCase):
         units = self.units("model.h5")
         self.assertIn("element_sets/lower.core/connectivity", units)
         self.assertIn("element_sets/lower.row_3/coordinates", units)
-        self.assertEqual([units[name] for name in ("parts/upper/coordinates", "parts/upper/stable_step", "connectors/damping", "beams/pretension")],
-                         ["m", "s", "N s/m", "N"])
+        self.assertEqual(
+            [
+                units[name]
+                for name in (
+                    "parts/upper/coordinates",
+                    "parts/upper/stable_step",
+                    "connectors/damping",
+                    "beams/pretension",
+                )
+            ],
+            ["m", "s", "N s/m", "N"],
+        )
 
     def test_modes(self):
         (self.folder / "alone.toml").write_text(STEEL + """
@@ -149,19 +166,34 @@ end = 1e-5
 """)
         self.railwave("modes", "alone.toml", "--up-to", 3000, "--out", "modes.h5")
         units = self.units("modes.h5")
-        self.assertEqual([units[name] for name in ("modes/frequency", "modes/modal_mass", "fields/bar/displacement")], ["Hz", "kg", "1"])
+        self.assertEqual(
+            [units[name] for name in ("modes/frequency", "modes/modal_mass", "fields/bar/displacement")],
+            ["Hz", "kg", "1"],
+        )
 
     def test_contact(self):
         self.railwave("contact", "results.h5", "--hdf5", "contact.h5")
         units = self.units("contact.h5")
-        self.assertEqual([units[f"contact/between/{name}"] for name in ("patches/area", "nodes/row", "nodes/pressure", "facets/area")], ["m2", "1", "Pa", "m2"])
+        self.assertEqual(
+            [
+                units[f"contact/between/{name}"]
+                for name in ("patches/area", "nodes/row", "nodes/pressure", "facets/area")
+            ],
+            ["m2", "1", "Pa", "m2"],
+        )
 
     def test_signals(self):
         one = ("--channel", "lower.row_1.velocity.x")
         two = (*one, "--channel", "lower.row_2.velocity.x")
         band = ("--low", 20e3, "--high", 200e3)
-        for kind, words in (("psd", (*one, "--channel", "lower.row_1.stress.xx")), ("wavelet", (*one, *band)), ("bandpass", (*one, *band)), ("cross", two), ("ellipse", two),
-                            ("speed", ("--channel", "lower.row_*.velocity.x", *band))):
+        for kind, words in (
+            ("psd", (*one, "--channel", "lower.row_1.stress.xx")),
+            ("wavelet", (*one, *band)),
+            ("bandpass", (*one, *band)),
+            ("cross", two),
+            ("ellipse", two),
+            ("speed", ("--channel", "lower.row_*.velocity.x", *band)),
+        ):
             self.railwave("signal", kind, "results.h5", *words, "--hdf5", f"{kind}.h5")
             self.units(f"{kind}.h5")
 
@@ -201,9 +233,14 @@ history_interval = 5e-6
         self.assertEqual((units["decay_rate"], units["level"], units["distance"]), ("dB/m", "dB", "m"))
 
     def test_fault(self):
-        self.railwave("run", "case.toml", "--set", "output.file=broken.h5", "--set", "watch.speed=1", "--set", "watch.fatal_speed=4", code=3)
+        self.railwave(
+            "run", "case.toml", "--set", "output.file=broken.h5", "--set", "watch.speed=1", "--set",
+            "watch.fatal_speed=4", code=3,
+        )
         units = self.units("broken.fault.h5")
-        self.assertEqual([units[f"parts/upper/{name}"] for name in ("stress", "displacement", "culprit")], ["Pa", "m", "1"])
+        self.assertEqual(
+            [units[f"parts/upper/{name}"] for name in ("stress", "displacement", "culprit")], ["Pa", "m", "1"]
+        )
         self.units("broken.h5")
 
 

@@ -20,7 +20,10 @@ try:
 except ImportError as error:
     print("\n" + "=" * 80)
     print(f"NOT TESTED: the XDMF companion. {sys.executable} has no VTK with the XDMF reader ({error}).")
-    print("Debian's python3-vtk9 is built without it; the package python3-paraview has it: scripts/setup --tests installs that.")
+    print(
+        "Debian's python3-vtk9 is built without it; the package python3-paraview has it: scripts/setup --tests installs"
+        " that."
+    )
     print("=" * 80)
     sys.exit(SKIPPED)
 
@@ -53,7 +56,9 @@ class Xdmf(unittest.TestCase):
 
     def test_grids(self):
         grids = blocks(self.reader, self.times[0])
-        self.assertEqual(set(grids), {"block", "block.lower", "block.top", "contact tread slave", "contact tread master"})
+        self.assertEqual(
+            set(grids), {"block", "block.lower", "block.top", "contact tread slave", "contact tread master"}
+        )
         for name, cell, cells, points in [
             ("block", VTK_HEXAHEDRON, 24, 60),
             ("block.lower", VTK_HEXAHEDRON, 12, 40),
@@ -77,7 +82,9 @@ class Xdmf(unittest.TestCase):
             elements = np.arange(24)[:, None] + 0.1 * np.arange(6) + 1000 * time
             np.testing.assert_allclose(array(cells, "stress"), 1e6 * elements, rtol=1e-12)
             np.testing.assert_allclose(array(cells, "plastic_strain"), 1e-3 * np.arange(24) + time, rtol=1e-12)
-            np.testing.assert_allclose(array(grids["block.top"].GetCellData(), "stress"), 1e6 * elements[12:], rtol=1e-12)
+            np.testing.assert_allclose(
+                array(grids["block.top"].GetCellData(), "stress"), 1e6 * elements[12:], rtol=1e-12
+            )
 
     def test_contact(self):
         # The made-up contact nodes stand still from the first output on.
@@ -86,7 +93,8 @@ class Xdmf(unittest.TestCase):
         slave = blocks(self.reader, self.times[4])["contact tread slave"]
         pressure = array(slave.GetPointData(), "pressure")
         dome = 1 - ((place[:, 0] - 2e-3) / 6.5e-3) ** 2 - (place[:, 1] / 5e-3) ** 2
-        np.testing.assert_allclose(pressure, 1e9 * np.sqrt(np.maximum(dome, 0)), rtol=1e-3, atol=1e6)  # VTK's points are single precision
+        # VTK's points are single precision
+        np.testing.assert_allclose(pressure, 1e9 * np.sqrt(np.maximum(dome, 0)), rtol=1e-3, atol=1e6)
         shear = np.linalg.norm(array(slave.GetPointData(), "shear"), axis=1)
         self.assertTrue((shear <= 0.4 * pressure * (1 + 1e-12)).all())
         self.assertGreater(shear.max(), 1e8)

@@ -1,4 +1,5 @@
-"""An XDMF file as ParaView reads it, without a display. Importing this raises ImportError where VTK has no XDMF reader."""
+"""An XDMF file as ParaView reads it, without a display. Importing this raises ImportError where VTK has no XDMF
+reader."""
 
 from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
 from vtkmodules.vtkIOXdmf2 import vtkXdmfReader
@@ -21,4 +22,6 @@ def grids(reader, time=None):
     else:
         reader.UpdateTimeStep(time)
     data = reader.GetOutputDataObject(0)
-    return {data.GetMetaData(i).Get(data.NAME()).split("[")[0]: data.GetBlock(i) for i in range(data.GetNumberOfBlocks())}
+    return {
+        data.GetMetaData(i).Get(data.NAME()).split("[")[0]: data.GetBlock(i) for i in range(data.GetNumberOfBlocks())
+    }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Damaged results files: a handful of scripts/fuzz_results' damages, and those that once were findings. Each command comes to its end with
-the sound file's output or refuses with a message that names the file."""
+"""Damaged results files: a handful of scripts/fuzz_results' damages, and those that once were findings. Each command
+comes to its end with the sound file's output or refuses with a message that names the file."""
 
 import os
 import pathlib
@@ -48,7 +48,10 @@ class DamagedResults(unittest.TestCase):
         name = damage.chance.choice(sorted(seed.commands))
         data = damage.apply(seed.bytes)
         outcome = self.commands.judge(seed, name, data)
-        self.assertFalse(outcome.finding, f"damage {number}, {name} on {seed.name}, {', '.join(damage.done)}: {outcome.kind}\n{outcome.text}")
+        self.assertFalse(
+            outcome.finding,
+            f"damage {number}, {name} on {seed.name}, {', '.join(damage.done)}: {outcome.kind}\n{outcome.text}",
+        )
         return outcome.kind
 
     def test_some_damages(self):
@@ -105,12 +108,15 @@ class DamagedResults(unittest.TestCase):
         seed = self.seed("contact")
         heap = seed.bytes.index(b"GCOL")
         size = int.from_bytes(seed.bytes[heap + 8 : heap + 16], "little")
-        outcome = self.commands.judge(seed, "signal bandpass", seed.bytes[: heap + 8] + b"\xff" * (size - 8) + seed.bytes[heap + size :])
+        outcome = self.commands.judge(
+            seed, "signal bandpass", seed.bytes[: heap + 8] + b"\xff" * (size - 8) + seed.bytes[heap + size :]
+        )
         self.assertFalse(outcome.finding, outcome.kind + outcome.text)
         self.assertNotEqual(outcome.kind, "as from the sound file")
 
     def test_a_name_that_was_changed(self):
-        """What asked for a set is a text, in which a flipped bit makes another name; and a channel that is gone is told with the file's name."""
+        """What asked for a set is a text, in which a flipped bit makes another name; and a channel that is gone is told
+        with the file's name."""
         seed = self.seed("hammer")
         for old, new in ((b"probe row", b"probe raw"), (b"hammer blow", b"hammer bloc"), (b"bar.blow", b"bar.row_")):
             old, new = (len(old).to_bytes(8, "little") + text for text in (old, new))  # as the heap has them
@@ -142,11 +148,22 @@ class DamagedResults(unittest.TestCase):
     def test_pictures_of_damaged_files(self):
         seed, script = self.seed("contact"), SOURCE / "scripts" / "picture"
         heap = seed.bytes.index(b"GCOL")
-        for what, change in (("cut short", lambda data: data[: len(data) // 2]), ("heap", lambda data: data[: heap + 8] + b"\xff" * 40 + data[heap + 48 :]),
-                             ("header", lambda data: data[:60] + b"\x55" + data[61:]), ("endless", endless)):
+        for what, change in (
+            ("cut short", lambda data: data[: len(data) // 2]),
+            ("heap", lambda data: data[: heap + 8] + b"\xff" * 40 + data[heap + 48 :]),
+            ("header", lambda data: data[:60] + b"\x55" + data[61:]),
+            ("endless", endless),
+        ):
             path = self.folder / "picture.h5"
             path.write_bytes(change(seed.bytes))
-            done = subprocess.run([sys.executable, script, path, "--only", "forces", "--out", self.folder / "pictures", "--program", PROGRAM], capture_output=True, text=True)
+            done = subprocess.run(
+                [
+                    sys.executable, script, path, "--only", "forces", "--out", self.folder / "pictures", "--program",
+                    PROGRAM,
+                ],
+                capture_output=True,
+                text=True,
+            )
             self.assertEqual(done.returncode, 2, f"{what}: {done.stderr}")
             self.assertIn("picture.h5", done.stderr)
             self.assertNotIn("Traceback", done.stderr)

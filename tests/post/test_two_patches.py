@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Two feet of one surface slide over a plate, and the load passes from one to the other: `railwave contact` keeps their numbers and finds
-the creepages that the prescribed motion gives. A foot that slides with V over a plate at rest has the slip V and, as its patch goes with it, the rolling velocity V/2."""
+"""Two feet of one surface slide over a plate, and the load passes from one to the other: `railwave contact` keeps their
+numbers and finds the creepages that the prescribed motion gives. A foot that slides with V over a plate at rest has the
+slip V and, as its patch goes with it, the rolling velocity V/2."""
 import csv
 import os
 import pathlib
@@ -32,11 +33,15 @@ def feet():
         for k in range(LAYERS):
             for j in range(CELLS):
                 for i in range(CELLS):
-                    elements.append([at(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))])
+                    elements.append(
+                        [at(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                    )
                     if k == 0:
                         soles.append(len(elements))
     lines = ["*NODE"] + [f"{n}, {x:.9f}, {y:.9f}, {z:.9f}" for n, (x, y, z) in enumerate(nodes, 1)]
-    lines += ["*ELEMENT, TYPE=C3D8, ELSET=all"] + [f"{e}, " + ", ".join(map(str, corners)) for e, corners in enumerate(elements, 1)]
+    lines += ["*ELEMENT, TYPE=C3D8, ELSET=all"] + [
+        f"{e}, " + ", ".join(map(str, corners)) for e, corners in enumerate(elements, 1)
+    ]
     lines += ["*ELSET, ELSET=low"] + [f"{e}," for e in soles] + ["*SURFACE, NAME=soles, TYPE=ELEMENT", "low, S1"]
     for foot, top in enumerate(tops):
         lines += [f"*NSET, NSET=top_{foot}"] + [f"{n}," for n in top]
@@ -71,7 +76,9 @@ slave = "feet.soles"
 master = "plate.z_max"
 """
     # The first foot is pressed down and let go again while the second is pressed.
-    for foot, curve in enumerate(("[[0, 0], [6e-5, 1], [1.6e-4, 0.45], [1, 0.45]]", "[[0, 0], [6e-5, 0.45], [1.6e-4, 1], [1, 1]]")):
+    for foot, curve in enumerate(
+        ("[[0, 0], [6e-5, 1], [1.6e-4, 0.45], [1, 0.45]]", "[[0, 0], [6e-5, 0.45], [1.6e-4, 1], [1, 1]]")
+    ):
         text += f"""
 [curves.press_{foot}]
 type = "table"
@@ -82,7 +89,11 @@ velocity = [{SPEED}, 0, 0]
 displacement = [0, 0, -4e-5]
 displacement_curve = "press_{foot}"
 """
-    return text + f"[initial_motion.go]\nparts = [\"feet\"]\nvelocity = [{SPEED}, 0, 0]\n[time]\nend = {END}\n[output]\nfield_interval = {END / 20}\nfile = \"run.h5\"\n"
+    return (
+        text
+        + f"[initial_motion.go]\nparts = [\"feet\"]\nvelocity = [{SPEED}, 0, 0]\n[time]\nend ="
+        f" {END}\n[output]\nfield_interval = {END / 20}\nfile = \"run.h5\"\n"
+    )
 
 
 class TwoPatches(unittest.TestCase):
@@ -94,7 +105,10 @@ class TwoPatches(unittest.TestCase):
                 result = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, check=False)
                 self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
             with open(pathlib.Path(folder) / "patches.csv") as file:
-                rows = [{key: float(value) if value and key != "contact" else value for key, value in row.items()} for row in csv.DictReader(file)]
+                rows = [
+                    {key: float(value) if value and key != "contact" else value for key, value in row.items()}
+                    for row in csv.DictReader(file)
+                ]
         patches = [row for row in rows if row["patch"] > 0]
         sides = {row["patch"]: row["centre_y"] > 0 for row in patches}
         self.assertEqual(len(sides), 2, patches)
@@ -103,7 +117,11 @@ class TwoPatches(unittest.TestCase):
         self.assertGreater(len(pressed), 20)
         larger = set()
         for row in pressed:
-            larger.add(max((one for one in patches if one["time"] == row["time"]), key=lambda one: one["normal_force"])["patch"])
+            larger.add(
+                max((one for one in patches if one["time"] == row["time"]), key=lambda one: one["normal_force"])[
+                    "patch"
+                ]
+            )
             self.assertAlmostEqual(row["rolling_velocity"], SPEED / 2, delta=0.02 * SPEED / 2, msg=row)
             self.assertAlmostEqual(row["longitudinal_creepage"], 2, delta=0.02 * 2, msg=row)
         self.assertEqual(len(larger), 2)  # the loads have crossed

@@ -23,7 +23,16 @@ def write_results(path, sets, count=16):
     length = len(next(iter(sets.values()))) if sets else 400
     t = INTERVAL * np.arange(length)
     with h5py.File(path, "w") as file:
-        file.attrs.update({"format": "Railwave results", "format_version": 1, "title": "made up", "program": "railwave 0", "completed": 1, "reason": "completed"})
+        file.attrs.update(
+            {
+                "format": "Railwave results",
+                "format_version": 1,
+                "title": "made up",
+                "program": "railwave 0",
+                "completed": 1,
+                "reason": "completed",
+            }
+        )
         file["history/time"] = t
         for name in ("energy", "contact"):
             file.create_group(f"history/{name}")

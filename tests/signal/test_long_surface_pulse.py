@@ -1,5 +1,5 @@
-"""cases/surface_pulse.toml: the surface wave runs at Rayleigh's speed, its particles backwards at the top, normal motion a quarter period off the
-tangential one, and higher than that by Rayleigh's ratio."""
+"""cases/surface_pulse.toml: the surface wave runs at Rayleigh's speed, its particles backwards at the top, normal
+motion a quarter period off the tangential one, and higher than that by Rayleigh's ratio."""
 
 import os
 import re
@@ -19,7 +19,8 @@ BAND = ("--low", "100e3", "--high", "250e3")
 
 
 def rayleigh():
-    """Speed of Rayleigh's wave on a half-space, m/s, and its normal over its tangential motion at the surface, from the secular equation."""
+    """Speed of Rayleigh's wave on a half-space, m/s, and its normal over its tangential motion at the surface, from the
+    secular equation."""
     shear, pressure = np.sqrt(E / (2 * (1 + NU)) / RHO), np.sqrt(E * (1 - NU) / ((1 + NU) * (1 - 2 * NU)) / RHO)
 
     def secular(c):
@@ -62,7 +63,11 @@ class SurfacePulse(unittest.TestCase):
 
     def test_ellipse(self):
         out = os.path.join(self.folder.name, "ellipse.h5")
-        signal("ellipse", self.results, "--channel", "block.row_*.displacement.x", "--channel", "block.row_*.displacement.z", *BAND, "--hdf5", out)
+        signal(
+            "ellipse", self.results, "--channel", "block.row_*.displacement.x", "--channel",
+            "block.row_*.displacement.z", *BAND, "--hdf5",
+            out
+        )
         with h5py.File(out, "r") as file:
             self.assertTrue(file["ellipse/retrograde"][:].all())
             self.assertEqual(len(file["ellipse/retrograde"]), 31)
@@ -72,7 +77,11 @@ class SurfacePulse(unittest.TestCase):
 
     def test_phase(self):
         out = os.path.join(self.folder.name, "cross.h5")
-        signal("cross", self.results, "--channel", "block.row_*.velocity.x", "--channel", "block.row_*.velocity.z", *BAND, "--hdf5", out)
+        signal(
+            "cross", self.results, "--channel", "block.row_*.velocity.x", "--channel", "block.row_*.velocity.z", *BAND,
+            "--hdf5",
+            out
+        )
         with h5py.File(out, "r") as file:
             self.assertAlmostEqual(abs(file.attrs["band_phase"]), 90, delta=3)
             self.assertGreater(file.attrs["band_coherence"], 0.95)

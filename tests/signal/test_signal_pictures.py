@@ -22,7 +22,9 @@ KINDS = {
 
 
 def picture(*arguments):
-    return subprocess.run([sys.executable, os.path.join(SOURCE_DIR, "scripts", "picture"), *arguments], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, os.path.join(SOURCE_DIR, "scripts", "picture"), *arguments], capture_output=True, text=True
+    )
 
 
 class Pictures(unittest.TestCase):

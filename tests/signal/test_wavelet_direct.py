@@ -1,5 +1,5 @@
-"""railwave signal wavelet against the definition itself: sums over time of the signal times Morlet's wavelet (eq. 2 of Torrence and Compo, 1998), which
-has nothing in common with the transforms that Railwave multiplies."""
+"""railwave signal wavelet against the definition itself: sums over time of the signal times Morlet's wavelet (eq. 2 of
+Torrence and Compo, 1998), which has nothing in common with the transforms that Railwave multiplies."""
 
 import os
 import sys
@@ -18,7 +18,11 @@ W0 = 6.0
 def test_signal():
     """A sweep, a burst and a step, without mean."""
     t = INTERVAL * np.arange(700)
-    values = np.cos(2 * np.pi * (5e3 + 6e7 * t) * t) + (t > 4e-4) * 0.5 + 2 * np.exp(-(((t - 2e-4) / 1e-5) ** 2)) * np.sin(2 * np.pi * 1.2e5 * t)
+    values = (
+        np.cos(2 * np.pi * (5e3 + 6e7 * t) * t)
+        + (t > 4e-4) * 0.5
+        + 2 * np.exp(-(((t - 2e-4) / 1e-5) ** 2)) * np.sin(2 * np.pi * 1.2e5 * t)
+    )
     return values - values.mean()
 
 
@@ -35,9 +39,16 @@ class Wavelet(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             results, out = os.path.join(folder, "run.h5"), os.path.join(folder, "wavelet.h5")
             write_results(results, {"body.node": values})
-            signal("wavelet", results, "--channel", "body.node.velocity.z", "--low", "5e3", "--scale-spacing", "0.25", "--hdf5", out)
+            signal(
+                "wavelet", results, "--channel", "body.node.velocity.z", "--low", "5e3", "--scale-spacing", "0.25",
+                "--hdf5", out,
+            )
             with h5py.File(out, "r") as file:
-                power, scales, frequency = file["power"][:], file["by_frequency/scale"][:], file["by_frequency/frequency"][:]
+                power, scales, frequency = (
+                    file["power"][:],
+                    file["by_frequency/scale"][:],
+                    file["by_frequency/frequency"][:],
+                )
                 self.assertAlmostEqual(file.attrs["variance"] / np.mean(values**2), 1, delta=1e-9)
         np.testing.assert_allclose(1 / frequency, 4 * np.pi * scales / (W0 + np.sqrt(2 + W0**2)), rtol=1e-12)
         self.assertGreater(len(scales), 20)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The rolling case at 300 km/h and under ten times the load, at the default settings: bounded, and the contact carries the load.
+"""The rolling case at 300 km/h and under ten times the load, at the default settings: bounded, and the contact carries
+the load.
 
 A coarser mesh than the case's own. Prints every figure.
 """
@@ -15,9 +16,18 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.environ["RAILWAVE_SOURCE_DIR"], "tests", "verify"))
 from figures import conclude, program, show  # noqa: E402
 
-COARSE = {"meshes.wheel.zone_size": 0.004, "meshes.rail.zone_size": 0.004, "meshes.wheel.zone_length": 0.12, "meshes.rail.zone_end": 0.1,
-          "meshes.wheel.section_size": 0.012, "meshes.rail.section_size": 0.012, "meshes.wheel.core_size": 0.15, "meshes.rail.core_size": 0.05,
-          "meshes.wheel.growth": 1.5, "meshes.rail.growth": 1.5}
+COARSE = {
+    "meshes.wheel.zone_size": 0.004,
+    "meshes.rail.zone_size": 0.004,
+    "meshes.wheel.zone_length": 0.12,
+    "meshes.rail.zone_end": 0.1,
+    "meshes.wheel.section_size": 0.012,
+    "meshes.rail.section_size": 0.012,
+    "meshes.wheel.core_size": 0.15,
+    "meshes.rail.core_size": 0.05,
+    "meshes.wheel.growth": 1.5,
+    "meshes.rail.growth": 1.5,
+}
 GRAVITY, SPRUNG = 9.81, 106929.0
 
 
@@ -29,7 +39,9 @@ def rise_of_wheel():
         program("mesh", COARSE, "--out", model, capture_output=True)
         with h5py.File(model, "r") as file:
             x, cells = file["parts/wheel/coordinates"][:], file["parts/wheel/connectivity"][:]
-    sign = np.array([[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])
+    sign = np.array(
+        [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1], [-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]]
+    )
     volume, moment = 0, 0
     for point in sign / np.sqrt(3):
         shape = np.prod(1 + sign * point, axis=1) / 8
@@ -48,24 +60,42 @@ def rise_of_wheel():
 def run(what, end, options):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "rolling.h5")
-        told = program("run", {**COARSE, "settle.method": "automatic", "settle.tolerance": 1e-3, "settle.cache": "false", "time.end": end,
-                               "output.file": results, "output.history_interval": end / 200, "output.field_interval": end, **options},
-                       capture_output=True, text=True).stdout
+        told = program(
+            "run",
+            {
+                **COARSE,
+                "settle.method": "automatic",
+                "settle.tolerance": 1e-3,
+                "settle.cache": "false",
+                "time.end": end,
+                "output.file": results,
+                "output.history_interval": end / 200,
+                "output.field_interval": end,
+                **options,
+            },
+            capture_output=True,
+            text=True,
+        ).stdout
         with h5py.File(results, "r") as file:
             completed = int(file.attrs["completed"])
             steps = int(file.attrs["steps"])
             history = file["history"]
             vertical = (history["contact/tread/normal_force"][:] + history["contact/tread/tangential_force"][:])[:, 2]
             energy = {name: history["energy"][name][:] for name in history["energy"]}
-    mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", program("check", COARSE, capture_output=True, text=True).stdout).group(1))
+    mass = float(
+        re.search(r"wheel: .*?, ([0-9.]+) kg", program("check", COARSE, capture_output=True, text=True).stdout).group(1)
+    )
     turning = options.get("initial_motion.roll.velocity", [27.78, 0, 0])[0] / (27.78 / 60.41)
     sprung = -options.get("connectors.primary_suspension.preload", [0, 0, -SPRUNG])[2]
     unbalance = mass * turning**2 * rise_of_wheel()
     weight = mass * GRAVITY + sprung - unbalance
     error = np.abs(energy["balance_error"]).max()
     elastic = (energy["internal"] + energy["contact"]).max()
-    print(f"{what}: {steps} steps, mean vertical contact force {vertical.mean():.0f} N, from {vertical.min():.0f} to {vertical.max():.0f}, load {weight:.0f} N "
-          f"({unbalance:.0f} N taken off: the wheel's mesh is not quite balanced)")
+    print(
+        f"{what}: {steps} steps, mean vertical contact force {vertical.mean():.0f} N, from {vertical.min():.0f} to"
+        f" {vertical.max():.0f}, load {weight:.0f} N ({unbalance:.0f} N taken off: the wheel's mesh is not quite"
+        " balanced)"
+    )
     for line in told.splitlines():
         if "warning" in line.lower():
             print("  " + line.strip())
@@ -76,7 +106,14 @@ def run(what, end, options):
 
 def main():
     run("300 km/h", 1.2e-3, {"initial_motion.roll.velocity": [300 / 3.6, 0, 0]})
-    run("10 times the load", 1e-3, {"connectors.primary_suspension.preload": [0, 0, -10 * SPRUNG], "points.sprung_mass.mass": 10 * SPRUNG / GRAVITY})
+    run(
+        "10 times the load",
+        1e-3,
+        {
+            "connectors.primary_suspension.preload": [0, 0, -10 * SPRUNG],
+            "points.sprung_mass.mass": 10 * SPRUNG / GRAVITY,
+        },
+    )
     conclude()
 
 

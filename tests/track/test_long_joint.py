@@ -37,7 +37,11 @@ class OverTheGap(unittest.TestCase):
             cls.time = history["time"][:]
             cls.before, cls.behind = (history[f"contact/{name}/normal_force"][:, 2] for name in ("tread", "tread_2"))
             cls.wheel = history["set/wheel.bore/displacement"][:]
-            cls.bolts = {name: history[f"beam/{name}/force"][:, 0, 0] for name in history["beam"] if re.fullmatch(r"track_bolt_\d", name)}
+            cls.bolts = {
+                name: history[f"beam/{name}/force"][:, 0, 0]
+                for name in history["beam"]
+                if re.fullmatch(r"track_bolt_\d", name)
+            }
             cls.energy = {name: history[f"energy/{name}"][:] for name in history["energy"]}
 
     @classmethod

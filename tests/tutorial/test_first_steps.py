@@ -1,5 +1,5 @@
-"""docs/first-steps.md, typed: an own mesh, a point's history, a movie, resuming, Python, ParaView. test_long_first_steps.py has the
-rest."""
+"""docs/first-steps.md, typed: an own mesh, a point's history, a movie, resuming, Python, ParaView.
+test_long_first_steps.py has the rest."""
 
 import csv
 import hashlib
@@ -50,7 +50,9 @@ class FirstSteps(unittest.TestCase):
             self.assertGreater(ends.sum(), 0)
             self.assertTrue((results["fields/plate/displacement"][-1][ends] == 0).all())
         with h5py.File(self.desk.path("results", "drop", "model.h5"), "r") as model:
-            self.assertLessEqual({"plate.top", "plate.ends", "plate.exterior", "punch.nose", "punch.exterior"}, set(model["surfaces"]))
+            self.assertLessEqual(
+                {"plate.top", "plate.ends", "plate.exterior", "punch.nose", "punch.exterior"}, set(model["surfaces"])
+            )
             self.assertIn("punch.eye", model["node_sets"])
         with Image.open(self.desk.path("results", "drop", "model-mesh.png")) as image:
             self.assertGreater(min(image.size), 1000)
@@ -63,8 +65,13 @@ class FirstSteps(unittest.TestCase):
         with open(os.path.join(folder, "punch.inp"), encoding="ascii") as file:
             self.assertEqual(file.read(), committed)
         if shutil.which("gmsh"):
-            self.desk.command("cd cases/own_mesh && gmsh -3 plate.geo -format msh41 -o again.msh && sed s/plate.msh/again.msh/ drop.toml > again.toml")
-            again, first = (self.desk.command(f"railwave check cases/own_mesh/{name}.toml") for name in ("again", "drop"))
+            self.desk.command(
+                "cd cases/own_mesh && gmsh -3 plate.geo -format msh41 -o again.msh && sed s/plate.msh/again.msh/"
+                " drop.toml > again.toml"
+            )
+            again, first = (
+                self.desk.command(f"railwave check cases/own_mesh/{name}.toml") for name in ("again", "drop")
+            )
             self.assertEqual(again, first)
 
     def test_history_at_a_point(self):
@@ -73,7 +80,8 @@ class FirstSteps(unittest.TestCase):
             place = results["history/set/plate.middle/position"][:]
             np.testing.assert_allclose(place, [0, 0, 0], atol=1e-9)
             self.assertLess(results["history/set/plate.middle/displacement"][:, 2].min(), -1e-6)
-            self.assertGreater(results["history/set/plate.middle/stress"][:, 0].max(), 1e7)  # bent down: the lower side is pulled
+            # bent down: the lower side is pulled
+            self.assertGreater(results["history/set/plate.middle/stress"][:, 0].max(), 1e7)
             self.assertEqual(results["history/set/plate.middle/stress"].attrs["unit"], "Pa")
         with open(self.desk.path("results", "drop", "spectrum.csv"), newline="", encoding="utf-8") as file:
             self.assertGreater(len(list(csv.reader(file))), 10)
@@ -136,7 +144,11 @@ class Page(unittest.TestCase):
     def test_every_section_is_typed_by_a_test(self):
         """A new section of the page needs a test: its name stands in one of the files here."""
         here = os.path.dirname(os.path.abspath(__file__))
-        tests = "".join(pathlib.Path(here, name).read_text(encoding="utf-8") for name in os.listdir(here) if name.startswith("test_"))
+        tests = "".join(
+            pathlib.Path(here, name).read_text(encoding="utf-8")
+            for name in os.listdir(here)
+            if name.startswith("test_")
+        )
         for section, blocks in sections().items():
             if any(language in ("sh", "python") for language, _ in blocks):
                 self.assertIn(f'type("{section}"', tests, section)

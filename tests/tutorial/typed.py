@@ -1,5 +1,5 @@
-"""Types what docs/first-steps.md says, in a folder of its own: blocks marked sh are commands, blocks marked python are files
-whose name is their first line."""
+"""Types what docs/first-steps.md says, in a folder of its own: blocks marked sh are commands, blocks marked python are
+files whose name is their first line."""
 
 import os
 import re
@@ -17,7 +17,10 @@ def sections(path=PAGE):
     """Blocks of each section by its heading: (language, text) in their order."""
     with open(path, encoding="utf-8") as file:
         parts = re.split(r"^## (.+)$", file.read(), flags=re.MULTILINE)
-    return {title.strip(): re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL) for title, text in zip(parts[1::2], parts[2::2])}
+    return {
+        title.strip(): re.findall(r"^```(\w+)\n(.*?)^```$", text, flags=re.MULTILINE | re.DOTALL)
+        for title, text in zip(parts[1::2], parts[2::2])
+    }
 
 
 class Desk:
@@ -26,7 +29,11 @@ class Desk:
     def __init__(self):
         self._folder = tempfile.TemporaryDirectory(prefix="railwave-first-steps-")
         self.folder = os.path.join(self._folder.name, "railwave")
-        shutil.copytree(os.path.join(SOURCE, "scripts"), os.path.join(self.folder, "scripts"), ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(
+            os.path.join(SOURCE, "scripts"),
+            os.path.join(self.folder, "scripts"),
+            ignore=shutil.ignore_patterns("__pycache__"),
+        )
         os.makedirs(os.path.join(self.folder, "cases"))
         shutil.copy(os.path.join(SOURCE, "cases", "first_steps.toml"), os.path.join(self.folder, "cases"))
         shutil.copytree(os.path.join(SOURCE, "cases", "own_mesh"), os.path.join(self.folder, "cases", "own_mesh"))
@@ -40,8 +47,12 @@ class Desk:
         with open(os.path.join(tools, "python3"), "w", encoding="utf-8") as file:
             file.write(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
         os.chmod(os.path.join(tools, "python3"), 0o755)
-        # One thread: models of some hundred elements gain nothing from a second, and wait for it where the machine is busy.
-        self.environment = dict(os.environ, OMP_NUM_THREADS="1", PATH=os.pathsep.join([tools, BIN, os.environ.get("PATH", "/usr/bin:/bin")]), MPLCONFIGDIR=self._folder.name)
+        # One thread: models of some hundred elements gain nothing from a second, and wait for it where the machine is
+        # busy.
+        self.environment = dict(
+            os.environ, OMP_NUM_THREADS="1",
+            PATH=os.pathsep.join([tools, BIN, os.environ.get("PATH", "/usr/bin:/bin")]), MPLCONFIGDIR=self._folder.name,
+        )
 
     def _nothing_to_install(self):
         """scripts/run as it is, but for setting the machine up and building: both are done where tests run."""
@@ -62,7 +73,8 @@ class Desk:
                         file.write(text.replace("/usr/bin/python3", sys.executable, 1))
 
     def type(self, section, ends=(0,)):
-        """All blocks of a section. Returns what they print; throws AssertionError when a command ends with another code than `ends`."""
+        """All blocks of a section. Returns what they print; throws AssertionError when a command ends with another code
+        than `ends`."""
         said = ""
         for language, text in sections()[section]:
             if language == "python":
@@ -76,8 +88,12 @@ class Desk:
     def command(self, text, ends=(0,)):
         allowed = " ".join(f'[ "$code" -eq {code} ] ||' for code in ends)
         script = f"set -u; trap 'code=$?; {allowed} exit $code' ERR\n{text}\n"
-        done = subprocess.run(["bash", "-c", script], cwd=self.folder, env=self.environment, capture_output=True, text=True, check=False)
-        assert done.returncode in ends, f"{text}\nended with {done.returncode}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
+        done = subprocess.run(
+            ["bash", "-c", script], cwd=self.folder, env=self.environment, capture_output=True, text=True, check=False
+        )
+        assert (
+            done.returncode in ends
+        ), f"{text}\nended with {done.returncode}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
         return done.stdout + done.stderr
 
     def path(self, *parts):

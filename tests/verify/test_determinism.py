@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""The same case run twice, on one, two and three threads, interrupted and taken up again, with other output intervals, with and without
-watch and checkpoints, gives the same results to the last bit; in double, mixed and single precision, with subcycling, and with contact by
-multipliers. `--program FILE` takes another build, such as one for a GPU, and compares two of its runs instead of numbers of threads."""
+"""The same case run twice, on one, two and three threads, interrupted and taken up again, with other output intervals,
+with and without watch and checkpoints, gives the same results to the last bit; in double, mixed and single precision,
+with subcycling, and with contact by multipliers. `--program FILE` takes another build, such as one for a GPU, and
+compares two of its runs instead of numbers of threads."""
 
 import os
 import pathlib
@@ -57,7 +58,10 @@ def repeats(case, *overrides):
         failed = False
         for name, threads in (("again", 1), ("two_threads", 2), ("three_threads", 3)):
             different = differences(once, run(case, folder / name, threads, overrides))
-            print(f"{' '.join([case, *overrides])}, {name}: {len(different)} of {len(once)} datasets differ {different[:5]}")
+            print(
+                f"{' '.join([case, *overrides])}, {name}: {len(different)} of {len(once)} datasets differ"
+                f" {different[:5]}"
+            )
             failed = failed or bool(different)
         print(f"{numbers(once)} numbers compared")
         if numbers(once) < 10000:
@@ -67,12 +71,19 @@ def repeats(case, *overrides):
 
 
 def at_common_times(first, second):
-    """Names of arrays that differ at times that both have, and the number of those times. Every array that grows lies beside its `time`, or
-    below it in the history and in contacts."""
+    """Names of arrays that differ at times that both have, and the number of those times. Every array that grows lies
+    beside its `time`, or below it in the history and in contacts."""
     different, common = [], 0
     for name in first:
         parts = name.split("/")
-        folder = next((folder for folder in ("/".join(parts[:n]) for n in range(len(parts) - 1, 0, -1)) if folder + "/time" in first), None)
+        folder = next(
+            (
+                folder
+                for folder in ("/".join(parts[:n]) for n in range(len(parts) - 1, 0, -1))
+                if folder + "/time" in first
+            ),
+            None,
+        )
         if folder is None or name not in second:
             continue
         times = numpy.intersect1d(first[folder + "/time"], second[folder + "/time"])
@@ -86,8 +97,9 @@ def at_common_times(first, second):
 
 
 def interrupted(case, folder, threads, overrides, settled):
-    """Results of a run that was interrupted as often as its wall time asks, and taken up again. It begins with the settled state of the folder `settled`:
-    settling that is interrupted ends elsewhere within its tolerance (docs/restart.md)."""
+    """Results of a run that was interrupted as often as its wall time asks, and taken up again. It begins with the
+    settled state of the folder `settled`: settling that is interrupted ends elsewhere within its tolerance
+    (docs/restart.md)."""
     folder.mkdir()
     for state in settled.glob("settled-*.h5"):
         shutil.copy(state, folder)
@@ -96,7 +108,10 @@ def interrupted(case, folder, threads, overrides, settled):
     for attempt in range(200):
         restart = ["--restart"] if any(folder.glob("results.checkpoint.h5*")) else []
         wall = ["--wall-time", f"{0.05 + 0.1 * attempt:g}"]
-        code = subprocess.run([PROGRAM, "run", HERE / case, *overrides, *wall, *restart], cwd=folder, env=environment, stdout=subprocess.DEVNULL).returncode
+        code = subprocess.run(
+            [PROGRAM, "run", HERE / case, *overrides, *wall, *restart],
+            cwd=folder, env=environment, stdout=subprocess.DEVNULL,
+        ).returncode
         parts += 1
         if code == 0:
             return results_in(folder), parts
@@ -120,19 +135,31 @@ def same_whatever_is_told(case, *overrides):
         for name, more in kinds.items():
             other = run(case, folder / name, 3 if name == "three_threads" else 1, [*overrides, *more])
             different, common = at_common_times(once, other)
-            print(f"{' '.join([case, *overrides])}, {name}: {len(different)} of {len(once)} arrays differ at {common} common times {different[:5]}")
+            print(
+                f"{' '.join([case, *overrides])}, {name}: {len(different)} of {len(once)} arrays differ at"
+                f" {common} common times {different[:5]}"
+            )
             failed = failed or bool(different) or common < 4
         # Outputs' intervals choose the step, unless it is given.
         with h5py.File(folder / "once" / "results.h5", "r") as results:
             given = [*overrides, "--set", f"time.step={float(results.attrs['step_size'])!r}"]
         once_given = run(case, folder / "given", 1, given)
-        other = run(case, folder / "other_outputs", 1, [*given, "--set", "output.history_interval=1.2e-6", "--set", "output.field_interval=1.5e-5"])
+        other = run(
+            case, folder / "other_outputs", 1,
+            [*given, "--set", "output.history_interval=1.2e-6", "--set", "output.field_interval=1.5e-5"],
+        )
         different, common = at_common_times(once_given, other)
-        print(f"{' '.join([case, *overrides])}, other outputs: {len(different)} of {len(once)} arrays differ at {common} common times {different[:5]}")
+        print(
+            f"{' '.join([case, *overrides])}, other outputs: {len(different)} of {len(once)} arrays differ at"
+            f" {common} common times {different[:5]}"
+        )
         failed = failed or bool(different) or common < 4
         other, parts = interrupted(case, folder / "interrupted", 2, overrides, folder / "once")
         different = differences(once, other)
-        print(f"{' '.join([case, *overrides])}, in {parts} parts on two threads: {len(different)} of {len(once)} datasets differ {different[:5]}")
+        print(
+            f"{' '.join([case, *overrides])}, in {parts} parts on two threads: {len(different)} of {len(once)} datasets"
+            f" differ {different[:5]}"
+        )
         failed = failed or bool(different)
     return not failed
 
@@ -149,14 +176,29 @@ def twice(program, case, overrides):
     return not different and numbers(once) > 10000
 
 
-DAMPED = ("--set", "parts.upper.stiffness_damping=2e-9", "--set", "parts.upper.mass_damping=20", "--set", "contacts.touch.damping=0.05")
+DAMPED = (
+    "--set",
+    "parts.upper.stiffness_damping=2e-9",
+    "--set",
+    "parts.upper.mass_damping=20",
+    "--set",
+    "contacts.touch.damping=0.05",
+)
 
 
 def main():
     if len(sys.argv) > 2 and sys.argv[1] == "--program":
-        return 0 if all([twice(sys.argv[2], case, sys.argv[3:]) for case in ("two_blocks.toml", "graded_rail.toml")]) else 1
-    checks = [repeats("two_blocks.toml"), repeats("graded_rail.toml"), repeats("two_blocks.toml", "--set", "solver.precision=float"),
-              repeats("two_blocks.toml", "--set", "contacts.touch.algorithm=multiplier")]
+        return (
+            0
+            if all([twice(sys.argv[2], case, sys.argv[3:]) for case in ("two_blocks.toml", "graded_rail.toml")])
+            else 1
+        )
+    checks = [
+        repeats("two_blocks.toml"),
+        repeats("graded_rail.toml"),
+        repeats("two_blocks.toml", "--set", "solver.precision=float"),
+        repeats("two_blocks.toml", "--set", "contacts.touch.algorithm=multiplier"),
+    ]
     for precision in ("double", "mixed"):
         of_precision = ("--set", f"solver.precision={precision}")
         checks.append(same_whatever_is_told("two_blocks.toml", *of_precision, *DAMPED))

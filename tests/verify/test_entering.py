@@ -48,7 +48,8 @@ end = {end}
 history_interval = {interval}
 """
 TOP, ALL = '"low.z_max"', '["low.z_max", "low.y_max", "low.x_max", "low.x_min", "low.y_min"]'
-# Where the upper body begins, where it goes: from beside under the top's edge; through the edge; through the corner; from beside, but 0.1 um under the top.
+# Where the upper body begins, where it goes: from beside under the top's edge; through the edge; through the corner;
+# from beside, but 0.1 um under the top.
 WAYS = {
     "beside": ([0.0003, 0.0101, 0.0095], [0, -1, 0]),
     "edge": ([0.0003, 0.01 + 2e-5, 0.01 + 2e-5], [0, -1, -1]),
@@ -65,8 +66,15 @@ class Entering(unittest.TestCase):
         end = min(2e-3, 6e-4 / speed)
         with tempfile.TemporaryDirectory(prefix="railwave-") as name:
             folder = pathlib.Path(name)
-            (folder / "case.toml").write_text(CASE.format(position=position, velocity=velocity, slave=slave, master=master, algorithm=algorithm, end=end, interval=end / 50))
-            done = subprocess.run([PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, check=False)
+            (folder / "case.toml").write_text(
+                CASE.format(
+                    position=position, velocity=velocity, slave=slave, master=master, algorithm=algorithm, end=end,
+                    interval=end / 50,
+                )
+            )
+            done = subprocess.run(
+                [PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, check=False
+            )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             with h5py.File(folder / "results" / "case" / "case.h5") as file:
                 energy = file["history/energy"]

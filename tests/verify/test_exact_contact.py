@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The exact solutions that scripts/verify_contact compares with, against figures found elsewhere, their own integrals, and each
-other; and its areas, of a patch that is known."""
+"""The exact solutions that scripts/verify_contact compares with, against figures found elsewhere, their own integrals,
+and each other; and its areas, of a patch that is known."""
 
 import os
 import pathlib

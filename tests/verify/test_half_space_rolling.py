@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The steady rolling of half-spaces that scripts/verify_contact compares with (verification.half_space) against what others found:
-Kalker's CONTACT, his linear creep coefficients, and Coulomb's law itself."""
+"""The steady rolling of half-spaces that scripts/verify_contact compares with (verification.half_space) against what
+others found: Kalker's CONTACT, his linear creep coefficients, and Coulomb's law itself."""
 
 import os
 import pathlib
@@ -51,8 +51,8 @@ class HalfSpaceRolling(unittest.TestCase):
             self.assertGreater(np.mean(sticks == (field[:, 5] == 1)), 0.97, letter)
 
     def test_kalkers_linear_coefficients(self):
-        """Circle, nu 0.25: C11 4.12, C22 3.67, C23 1.47 (Kalker 1990, table E.3); the moment of lateral creepage is C23's too. So much
-        friction that nothing slips but at the edge."""
+        """Circle, nu 0.25: C11 4.12, C22 3.67, C23 1.47 (Kalker 1990, table E.3); the moment of lateral creepage is
+        C23's too. So much friction that nothing slips but at the edge."""
         hertz = Hertz(1e5, 0.46, 0.46, QuarterPoisson)
         c, modulus = hertz.a, QuarterPoisson.shear_modulus()
 
@@ -68,19 +68,28 @@ class HalfSpaceRolling(unittest.TestCase):
         self.assertLess(abs(lateral[2] / (-modulus * c**3 * 1.47) - 1), 0.03)
 
     def test_creepages_in_a_ring(self):
-        """Without traction those prescribed; with it what differences of the displacement, an integral over rectangles, give."""
+        """Without traction those prescribed; with it what differences of the displacement, an integral over rectangles,
+        give."""
         hertz = Hertz(1e5, 0.46, 0.30)
-        for found, prescribed in zip(SteadyRolling(hertz, 1e-9, (0.003, 0.002, 0.1), 10).creepages_round(1.5, 3), (0.003, 0.002, 0.1)):
+        for found, prescribed in zip(
+            SteadyRolling(hertz, 1e-9, (0.003, 0.002, 0.1), 10).creepages_round(1.5, 3), (0.003, 0.002, 0.1)
+        ):
             self.assertAlmostEqual(found, prescribed, places=9)
         solution = SteadyRolling(hertz, 0.45, (0.003, 0.004, 0), 20)
-        nu, modulus, angle = Steel.poissons_ratio, Steel.shear_modulus(), 1e-3 + np.linspace(0, 2 * np.pi, 720, endpoint=False)
+        nu, modulus, angle = (
+            Steel.poissons_ratio,
+            Steel.shear_modulus(),
+            1e-3 + np.linspace(0, 2 * np.pi, 720, endpoint=False),
+        )
         radius = 3 * max(hertz.a, hertz.b)
         x, y = radius * np.cos(angle), radius * np.sin(angle)
 
         def displacement(px, py):
             xx, yy, xy = influence(px[:, None] - solution.x, py[:, None] - solution.y, solution.h, solution.k)
             along, across = solution.shear.T
-            return np.array([(xx + (1 - nu) * yy) @ along + nu * xy @ across, nu * xy @ along + (yy + (1 - nu) * xx) @ across]) / (np.pi * modulus)
+            return np.array(
+                [(xx + (1 - nu) * yy) @ along + nu * xy @ across, nu * xy @ along + (yy + (1 - nu) * xx) @ across]
+            ) / (np.pi * modulus)
 
         step = 1e-5
         velocity = -(displacement(x + step, y) - displacement(x - step, y)) / (2 * step)
@@ -88,7 +97,9 @@ class HalfSpaceRolling(unittest.TestCase):
         self.assertGreater(spin, 1e-3)
         found = solution.creepages_round(2.99, 3, 1500)
         self.assertLess(abs(found[2] / spin - 1), 0.01)
-        self.assertLess(np.linalg.norm(np.array(found[:2]) - [0.003 - velocity[0].mean(), 0.004 - velocity[1].mean()]), 1e-7)
+        self.assertLess(
+            np.linalg.norm(np.array(found[:2]) - [0.003 - velocity[0].mean(), 0.004 - velocity[1].mean()]), 1e-7
+        )
 
     def test_coulombs_law(self):
         hertz = Hertz(1e5, 0.46, 0.30)

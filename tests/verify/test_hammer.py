@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Hammer tests on bodies whose accelerance is known: a block on a spring and a dashpot, and a free bar struck at its end. From the case
-file to what `railwave frf` writes."""
+"""Hammer tests on bodies whose accelerance is known: a block on a spring and a dashpot, and a free bar struck at its
+end. From the case file to what `railwave frf` writes."""
 import cmath
 import math
 import sys
@@ -107,15 +107,24 @@ def check_block(folder):
 
 def check_bar(folder):
     modulus, area, density, beta = 210e9, 4e-4, 7800, 1e-6
-    found, printed = hammers.responses([hammers.run(folder, "bar", BAR)], "--to", "9000", "--response", "blow", "--response", "far")
+    found, printed = hammers.responses(
+        [hammers.run(folder, "bar", BAR)], "--to", "9000", "--response", "blow", "--response", "far"
+    )
     speed = math.sqrt(modulus / density)
     told = hammers.peaks(printed)
     assert len(told) == 6, printed
     for mode in (1, 2, 3):
         for frequency, damping in (told[mode - 1], told[mode + 2]):
-            hammers.show(f"free bar, resonance {mode} at {mode * speed / 2:.0f} Hz", abs(frequency / (mode * speed / 2) - 1), 0.002)
+            hammers.show(
+                f"free bar, resonance {mode} at {mode * speed / 2:.0f} Hz",
+                abs(frequency / (mode * speed / 2) - 1),
+                0.002,
+            )
             hammers.show("its damping", abs(damping / (0.5 * beta * math.pi * mode * speed) - 1), 0.05)
-    for name, wave in (("bar.blow", lambda kl: cmath.cos(kl) / cmath.sin(kl)), ("bar.far", lambda kl: 1 / cmath.sin(kl))):
+    for name, wave in (
+        ("bar.blow", lambda kl: cmath.cos(kl) / cmath.sin(kl)),
+        ("bar.far", lambda kl: 1 / cmath.sin(kl)),
+    ):
         worst = 0.0
         for frequency, value in found[name]:
             if not 100 <= frequency <= 8500:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The verification cases of the contact at ten elements over the patch, by multipliers, within what is promised of them. The
-whole table, with other meshes, algorithms and penalties, is scripts/verify_contact's."""
+"""The verification cases of the contact at ten elements over the patch, by multipliers, within what is promised of
+them. The whole table, with other meshes, algorithms and penalties, is scripts/verify_contact's."""
 
 import os
 import pathlib
@@ -31,7 +31,10 @@ class ContactCases(unittest.TestCase):
 
             contact = CASES[name].contact
             outcome = CASES[name](run, name, 10, [f"contacts.{contact}.algorithm=multiplier"], points)
-            return {what.strip(): (computed / exact - 1 if exact else computed) for what, computed, exact, _ in outcome.figures}
+            return {
+                what.strip(): (computed / exact - 1 if exact else computed)
+                for what, computed, exact, _ in outcome.figures
+            }
 
     def check(self, figures, limits):
         for what, limit in limits.items():
@@ -52,13 +55,21 @@ class ContactCases(unittest.TestCase):
 
     def test_rolling(self):
         self.check(self.figures("rolling", ["a"]), {"(a) creepage for these forces": 0.06, "(a) stick share": 0.10,
-                                                    "(a) direction of the creep force": 5, "(a) direction of the shear": 5,
+                                                    "(a) direction of the creep force": 5,
+                                                    "(a) direction of the shear": 5,
                                                     "(a) longitudinal creepage, of the bodies' motion": 0.06})
 
     def test_rolling_with_one_creepage_alone(self):
         for point in ("longitudinal", "lateral", "spin"):
-            self.check(self.figures("rolling", [point]), {f"({point}) creepage for these forces": 0.06, f"({point}) stick share of the patch, zero line": 0.10,
-                                                          f"({point}) direction of the creep force": 5, f"({point}) direction of the shear": 5})
+            self.check(
+                self.figures("rolling", [point]),
+                {
+                    f"({point}) creepage for these forces": 0.06,
+                    f"({point}) stick share of the patch, zero line": 0.10,
+                    f"({point}) direction of the creep force": 5,
+                    f"({point}) direction of the shear": 5,
+                },
+            )
 
 
 if __name__ == "__main__":

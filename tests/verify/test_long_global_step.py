@@ -1,4 +1,5 @@
-"""The rolling case for 100 000 steps of the global estimate: what it gains over the element estimate, and no instability.
+"""The rolling case for 100 000 steps of the global estimate: what it gains over the element estimate, and no
+instability.
 
 The wheel rolls so slowly that it stays in its zone for all the steps. Prints every figure.
 
@@ -31,7 +32,10 @@ def main():
     stable = float(re.search(r"highest frequency: ([0-9.e+-]+) s", told).group(1))
     mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", told).group(1))
     weight = mass * -case["gravity"]["acceleration"][2] - case["connectors"]["primary_suspension"]["preload"][2]
-    print(f"stable step by element heights {by_elements:.4g} s, by the global estimate {stable:.4g} s: gain {stable / by_elements:.3f}")
+    print(
+        f"stable step by element heights {by_elements:.4g} s, by the global estimate {stable:.4g} s: gain"
+        f" {stable / by_elements:.3f}"
+    )
 
     end = STEPS * case["time"].get("step_scale", 0.9) * stable
     speed = min(DISTANCE / end, case["initial_motion"]["roll"]["velocity"][0])
@@ -51,7 +55,10 @@ def main():
             tangential = history["contact/tread/tangential_force"][:]
             energy = {name: history["energy"][name][:] for name in history["energy"]}
     vertical = (normal + tangential)[:, 2]
-    print(f"{steps} steps; mean step over the element estimate's {end / steps / (case['time'].get('step_scale', 0.9) * by_elements):.3f}")
+    print(
+        f"{steps} steps; mean step over the element estimate's"
+        f" {end / steps / (case['time'].get('step_scale', 0.9) * by_elements):.3f}"
+    )
     show("steps short of those asked for, of them", 1 - steps / STEPS, 0.1)
     show("mean vertical contact force against total weight", abs(vertical.mean() / weight - 1), 0.01)
     last = vertical[len(vertical) // 2:]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Three metres of track: what one place answers to a blow at another is what that answers to a blow at the first (thesis 4.3.4), vertical,
-and vertical to lateral."""
+"""Three metres of track: what one place answers to a blow at another is what that answers to a blow at the first
+(thesis 4.3.4), vertical, and vertical to lateral."""
 import math
 import tempfile
 
@@ -43,7 +43,9 @@ HERE, THERE = [-0.3, -0.004, 0.159], [0.6, 0.0325, 0.145]
 
 def answer(folder, name, struck, direction, heard, along):
     text = TRACK.format(hammer="blow", probe="ear", struck=struck, heard=heard, direction=direction)
-    found, _ = hammers.responses([hammers.run(folder, name, text)], "--response", f"ear:{along}", "--from", "100", "--to", "5000")
+    found, _ = hammers.responses(
+        [hammers.run(folder, name, text)], "--response", f"ear:{along}", "--from", "100", "--to", "5000"
+    )
     return [value for _, value in next(iter(found.values()))]
 
 

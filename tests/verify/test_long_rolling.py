@@ -35,9 +35,14 @@ def check(results, case):
         show("settled: vertical contact force against total weight", abs(on_wheel[0, 2] / weight - 1), 0.01)
         show("rolling: mean vertical contact force against total weight", abs(on_wheel[:, 2].mean() / weight - 1), 0.01)
         size = np.abs(on_wheel).max()
-        show("forces on wheel and rail: largest sum, of the largest force", np.abs(on_wheel + on_rail).max() / size, 1e-14)
+        show(
+            "forces on wheel and rail: largest sum, of the largest force",
+            np.abs(on_wheel + on_rail).max() / size,
+            1e-14,
+        )
 
-        # Torque is full after the ramp; the wheel's spin and the contact swing in after it. The last millisecond counts.
+        # Torque is full after the ramp; the wheel's spin and the contact swing in after it. The last millisecond
+        # counts.
         drive = case["loads"]["drive"]
         radius = case["meshes"]["wheel"].get("radius", 0.46)
         settled = moment > moment[-1] - 1e-3

@@ -1,7 +1,8 @@
-"""Taylor's bar (cases/verify/taylor_bar.toml): final length and radius of the foot against published figures, within 2 %.
+"""Taylor's bar (cases/verify/taylor_bar.toml): final length and radius of the foot against published figures, within
+2 %.
 
-The benchmark is known as that of Kamoulakos (1990). Reprinted for it are final lengths of 21.42 to 21.47 mm and foot radii of
-7.02 to 7.21 mm, Hallquist's DYNA and NIKE among them (DYNA3D: 21.47 mm, 7.03 mm). Prints every figure.
+The benchmark is known as that of Kamoulakos (1990). Reprinted for it are final lengths of 21.42 to 21.47 mm and foot
+radii of 7.02 to 7.21 mm, Hallquist's DYNA and NIKE among them (DYNA3D: 21.47 mm, 7.03 mm). Prints every figure.
 
 RAILWAVE_OPTIONS   further --set options, divided by blanks, such as parts.bar.linear_bulk_viscosity=0.06
 """
@@ -30,8 +31,10 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "taylor_bar.h5")
         options = [f"output.file={results}", *os.environ.get("RAILWAVE_OPTIONS", "").split()]
-        told = subprocess.run([figures.PROGRAM, "run", case, *(word for option in options for word in ("--set", option))],
-                              capture_output=True, text=True, check=False)
+        told = subprocess.run(
+            [figures.PROGRAM, "run", case, *(word for option in options for word in ("--set", option))],
+            capture_output=True, text=True, check=False,
+        )
         if told.returncode != 0:
             sys.exit(told.stdout[-3000:] + told.stderr[-3000:])
         print("\n".join(told.stdout.splitlines()[-25:]))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A small rolling scene in mixed and in single precision against double: scripts/compare_precisions tells the deviations."""
+"""A small rolling scene in mixed and in single precision against double: scripts/compare_precisions tells the
+deviations."""
 
 import importlib.machinery
 import importlib.util
@@ -38,9 +39,12 @@ def load_script():
 def main():
     script = load_script()
     overrides = [word for override in SMALL for word in ("--set", override)]
-    found = script.compare(script.parse([str(SOURCE / "cases" / "rolling.toml"), "--program", str(PROGRAM), *overrides]))
+    found = script.compare(
+        script.parse([str(SOURCE / "cases" / "rolling.toml"), "--program", str(PROGRAM), *overrides])
+    )
     script.show(found)
-    # The wheel turns by 3.5 degrees and moves by 28 mm; plain displacements in single precision would leave nothing right.
+    # The wheel turns by 3.5 degrees and moves by 28 mm; plain displacements in single precision would leave nothing
+    # right.
     limits = {"mixed": 1e-4, "float": 1e-3}
     failures = [f"{precision}, {name}: {figures[0]:.2e} is above {limits[precision]:g}"
                 for precision, all_figures in found.items() for name, figures in all_figures.items()

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Contact with smooth normals keeps the account of energy: a crowned roller strikes a block, straight and aslant, the roller's surface or the
-block's being the master, by springs and by multipliers. Between facets of other normals than the surfaces bend to, half a per cent had been missing."""
+"""Contact with smooth normals keeps the account of energy: a crowned roller strikes a block, straight and aslant, the
+roller's surface or the block's being the master, by springs and by multipliers. Between facets of other normals than
+the surfaces bend to, half a per cent had been missing."""
 import itertools
 import os
 import pathlib
@@ -76,10 +77,21 @@ history_interval = 1e-7
 
 class Energy(unittest.TestCase):
     def impact(self, **changes):
-        said = {"slave": "roller", "master": "block", "normals": "smooth", "friction": 0, "along": 0, "more": "", **changes}
+        said = {
+            "slave": "roller",
+            "master": "block",
+            "normals": "smooth",
+            "friction": 0,
+            "along": 0,
+            "more": "",
+            **changes,
+        }
         with tempfile.TemporaryDirectory() as folder:
             (pathlib.Path(folder) / "case.toml").write_text(CASE.format(**said))
-            done = subprocess.run([PROGRAM, "run", "case.toml", "--set", "output.file=r.h5"], capture_output=True, text=True, cwd=folder, check=False)
+            done = subprocess.run(
+                [PROGRAM, "run", "case.toml", "--set", "output.file=r.h5"],
+                capture_output=True, text=True, cwd=folder, check=False,
+            )
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             with h5py.File(pathlib.Path(folder) / "r.h5") as results:
                 history = results["history"]
@@ -88,11 +100,16 @@ class Energy(unittest.TestCase):
         self.assertGreater(force.max(), 300)
         self.assertEqual(force[-1], 0)
         missing = np.abs(energy["balance_error"]).max() / energy["internal"].max()
-        print(f"{said['master']:6s} is master, {said['normals']:6s} {said['more']:28s} friction {said['friction']}, {said['along']} m/s along: {missing:.1e} of the elastic energy missing")
+        print(
+            f"{said['master']:6s} is master, {said['normals']:6s} {said['more']:28s} friction {said['friction']},"
+            f" {said['along']} m/s along: {missing:.1e} of the elastic energy missing"
+        )
         return missing, energy
 
     def test_straight(self):
-        for (slave, master), algorithm in itertools.product((("roller", "block"), ("block", "roller")), ("penalty", "multiplier")):
+        for (slave, master), algorithm in itertools.product(
+            (("roller", "block"), ("block", "roller")), ("penalty", "multiplier")
+        ):
             with self.subTest(master=master, algorithm=algorithm):
                 missing, energy = self.impact(slave=slave, master=master, more=f'algorithm = "{algorithm}"')
                 # Facets leave 2e-5 to 6e-5; the gap's bend over the facets alone, which nobody booked, 5e-3.
@@ -101,7 +118,10 @@ class Energy(unittest.TestCase):
                     self.assertLess(np.abs(energy["contact"][-1]), 1e-12)
 
     def test_aslant_with_friction(self):
-        for (slave, master), more in itertools.product((("roller", "block"), ("block", "roller")), ("damping = 0.1", "symmetric = true", 'algorithm = "multiplier"')):
+        for (slave, master), more in itertools.product(
+            (("roller", "block"), ("block", "roller")),
+            ("damping = 0.1", "symmetric = true", 'algorithm = "multiplier"'),
+        ):
             with self.subTest(master=master, more=more):
                 missing, energy = self.impact(slave=slave, master=master, more=more, friction=0.3, along=2)
                 # Facets leave 7e-5 to 1.1e-4, and half of it at half the step.

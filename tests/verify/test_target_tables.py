@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What scripts read of a table that a user gives (scripts/number_table.py): columns by name, numbers wholly understood or refused."""
+"""What scripts read of a table that a user gives (scripts/number_table.py): columns by name, numbers wholly understood
+or refused."""
 import os
 import pathlib
 import sys
@@ -20,7 +21,9 @@ GOOD = [
     b"amplitude, frequency\r0.5, 80\r1e-3, 100\r",
 ]
 BAD = {
-    b"frequency;amplitude\n80;0,5\n": "table.csv:2: column 2 (amplitude): '0,5' has a comma in it: a decimal comma? then write 0.5",
+    b"frequency;amplitude\n80;0,5\n": (
+        "table.csv:2: column 2 (amplitude): '0,5' has a comma in it: a decimal comma? then write 0.5"
+    ),
     b"frequency,amplitude\n80,0,5\n": "table.csv:2: has 3 values, must have 2",
     b"frequency,amplitude\n80 Hz,1\n": "column 1 (frequency): '80 Hz' has something behind the number",
     b"frequency,amplitude\n80,nan\n": "'nan' is no finite decimal number",
@@ -33,8 +36,12 @@ BAD = {
     b"frequency,amplitude\n80,\n": "'' is empty",
     b"frequency,amplitude\n80,1,\n": "has 3 values, must have 2",
     b"frequency,amplitude\n80,\"1\"\n": "stands in quotes",
-    b"frequency,amplitude\nfrequency,amplitude\n": "table.csv:2: column 1 (frequency): 'frequency' is no finite decimal number",
-    b"frequency,level\n80,1\n": "table.csv:1: the line of names is 'frequency,level', must have the column amplitude once",
+    b"frequency,amplitude\nfrequency,amplitude\n": (
+        "table.csv:2: column 1 (frequency): 'frequency' is no finite decimal number"
+    ),
+    b"frequency,level\n80,1\n": (
+        "table.csv:1: the line of names is 'frequency,level', must have the column amplitude once"
+    ),
     b"frequency,amplitude,amplitude\n80,1,2\n": "must have the column amplitude once",
     b"80,1\n": "must have the column frequency once",
     b"": "table.csv:1: is empty",
@@ -53,7 +60,9 @@ class Tables(unittest.TestCase):
     def test_good(self):
         for content in GOOD:
             with self.subTest(content):
-                self.assertEqual([(row["frequency"], row["amplitude"]) for row in self.read(content)], [(80, 0.5), (100, 1e-3)])
+                self.assertEqual(
+                    [(row["frequency"], row["amplitude"]) for row in self.read(content)], [(80, 0.5), (100, 1e-3)]
+                )
 
     def test_bad(self):
         for content, wanted in BAD.items():
@@ -65,7 +74,17 @@ class Tables(unittest.TestCase):
     def test_nothing_asks_the_locale(self):
         for path in [*(SOURCE / "src").rglob("*.[ch]pp"), *(SOURCE / "kernels").rglob("*.hpp")]:
             text = path.read_text(encoding="utf-8")
-            for word in ("strtod(", "strtof(", "std::stod", "std::stof", "atof(", "sscanf(", "setlocale", "std::locale", ":L}"):
+            for word in (
+                "strtod(",
+                "strtof(",
+                "std::stod",
+                "std::stof",
+                "atof(",
+                "sscanf(",
+                "setlocale",
+                "std::locale",
+                ":L}",
+            ):
                 self.assertNotIn(word, text, path)
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Ends of contact surfaces: foreseen by `railwave check`, told in the run, fatal where a closed contact loses its last nodes over one; and not told where
-whole faces touch, contacts lift off, or a surface goes on behind a gap. Each case is a scene, how long it runs, and what must and must not be said."""
+"""Ends of contact surfaces: foreseen by `railwave check`, told in the run, fatal where a closed contact loses its last
+nodes over one; and not told where whole faces touch, contacts lift off, or a surface goes on behind a gap. Each case is
+a scene, how long it runs, and what must and must not be said."""
 import os
 import pathlib
 import re
@@ -44,8 +45,14 @@ def held(target, directions=("x", "y", "z"), name="held"):
 
 def slider(plates, contacts, end, start=0.0103, velocity="[20, 0, 0]"):
     """A block of 10 mm that is pressed on plates along x and slides."""
-    return (STEEL + plates + box("slider", [0.0101, 0.009, 0.01], [5, 5, 5], [start, 0.0015, 0.01]) + contacts
-            + f'[loads.p]\ntype = "pressure"\ntarget = "slider.z_max"\npressure = 20e6\n[initial_motion.go]\nparts = ["slider"]\nvelocity = {velocity}\n[time]\nend = {end}\n')
+    return (
+        STEEL
+        + plates
+        + box("slider", [0.0101, 0.009, 0.01], [5, 5, 5], [start, 0.0015, 0.01])
+        + contacts
+        + '[loads.p]\ntype = "pressure"\ntarget = "slider.z_max"\npressure = 20e6\n[initial_motion.go]\nparts ='
+        f' ["slider"]\nvelocity = {velocity}\n[time]\nend = {end}\n'
+    )
 
 
 PLATE = box("plate", [0.03, 0.012, 0.01], [15, 6, 5], [0, 0, 0]) + held("plate.z_min")
@@ -57,13 +64,19 @@ SWAPPED = '[contacts.slide]\nslave = "plate.z_max"\nmaster = "slider.z_min"\n'
 
 def slab(position, size, divisions, velocity, end):
     """Dropped or laid on a small block."""
-    return (STEEL + box("low", [0.01, 0.01, 0.01], [4, 4, 4], [0, 0, 0]) + box("up", size, divisions, position) + held("low.z_min")
-            + f'[contacts.c]\nslave = "up.z_min"\nmaster = "low.z_max"\n[initial_motion.go]\nparts = ["up"]\nvelocity = {velocity}\n[time]\nend = {end}\n')
+    return (
+        STEEL
+        + box("low", [0.01, 0.01, 0.01], [4, 4, 4], [0, 0, 0])
+        + box("up", size, divisions, position)
+        + held("low.z_min")
+        + '[contacts.c]\nslave = "up.z_min"\nmaster = "low.z_max"\n[initial_motion.go]\nparts = ["up"]\nvelocity ='
+        f' {velocity}\n[time]\nend = {end}\n'
+    )
 
 
 def roller(master, end, keys="", slave="roller.tread", aside=0):
-    """A roller of 50 mm that rolls over a crowned block to its end at x = 30 mm; the block's fine zone reaches to 14 mm. Its own fine zone reaches
-    4 mm to both sides of its middle, which may be `aside` of the block's crown, m."""
+    """A roller of 50 mm that rolls over a crowned block to its end at x = 30 mm; the block's fine zone reaches to 14
+    mm. Its own fine zone reaches 4 mm to both sides of its middle, which may be `aside` of the block's crown, m."""
     return STEEL + f"""
 [meshes.roller]
 type = "roller"
@@ -120,16 +133,40 @@ SCENES = {
     "stays on it": (slider(PLATE, ON_PLATE, 0.3e-3), 0, set(), set()),
     "stays on it, roles swapped": (slider(PLATE, SWAPPED, 0.3e-3), 0, set(), set()),
     "stays on it, symmetric": (slider(PLATE, ON_PLATE + "symmetric = true\n", 0.3e-3), 0, set(), set()),
-    "bounces off it": (slider(PLATE, ON_PLATE, 0.3e-3, velocity="[20, 0, -2]").replace("pressure = 20e6", "pressure = 1").replace("0.0015, 0.01]", "0.0015, 0.010005]"), 0, set(), set()),
+    "bounces off it": (
+        slider(PLATE, ON_PLATE, 0.3e-3, velocity="[20, 0, -2]")
+        .replace("pressure = 20e6", "pressure = 1")
+        .replace("0.0015, 0.01]", "0.0015, 0.010005]"),
+        0,
+        set(),
+        set(),
+    ),
     "goes on to the next plate": (slider(PLATE + NEXT_PLATE, ON_PLATE + ON_NEXT, 0.9e-3), 0, set(), set()),
-    "a wide slab bounces on a block": (slab([-0.01, -0.01, 0.01001], [0.03, 0.03, 0.006], [12, 12, 3], "[0, 0, -2]", 2e-4), 0, set(), set()),
-    "a slab that overhangs at one side bounces": (slab([0.004, 0.0002, 0.01001], [0.01, 0.01, 0.006], [4, 4, 3], "[0, 0, -2]", 1e-4), 0, set(), set()),
+    "a wide slab bounces on a block": (
+        slab([-0.01, -0.01, 0.01001], [0.03, 0.03, 0.006], [12, 12, 3], "[0, 0, -2]", 2e-4),
+        0,
+        set(),
+        set(),
+    ),
+    "a slab that overhangs at one side bounces": (
+        slab([0.004, 0.0002, 0.01001], [0.01, 0.01, 0.006], [4, 4, 3], "[0, 0, -2]", 1e-4),
+        0,
+        set(),
+        set(),
+    ),
     "two alike": (slab([0, 0, 0.01001], [0.01, 0.01, 0.006], [4, 4, 3], "[0, 0, -2]", 1e-4), 0, set(), set()),
     "never closes": (slab([0, 0, 0.0102], [0.01, 0.01, 0.006], [4, 4, 3], "[0, 0, 1]", 2e-5), 0, set(), {NEVER}),
     "rolls off a block": (roller("block.top", 1.6e-3), 3, {FORESEEN}, {FORESEEN, AT_END, OUTSIDE, LOST}),
     "rolls out of a set": (roller("block.zone", 0.8e-3), 3, {FORESEEN}, {FORESEEN, AT_END, LOST}),
     "rolls within the zone": (roller("block.top", 0.1e-3), 0, set(), set()),
-    "rolls beside the fine zone": (roller("block.top", 0.1e-3, aside=0.022).replace("side_start = -0.008", "side_start = -0.04").replace("coarse_size = 0.003", "coarse_size = 0.01"), 0, set(), {OUTSIDE}),
+    "rolls beside the fine zone": (
+        roller("block.top", 0.1e-3, aside=0.022)
+        .replace("side_start = -0.008", "side_start = -0.04")
+        .replace("coarse_size = 0.003", "coarse_size = 0.01"),
+        0,
+        set(),
+        {OUTSIDE},
+    ),
     "rolls on the side of a set": (roller("block.top", 0.07e-3, slave="roller.zone", aside=0.004), 0, set(), {AT_END}),
 }
 
@@ -154,7 +191,8 @@ def add_test(name, case, exit_code, checked, run):
             self.assertEqual(result.returncode, exit_code, result.stdout + result.stderr)
             self.said(result.stdout + result.stderr, run)
             if exit_code == 3:
-                # Soon after: at 20 to 30 m/s the middle of what slid or rolled is at most its own half length and 3 mm past the end.
+                # Soon after: at 20 to 30 m/s the middle of what slid or rolled is at most its own half length and 3 mm
+                # past the end.
                 time = float(re.search(r"lost all its nodes.*?t = ([0-9.e+-]+) s", result.stdout + result.stderr)[1])
                 self.assertLess(time, float(re.search(r"\[time\]\nend = (\S+)", case)[1]))
                 self.assertTrue((pathlib.Path(folder) / "results/case/case.fault.h5").exists())

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What `completed` says of the energy account, beside a heavy mass that travels: kept, broken (exit code 3), or not judged."""
+"""What `completed` says of the energy account, beside a heavy mass that travels: kept, broken (exit code 3), or not
+judged."""
 
 import os
 import pathlib
@@ -19,7 +20,8 @@ from two_blocks import two_blocks  # noqa: E402
 
 DONE, STOPPED = 0, 3
 
-# A blow on bodies one element thick: penalty springs err by some per cent of it (docs/watch.md). The traveller has 4.2 MJ.
+# A blow on bodies one element thick: penalty springs err by some per cent of it (docs/watch.md). The traveller has 4.2
+# MJ.
 CASE = two_blocks(([0.01, 0.01, 0.01], [1, 1, 1]), ([0.01, 0.01, 0.01], [1, 1, 1]), [0, 0, 0.010004]) + """\
 [points.traveller]
 mass = 10900
@@ -44,13 +46,23 @@ class EnergyAccount(unittest.TestCase):
         command = [PROGRAM, "run", "case.toml"]
         for override in overrides:
             command += ["--set", override]
-        run = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, check=False)
+        run = subprocess.run(
+            command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, check=False
+        )
         with h5py.File(pathlib.Path(folder, "results.h5"), "r") as results:
             error = float(abs(results["history/energy/balance_error"][()]).max())
-            return run.returncode, run.stdout, int(results.attrs["completed"]), error, float(results["history/energy/kinetic"][0])
+            return (
+                run.returncode,
+                run.stdout,
+                int(results.attrs["completed"]),
+                error,
+                float(results["history/energy/kinetic"][0]),
+            )
 
     def test_an_account_within_its_limit_is_kept(self):
-        code, said, completed, error, kinetic = self.run_case("contacts.between.algorithm=multiplier", "contacts.between.friction=0")
+        code, said, completed, error, kinetic = self.run_case(
+            "contacts.between.algorithm=multiplier", "contacts.between.friction=0"
+        )
         self.assertEqual((code, completed), (DONE, 1), said)
         self.assertIn("\ncompleted\n", said)
         self.assertIn("\n  energy account kept: error at most ", said)
@@ -69,7 +81,11 @@ class EnergyAccount(unittest.TestCase):
         code, said, completed, _, _ = self.run_case("watch.energy_error=0.0005", "watch.fatal_energy_error=0.001")
         self.assertEqual((code, completed), (STOPPED, 0), said)
         self.assertIn("energy account broken", said)
-        self.assertRegex(said, r"FAULT: energy balance: its error over what deformation has held and dissipated: .*, limit 0\.001; .*part (upper|lower)")
+        self.assertRegex(
+            said,
+            r"FAULT: energy balance: its error over what deformation has held and dissipated: .*, limit 0\.001;"
+            r" .*part (upper|lower)",
+        )
 
     def test_nobody_judges_where_the_watch_is_off(self):
         code, said, _, _, _ = self.run_case("watch.active=false", "watch.fatal_energy_error=0.001")

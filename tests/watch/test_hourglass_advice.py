@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The default hourglass control holds under 2 % of the energy in scenes of scripts/hourglass_table, and what the watch advises about a large share of hourglass
-energy makes that share smaller: each advice is followed."""
+"""The default hourglass control holds under 2 % of the energy in scenes of scripts/hourglass_table, and what the watch
+advises about a large share of hourglass energy makes that share smaller: each advice is followed."""
 
 import os
 import re
@@ -58,17 +58,25 @@ class Default(unittest.TestCase):
             with self.subTest(name):
                 said, energy = run(os.path.basename(scene.case), scene.overrides)
                 self.assertLess(taken(energy), 0.02)
-                self.assertIn("viscous hourglass control: element kernels read no velocities", said)  # so what it holds is stored, not lost
-                self.assertLess(abs(energy["balance_error"]).max(), 0.02 * (energy["kinetic"][0] + energy["external_work"].max()))
+                # so what it holds is stored, not lost
+                self.assertIn("viscous hourglass control: element kernels read no velocities", said)
+                self.assertLess(
+                    abs(energy["balance_error"]).max(), 0.02 * (energy["kinetic"][0] + energy["external_work"].max())
+                )
 
     def test_a_beam_two_elements_thick_swings_on(self):
         for control_of, least, most in (("stiffness", 0.99, 1.01), ("viscous", 0, 0.95)):
             with tempfile.TemporaryDirectory(prefix="railwave-") as folder:
-                command = [PROGRAM, "run", os.path.join(CASES, "beam.toml"), "--set", f"parts.beam.hourglass={control_of}", "--set", f"output.file={folder}/results.h5"]
+                command = [
+                    PROGRAM, "run", os.path.join(CASES, "beam.toml"), "--set", f"parts.beam.hourglass={control_of}",
+                    "--set", f"output.file={folder}/results.h5",
+                ]
                 subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
                 with h5py.File(f"{folder}/results.h5", "r") as file:
                     time, tip = file["history/time"][:], file["history/set/beam.x_max/displacement"][:, 2]
-            first, last = (np.ptp(tip[(time > start) & (time <= start + 2.5e-3)]) for start in (2.1e-3, time[-1] - 2.5e-3))
+            first, last = (
+                np.ptp(tip[(time > start) & (time <= start + 2.5e-3)]) for start in (2.1e-3, time[-1] - 2.5e-3)
+            )
             self.assertGreater(last / first, least)
             self.assertLess(last / first, most)
 
@@ -102,7 +110,9 @@ class Advice(unittest.TestCase):
         self.assertLess(share(after), 0.5 * before)
 
     def test_of_a_coefficient_of_ones_own_goes_with_it(self):
-        _, advice = self.advised("drop.toml", control(("upper", "lower"), hourglass="viscous", hourglass_coefficient=0.3))
+        _, advice = self.advised(
+            "drop.toml", control(("upper", "lower"), hourglass="viscous", hourglass_coefficient=0.3)
+        )
         self.assertIn("leave hourglass_coefficient out", advice)
 
     def test_of_stiff_control_is_a_lower_coefficient_or_a_finer_mesh(self):

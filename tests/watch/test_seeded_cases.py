@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Mistakes as users make them, in case files: each is refused, or the run warns of it or stops, and the true cause is named first.
-`--table` prints what docs/watch.md shows."""
+"""Mistakes as users make them, in case files: each is refused, or the run warns of it or stops, and the true cause is
+named first. `--table` prints what docs/watch.md shows."""
 
 import os
 import pathlib
@@ -69,29 +69,95 @@ fixed = ["x", "y", "z"]
 
 REFUSED, ENDED, STOPPED = 2, 0, 3
 
-# What is wrong; what stands in place of what; exit code; what the first message must say (of a warning or fault: as its likely cause).
+# What is wrong; what stands in place of what; exit code; what the first message must say (of a warning or fault: as its
+# likely cause).
 SEEDS = [
-    ("a mesh in mm", {"size = [0.04, 0.04, 0.03]": "size = [40, 40, 30]"}, None, r"elements of part upper are .* m across: see the lengths of meshes\.upper"),
-    ("Young's modulus in GPa", {"youngs_modulus = 210e9": "youngs_modulus = 210"}, None, r"material steel .* waves of .*youngs_modulus \(Pa\)"),
+    (
+        "a mesh in mm",
+        {"size = [0.04, 0.04, 0.03]": "size = [40, 40, 30]"},
+        None,
+        r"elements of part upper are .* m across: see the lengths of meshes\.upper",
+    ),
+    (
+        "Young's modulus in GPa",
+        {"youngs_modulus = 210e9": "youngs_modulus = 210"},
+        None,
+        r"material steel .* waves of .*youngs_modulus \(Pa\)",
+    ),
     ("density in g/cm3", {"density = 7800": "density = 7.8"}, None, r"material steel .* waves of .*density \(kg/m3\)"),
-    ("yield stress in MPa", {"density = 7800": "density = 7800\nyield_stress = 500\ntangent_modulus = 21e9"}, None, r"yields at 500 Pa: see materials\.steel"),
+    (
+        "yield stress in MPa",
+        {"density = 7800": "density = 7800\nyield_stress = 500\ntangent_modulus = 21e9"},
+        None,
+        r"yields at 500 Pa: see materials\.steel",
+    ),
     ("bodies that overlap", {"0.005, 0.03]": "0.005, 0.026]"}, None, r"begins with contact between pressed in"),
-    ("pressure in other units, 1e6 times", {"pressure = 1e6": "pressure = 1e12"}, STOPPED, r"load press strains the elements under it"),
-    ("a curve that jumps to 1e6", {'curve = "rise"': 'curve = "measured"', "[1e-4, 1], [1, 1]": "[1e-4, 1], [2e-4, 1e6], [1, 1]"}, STOPPED,
-     r"load press strains the elements under it"),
-    ("speed in mm/s", {"[time]": '[initial_motion.fall]\nparts = ["upper"]\nvelocity = [0, 0, -2000]\n[time]'}, None, r"bodies begin with 2000 m/s: see initial_motion\.fall"),
-    ("contact springs too soft", {"friction = 0.3": "friction = 0.3\npenalty_scale = 1e-4", "pressure = 1e6": "pressure = 1e8"}, None, r"springs of contact between .* too soft"),
-    ("no hourglass control", {'material = "steel"\nposition': 'material = "steel"\nhourglass_coefficient = 0\nposition', "[time]": HELD_CORNER + "[time]"}, None,
-     r"part upper has no hourglass control"),
-    ("nothing holds the lower block", {"[constraints.floor]": "[constraints.other]", '"lower.z_min"': '"upper.x_min"', 'target = "upper.z_max"': 'target = "lower.z_max"',
-                                       "pressure = 1e6": "pressure = 1e8", "end = 2e-3": "end = 4e-3"}, None, r"nothing holds part lower"),
+    (
+        "pressure in other units, 1e6 times",
+        {"pressure = 1e6": "pressure = 1e12"},
+        STOPPED,
+        r"load press strains the elements under it",
+    ),
+    (
+        "a curve that jumps to 1e6",
+        {'curve = "rise"': 'curve = "measured"', "[1e-4, 1], [1, 1]": "[1e-4, 1], [2e-4, 1e6], [1, 1]"},
+        STOPPED,
+        r"load press strains the elements under it",
+    ),
+    (
+        "speed in mm/s",
+        {"[time]": '[initial_motion.fall]\nparts = ["upper"]\nvelocity = [0, 0, -2000]\n[time]'},
+        None,
+        r"bodies begin with 2000 m/s: see initial_motion\.fall",
+    ),
+    (
+        "contact springs too soft",
+        {"friction = 0.3": "friction = 0.3\npenalty_scale = 1e-4", "pressure = 1e6": "pressure = 1e8"},
+        None,
+        r"springs of contact between .* too soft",
+    ),
+    (
+        "no hourglass control",
+        {
+            'material = "steel"\nposition': 'material = "steel"\nhourglass_coefficient = 0\nposition',
+            "[time]": HELD_CORNER + "[time]",
+        },
+        None,
+        r"part upper has no hourglass control",
+    ),
+    (
+        "nothing holds the lower block",
+        {
+            "[constraints.floor]": "[constraints.other]",
+            '"lower.z_min"': '"upper.x_min"',
+            'target = "upper.z_max"': 'target = "lower.z_max"',
+            "pressure = 1e6": "pressure = 1e8",
+            "end = 2e-3": "end = 4e-3",
+        },
+        None,
+        r"nothing holds part lower",
+    ),
     ("friction in per cent", {"friction = 0.3": "friction = 30"}, REFUSED, r"friction.* 30.* between 0 and 2"),
     ("step_scale above 1", {"[time]": "[time]\nstep_scale = 1.5"}, REFUSED, r"step_scale.* 1\.5.* at most 1"),
-    ("a step three times the stable one", {"[time]": "[time]\nstep = 2e-6"}, REFUSED, r"step = 2e-06 s is longer than the stable step"),
-    ("an element turned inside out", {'type = "box"\nsize = [0.04, 0.04, 0.03]\ndivisions = [5, 5, 4]': 'type = "file"\npath = "inverted.inp"'}, REFUSED,
-     r"inverted\.inp:11: element 1 is mirrored"),
+    (
+        "a step three times the stable one",
+        {"[time]": "[time]\nstep = 2e-6"},
+        REFUSED,
+        r"step = 2e-06 s is longer than the stable step",
+    ),
+    (
+        "an element turned inside out",
+        {'type = "box"\nsize = [0.04, 0.04, 0.03]\ndivisions = [5, 5, 4]': 'type = "file"\npath = "inverted.inp"'},
+        REFUSED,
+        r"inverted\.inp:11: element 1 is mirrored",
+    ),
     ("a curve's value that is no number", {"[1e-4, 1]": "[1e-4, nan]"}, REFUSED, r"points.*nan"),
-    ("Poisson's ratio of one half", {"poissons_ratio = 0.3": "poissons_ratio = 0.5"}, REFUSED, r"poissons_ratio.* 0\.5"),
+    (
+        "Poisson's ratio of one half",
+        {"poissons_ratio = 0.3": "poissons_ratio = 0.5"},
+        REFUSED,
+        r"poissons_ratio.* 0\.5",
+    ),
 ]
 
 
@@ -116,7 +182,10 @@ class SeededCases(unittest.TestCase):
         folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="railwave-")))
         (folder / "case.toml").write_text(spoilt(changes))
         (folder / "inverted.inp").write_text(INVERTED)
-        run = subprocess.run([PROGRAM, "run", "case.toml"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, check=False)
+        run = subprocess.run(
+            [PROGRAM, "run", "case.toml"],
+            cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=300, check=False,
+        )
         return folder, run.returncode, run.stdout
 
     def check_fault_file(self, folder, said):
@@ -161,7 +230,9 @@ class SeededCases(unittest.TestCase):
         (folder / "results.fault.h5").unlink()
         (folder / "results.fault.h5").mkdir()
         (folder / "results.fault.h5" / "in the way").touch()
-        run = subprocess.run([PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+        run = subprocess.run(
+            [PROGRAM, "run", "case.toml"], cwd=folder, capture_output=True, text=True, timeout=300, check=False
+        )
         self.assertEqual(run.returncode, REFUSED)
         self.assertIn("results.fault.h5 is a folder", run.stderr)
         self.assertTrue((folder / "results.fault.h5" / "in the way").exists())

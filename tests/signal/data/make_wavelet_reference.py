@@ -1,11 +1,12 @@
-"""Makes wavelet_reference.csv with PyWavelets (Debian's python3-pywt 1.1.1), an implementation that convolves in time with the integral of
-the wavelet and takes differences, where Railwave multiplies spectra:
+"""Makes wavelet_reference.csv with PyWavelets (Debian's python3-pywt 1.1.1), an implementation that convolves in time
+with the integral of the wavelet and takes differences, where Railwave multiplies spectra:
 
     /usr/bin/python3 -B make_wavelet_reference.py > wavelet_reference.csv
 
-PyWavelets' cmorB-C is exp(-t^2/B) exp(2 pi i C t) / sqrt(pi B), so that B = 2 and C = w0 / (2 pi) is Morlet's wavelet of Torrence and
-Compo but for its factor. Its integral is tabulated at 2^16 points here instead of 2^10: with these, the modulus is off by some per cent.
-Differences belong half-way between samples, which turns the phase, so that the modulus is what is compared.
+PyWavelets' cmorB-C is exp(-t^2/B) exp(2 pi i C t) / sqrt(pi B), so that B = 2 and C = w0 / (2 pi) is Morlet's wavelet
+of Torrence and Compo but for its factor. Its integral is tabulated at 2^16 points here instead of 2^10: with these, the
+modulus is off by some per cent. Differences belong half-way between samples, which turns the phase, so that the modulus
+is what is compared.
 """
 
 import numpy as np
@@ -23,7 +24,9 @@ def signal():
 def main():
     integrate = pywt._cwt.integrate_wavelet
     pywt._cwt.integrate_wavelet = lambda wavelet, precision: integrate(wavelet, precision=16)
-    print(f"# PyWavelets {pywt.__version__}: modulus of the wavelet transform of the signal in make_wavelet_reference.py")
+    print(
+        f"# PyWavelets {pywt.__version__}: modulus of the wavelet transform of the signal in make_wavelet_reference.py"
+    )
     print("scale_s,sample,modulus")
     wavelet = pywt.ContinuousWavelet(f"cmor2.0-{W0 / (2 * np.pi):.15f}")
     factor = np.pi**-0.25 * np.sqrt(2 * np.pi)

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "kernels/contact_law.hpp"
+#include "kernels/contact/law_at_nodes.hpp"
+#include "kernels/contact/laws/linear_penalty.hpp"
 #include "kernels/contact_normals.hpp"
 #include "kernels/contact_track.hpp"
 #include "kernels/extra_force.hpp"
@@ -60,16 +61,16 @@ struct CurvedReaction : MasterReaction {
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
 /// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27); of curved segments by
 /// what each node does to the contact point.
-/// @tparam Law what presses and what bounds friction: see kernels/contact_law.hpp
+/// @tparam Law what presses and what bounds friction: see kernels/contact/laws/contact_point.hpp
 /// @tparam Normals along which it presses: see kernels/contact_normals.hpp
-template <bool Friction, class Law = PlainContactLaw, class Normals = FacetNormals>
+template <bool Friction, class Law = LinearPenalty, class Normals = FacetNormals>
 struct ContactForce {
   ContactSearch search;
   ContactWindow window;
   ExtraForceSum extra;
   Array<const int*> extra_row;  ///< by model node
   FirstTouch first_touch;
-  Law law{};
+  LawAtNodes<Law, Normals> law;
 
   /// The i-th of the nodes that can touch, if they are so many.
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -93,16 +94,16 @@ struct ContactForce {
       contact.place(s, 1) = now.place.eta;
     }
     contact.gap(s) = now.gap;
-    if (law.apart(contact, s, now)) {
+    if (!law.touches(search, s, now)) {
       if (touched) {
         part(s, entry.node, slave, previous, place, now);
-        law.part(contact, s, entry.node, now);
+        law.part(search, s, entry.node, now);
       }
       return;
     }
 
-    const double stiffness = law.stiffness(contact, now.segment);
-    const double pressing = law.pressing(contact, s, entry.node, now, stiffness);
+    const double stiffness = law.stiffness(search, now.segment);
+    const double pressing = law.pressing(search, s, entry.node, now, stiffness);
     Vector3 force = pressing * now.normal;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
@@ -147,7 +148,7 @@ struct ContactForce {
     Vector3 trial = held - stiffness * moved;
     // The force carried over lies in last step's tangent plane; what has turned out of the present one is dropped.
     trial = trial - dot(trial, now.normal) * now.normal;
-    const double size = norm(trial), bound = law.friction(contact, s, moved) * pressing;
+    const double size = norm(trial), bound = law.friction(search, s, moved) * pressing;
     status = size > bound ? status_slips : status_sticks;
     if (size > bound) trial = (bound / size) * trial;
     contact.friction_energy(s) -=

@@ -3,11 +3,9 @@
 #include "kernels/materials/bilinear.hpp"
 #include "kernels/materials/elastic.hpp"
 #include "kernels/materials/kinematic_bilinear.hpp"
+#include "kernels/type_list.hpp"
 
 namespace railwave {
-
-template <class... Types>
-struct TypeList {};
 
 /// Every material of elements. CMake reads this line and compiles the kernels of each in files of their own
 /// (src/CMakeLists.txt).

@@ -8,10 +8,10 @@ namespace railwave {
 namespace {
 
 /// See PenaltyGrowth. The first point is moved or copied to no penetration: the factor is constant before it.
-std::vector<std::array<double, 5>> growth_points(std::vector<std::array<double, 2>> given) {
+std::vector<PenaltyGrowth::Point> growth_points(std::vector<std::array<double, 2>> given) {
   if (given.empty()) given.push_back({0, 1});
   if (given.front()[0] > 0) given.insert(given.begin(), {0, given.front()[1]});
-  std::vector<std::array<double, 5>> points;
+  std::vector<PenaltyGrowth::Point> points;
   double force = 0, energy = 0;
   for (std::size_t k = 0; k < given.size(); ++k) {
     const auto [depth, factor] = given[k];
@@ -25,30 +25,44 @@ std::vector<std::array<double, 5>> growth_points(std::vector<std::array<double, 
   return points;
 }
 
+/// The state's values at which the coefficient of friction lies; none where it is constant.
+std::pair<int, int> friction_values(const scene::Contact& contact, const ContactLawArrays& law) {
+  int value = -1, slaves = 0;
+  with_type(ContactLaws{}, law.number, [&](auto type) {
+    using Law = typename decltype(type)::type;
+    if (!contact.falling_friction() || ContactLawTrait<Law>::friction_now < 0) return;
+    value = ContactLawTrait<Law>::friction_now;
+    slaves = static_cast<int>(law.state.extent(0)) / Law::state_values;
+  });
+  return {value * slaves, (value + 1) * slaves};
+}
+
 }  // namespace
 
 ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves) {
   ContactLawArrays law;
-  law.active =
-      contact.falling_friction() || !contact.penalty_growth.empty() || contact.damping > 0 ||
-      (contact.normals != scene::ContactNormals::facet && contact.algorithm == scene::ContactAlgorithm::penalty);
-  if (!law.active) return law;
-  law.growth.points = to_device("penalty growth", growth_points(contact.penalty_growth));
+  law.number = -1;
+  for_each_type(ContactLaws{}, [&](int number, auto type) {
+    if (law.number < 0 && ContactLawTrait<typename decltype(type)::type>::is_of(contact)) law.number = number;
+  });
   law.damping = contact.damping;
-  if (contact.damping > 0) {
-    law.damping_force = Array<double*>("contact damping force", slaves);
-    law.damping_energy = Array<double*>("contact damping energy", slaves);
-  }
-  if (contact.falling_friction()) {
-    law.dynamic_friction = *contact.dynamic_friction;
-    law.friction_decay = contact.friction_decay;
-    law.friction_now = Array<double*>("friction now", slaves);
-  }
+  with_type(ContactLaws{}, law.number, [&](auto type) {
+    constexpr int values = decltype(type)::type::state_values;
+    if (values == 0) return;
+    law.growth = to_device("penalty growth", growth_points(contact.penalty_growth));
+    law.state = Array<double*>("contact law state", static_cast<std::size_t>(values) * slaves);
+  });
   return law;
 }
 
-void reset_contact_law(const ContactLawArrays& law, double static_friction) {
-  if (law.friction_now.extent(0) > 0) Kokkos::deep_copy(law.friction_now, static_friction);
+std::vector<double> friction_now(const scene::Contact& contact, const ContactLawArrays& law) {
+  const auto values = friction_values(contact, law);
+  return to_vector(Array<double*>(Kokkos::subview(law.state, values)));
+}
+
+void reset_contact_law(const scene::Contact& contact, const ContactLawArrays& law) {
+  const auto values = friction_values(contact, law);
+  if (values.second > values.first) Kokkos::deep_copy(Kokkos::subview(law.state, values), contact.friction);
 }
 
 double largest_growth(const scene::Contact& contact) {

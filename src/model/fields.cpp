@@ -7,6 +7,7 @@
 
 #include "kernels/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/contact_law.hpp"
 #include "model/element_precision.hpp"
 #include "model/host_copy.hpp"
 #include "model/materials.hpp"
@@ -309,7 +310,7 @@ ContactState contact_state(const Model& model, int contact) {
   ContactState state;
   state.name = pair.contact->name;
   state.friction = pair.arrays.friction;
-  if (pair.law.friction_now.extent(0) > 0) state.friction_now = to_vector(pair.law.friction_now);
+  state.friction_now = friction_now(*pair.contact, pair.law);
   state.slave = bare_side(model, pair.slave_nodes, pair.slave_facets);
   state.master = bare_side(model, pair.master_nodes, pair.master_segments);
 

@@ -36,13 +36,13 @@ std::vector<std::string> materials_left_out(const scene::Scene& scene) {
     for (const auto& material : scene.materials)
       if (material.name == part.material) numbers.insert(material_number(material));
   bool any_elastic = false, any_flows = false;
-  for_each_material([&](int number, auto type) {
+  for_each_type(Materials{}, [&](int number, auto type) {
     (decltype(type)::type::history_values > 0 ? any_flows : any_elastic) |= numbers.count(number) > 0;
   });
   if (!any_flows) return {"plasticity: every part is elastic, no yield test and no stored stress"};
   std::vector<std::string> left_out;
   if (any_elastic) left_out.emplace_back("plasticity of the elastic parts: they have no yield test and no history");
-  for_each_material([&](int number, auto type) {
+  for_each_type(Materials{}, [&](int number, auto type) {
     const char* words = MaterialTrait<typename decltype(type)::type>::left_out_as;
     if (words != nullptr && numbers.count(number) == 0) left_out.emplace_back(words);
   });

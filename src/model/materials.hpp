@@ -46,39 +46,19 @@ struct MaterialTrait<KinematicBilinear> {
   }
 };
 
-/// A material's type as a value.
-template <class Material>
-struct MaterialType {
-  using type = Material;
-};
-
-template <class Work, class... Types>
-void for_each_material(const Work& work, TypeList<Types...> /*materials*/) {
-  int number = 0;
-  (work(number++, MaterialType<Types>{}), ...);
-}
-
-/// Calls `work(number, MaterialType<...>)` for each of `Materials`.
-template <class Work>
-void for_each_material(const Work& work) {
-  for_each_material(work, Materials{});
-}
-
 /// Which of `Materials` a case's material is.
 inline int material_number(const scene::Material& material) {
   int found = -1;
-  for_each_material([&](int number, auto type) {
+  for_each_type(Materials{}, [&](int number, auto type) {
     if (MaterialTrait<typename decltype(type)::type>::is_of(material)) found = number;
   });
   return found;
 }
 
-/// Calls `work(MaterialType<...>)` with the type of a group's material.
+/// Calls `work(TypeOf<...>)` with the type of a group's material.
 template <class Work>
 void with_material_type(const MaterialArrays& arrays, const Work& work) {
-  for_each_material([&](int number, auto type) {
-    if (number == arrays.number) work(type);
-  });
+  with_type(Materials{}, arrays.number, work);
 }
 
 /// Calls `work(material)` with the material of a group's elements, in the type that their kernels are made for.

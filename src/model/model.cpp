@@ -89,7 +89,7 @@ void reset_to_start(Model& model) {
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.arrays.tracked, -1);
     Kokkos::deep_copy(pair.arrays.gap, beside_surface);
-    reset_contact_law(pair.law, pair.arrays.friction);
+    reset_contact_law(*pair.contact, pair.law);
     pair.next_look = -1;
     pair.boxed = false;
     pair.slaves_at_layout = {};

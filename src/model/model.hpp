@@ -6,7 +6,8 @@
 
 #include "case/scene.hpp"
 #include "kernels/carried_nodes.hpp"
-#include "kernels/contact_law.hpp"
+#include "kernels/contact/law_arrays.hpp"
+#include "kernels/contact_normals.hpp"
 #include "kernels/damping_arrays.hpp"
 #include "kernels/element_force.hpp"
 #include "kernels/materials/material.hpp"

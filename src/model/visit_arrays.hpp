@@ -232,10 +232,8 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::settled_state, "tangential_force", contact.tangential_force);
   visit(ArrayUse::run_state, "friction_energy", contact.friction_energy);
 
-  visit(ArrayUse::constant, "penalty_growth", pair.law.growth.points);
-  visit(ArrayUse::run_state, "friction_now", pair.law.friction_now);
-  visit(ArrayUse::run_state, "damping_force", pair.law.damping_force);
-  visit(ArrayUse::run_state, "damping_energy", pair.law.damping_energy);
+  visit(ArrayUse::constant, "penalty_growth", pair.law.growth);
+  visit(ArrayUse::run_state, "law_state", pair.law.state);
 
   visit(ArrayUse::run_state, "multiplier_rows", pair.multipliers.rows);
   visit(ArrayUse::run_state, "multiplier_crowd", pair.multipliers.crowd);

@@ -5,6 +5,7 @@
 
 #include "kernels/reductions.hpp"
 #include "kernels/watch_terms.hpp"
+#include "model/contact_law.hpp"
 #include "model/element_histories.hpp"
 #include "model/element_precision.hpp"
 #include "model/fields.hpp"
@@ -73,21 +74,21 @@ struct AddFlowWork {
   }
 };
 
-/// Stored in the penalty springs; dissipated by friction, and by the springs' damping.
+/// Stored in the penalty springs; dissipated by friction, and by the law.
+template <class Law>
 struct ContactEnergy {
   static constexpr int values = 3;
   ContactArrays contact;
-  ContactLawArrays law;
+  Law law;
+  Array<const double*> state;
   KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
+    double own_state[Law::state_values + 1];
+    for (int k = 0; k < Law::state_values; ++k) own_state[k] = state(k * contact.slave_count + s);
     sum[1] += contact.friction_energy(s);
-    if (law.damping > 0) sum[2] += law.damping_energy(s);
+    sum[2] += law.dissipated(own_state);
     if (contact.status(s) == status_apart) return;
-    const double stiffness = contact.segment_stiffness(contact.tracked(s));
     const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
-    if (law.active)
-      sum[0] += stiffness * law.growth.at(-contact.gap(s)).energy + 0.5 * dot(t, t) / stiffness;
-    else
-      sum[0] += 0.5 * (dot(n, n) + dot(t, t)) / stiffness;
+    sum[0] += law.stored({contact.gap(s), contact.segment_stiffness(contact.tracked(s))}, dot(n, n), dot(t, t));
   }
 };
 
@@ -235,9 +236,12 @@ void queue_contact_energies(const Model& model, EnergyAccount& energy, Reduction
       energy.friction += sum[1];
     };
     if (pair.has_springs()) {
-      sums.sum(ContactEnergy{pair.arrays, pair.law}, count, [&energy, add](const double* sum) {
-        add(sum);
-        energy.damping += sum[2];
+      with_contact_law(*pair.contact, pair.law, false, [&](const auto& law) {
+        sums.sum(ContactEnergy<std::decay_t<decltype(law)>>{pair.arrays, law, pair.law.state}, count,
+                 [&energy, add](const double* sum) {
+                   add(sum);
+                   energy.damping += sum[2];
+                 });
       });
     } else {
       sums.sum(MultiplierEnergy{pair.multipliers.impact_energy, pair.arrays.friction_energy}, count,

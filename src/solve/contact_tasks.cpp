@@ -12,18 +12,20 @@ Task search_task(Model& model, ContactPair& pair, StepKind kind) {
           [&model, &pair, kind](const Instant& instant) { keep_window(model, pair, instant.step, kind); }};
 }
 
+template <bool Friction, class Normals, class Law>
+void launch_springs(const Model& model, const ContactPair& pair, const Instant& instant, const Law& law) {
+  Kokkos::parallel_for("contact_force", SpreadRange(0, pair.window.count),
+                       contact_force<Friction, Normals>(model, pair, instant, law, pair.law.state));
+}
+
 template <bool Friction>
-void launch_springs(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind) {
-  const SpreadRange range(0, pair.window.count);
-  if (pair.contact->normals == scene::ContactNormals::smooth)
-    Kokkos::parallel_for(
-        "contact_force", range,
-        contact_force<Friction, SmoothNormals>(model, pair, instant, contact_law(model, pair, instant, kind)));
-  else if (pair.law.active)
-    Kokkos::parallel_for("contact_force", range,
-                         contact_force<Friction>(model, pair, instant, contact_law(model, pair, instant, kind)));
-  else
-    Kokkos::parallel_for("contact_force", range, contact_force<Friction>(model, pair, instant));
+void press_springs(const Model& model, const ContactPair& pair, const Instant& instant, bool settling) {
+  with_contact_law(*pair.contact, pair.law, settling, [&](const auto& law) {
+    if (pair.contact->normals != scene::ContactNormals::smooth)
+      launch_springs<Friction, FacetNormals>(model, pair, instant, law);
+    else if constexpr (ContactLawTrait<std::decay_t<decltype(law)>>::with_smooth_normals)
+      launch_springs<Friction, SmoothNormals>(model, pair, instant, law);
+  });
 }
 
 Task spring_task(Model& model, ContactPair& pair, StepKind kind) {
@@ -31,10 +33,7 @@ Task spring_task(Model& model, ContactPair& pair, StepKind kind) {
   return {"contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : "") +
               describe_contact_law(*pair.contact),
           "d", [&model, &pair, kind, friction](const Instant& instant) {
-            if (friction)
-              launch_springs<true>(model, pair, instant, kind);
-            else
-              launch_springs<false>(model, pair, instant, kind);
+            (friction ? press_springs<true> : press_springs<false>)(model, pair, instant, kind == StepKind::settling);
           }};
 }
 

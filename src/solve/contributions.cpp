@@ -14,7 +14,7 @@ bool few_rows(const Model& model) {
 
 bool contact_goes_along(const Model& model, StepKind kind) {
   if (!on_device || kind != StepKind::advancing || model.contacts.size() != 1) return false;
-  if (model.contacts.front().law.active) return false;
+  if (model.contacts.front().law.number != 0) return false;
   // Multipliers come later, and must predict what loads do to their nodes.
   return model.elements.front().level == 0 && (model.contacts.front().has_springs() || !model.contacts.front().loaded);
 }
@@ -28,16 +28,6 @@ bool sets_go_along(const Model& model, StepKind kind) {
 
 RowLoads row_loads(const Model& model, double elapsed) {
   return {model.extra, model.connectors.arrays, model.torques, model.nodes.position, model.nodes.velocity, elapsed};
-}
-
-ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind) {
-  return {pair.law,
-          model.nodes.velocity,
-          model.nodes.mass,
-          kind == StepKind::settling ? 0.0 : pair.law.damping,
-          instant.elapsed,
-          pair.contact->normals == scene::ContactNormals::smooth ? Array<const double* [3]>(model.nodes.position)
-                                                                 : Array<const double* [3]>()};
 }
 
 SetLoads set_loads(const Model& model, const Instant& instant, StepKind kind, int rows) {

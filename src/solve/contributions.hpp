@@ -13,7 +13,7 @@ bool few_sets(const Model& model);
 bool few_rows(const Model& model);
 
 /// Contact's springs go in one launch with the first group's elements: on a device, in advancing steps, and where such
-/// elements take every step. Not springs of any law but the plain one.
+/// elements take every step. Springs of the linear penalty alone.
 bool contact_goes_along(const Model& model, StepKind kind);
 
 /// The same of the sets. Nodes at paces of their own do not work out their own loads.
@@ -26,18 +26,20 @@ RowLoads row_loads(const Model& model, double elapsed);
 /// @param rows how many loaded nodes gather their loads in the same launch
 SetLoads set_loads(const Model& model, const Instant& instant, StepKind kind, int rows);
 
-/// A pair's law, where that is not the plain one.
-ContactLaw contact_law(const Model& model, const ContactPair& pair, const Instant& instant, StepKind kind);
-
-template <bool Friction, class Normals = FacetNormals, class Law = PlainContactLaw>
+/// Contact's springs at an instant, by a law of kernels/contact/laws/.
+/// @param state of a law that has one, by slave node
+template <bool Friction, class Normals = FacetNormals, class Law>
 ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Instant& instant,
-                                                   const Law& law = {}) {
+                                                   const Law& law, const Array<double*>& state) {
+  LawAtNodes<Law, Normals> at_nodes{law, {}};
+  if constexpr (has_surroundings<Law>)
+    at_nodes.around = {state, model.nodes.velocity, model.nodes.mass, instant.elapsed};
   return {ContactSearch{{pair.arrays, model.nodes.position}},
           pair.window,
           model.extra.sum,
           model.nodes.extra,
           first_touch(model, instant.elapsed),
-          law};
+          at_nodes};
 }
 
 }  // namespace railwave

@@ -25,8 +25,9 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
           ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
   launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
-               Together{set_loads(model, instant, launch.kind, 0), contact_force<Friction>(model, pair, instant),
-                        functor, set_teams, contact_teams});
+               Together{set_loads(model, instant, launch.kind, 0),
+                        contact_force<Friction>(model, pair, instant, LinearPenalty{pair.arrays.friction}, {}), functor,
+                        set_teams, contact_teams});
 }
 
 template <class S>

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "kernels/static_contact.hpp"
+#include "kernels/contact/laws/augmented_penalty.hpp"
 #include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
 #include "solve/contact_window.hpp"
@@ -142,20 +142,23 @@ struct SmoothNormalsOfMultipliers : SmoothNormals {
 };
 
 template <class Normals>
-void press_pair(const Model& model, const ContactPair& pair, const AugmentedLaw& law) {
+void press_pair(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
+  const AugmentedPenalty law{{pair.arrays.friction}, stiffening};
   const SpreadRange range(0, pair.window.count);
   const Instant instant;
   if (has_friction(model, pair, StepKind::settling))
-    Kokkos::parallel_for("augmented_contact", range, contact_force<true, Normals>(model, pair, instant, law));
+    Kokkos::parallel_for("augmented_contact", range,
+                         contact_force<true, Normals>(model, pair, instant, law, multiplier));
   else
-    Kokkos::parallel_for("augmented_contact", range, contact_force<false, Normals>(model, pair, instant, law));
+    Kokkos::parallel_for("augmented_contact", range,
+                         contact_force<false, Normals>(model, pair, instant, law, multiplier));
 }
 
 }  // namespace
 
 StaticContact::StaticContact(Model& model) : model_(model) {
   for (const ContactPair& pair : model.contacts) {
-    Kept& kept = kept_.emplace_back(Kept{state_like(pair.arrays), like(pair.law.friction_now), {}});
+    Kept& kept = kept_.emplace_back(Kept{state_like(pair.arrays), like(pair.law.state), {}});
     if (!pair.has_springs()) {
       augmented_ = true;
       kept.multiplier = to_device("multipliers", pressing_forces(pair));
@@ -173,7 +176,7 @@ StaticContact::StaticContact(Model& model) : model_(model) {
 void StaticContact::keep() {
   for (std::size_t p = 0; p < kept_.size(); ++p) {
     copy_state(kept_[p].contact, model_.contacts[p].arrays);
-    copy(kept_[p].friction_now, model_.contacts[p].law.friction_now);
+    copy(kept_[p].law_state, model_.contacts[p].law.state);
   }
   const auto plastic = plastic_state(model_);
   for (std::size_t i = 0; i < plastic_.size(); ++i) copy(plastic_[i], plastic[i]);
@@ -183,7 +186,7 @@ void StaticContact::restore() {
   for (std::size_t p = 0; p < kept_.size(); ++p) {
     ContactPair& pair = model_.contacts[p];
     copy_state(pair.arrays, kept_[p].contact);
-    copy(pair.law.friction_now, kept_[p].friction_now);
+    copy(pair.law.state, kept_[p].law_state);
     pair.next_look = pair.next_near_look = -1;
     pair.slaves_at_layout = {};
   }
@@ -196,11 +199,10 @@ void StaticContact::press() {
     ContactPair& pair = model_.contacts[p];
     if (pair.has_springs()) continue;
     keep_window(model_, pair, 1, StepKind::settling);
-    const AugmentedLaw law(kept_[p].multiplier, stiffening);
     if (pair.contact->normals == scene::ContactNormals::smooth)
-      press_pair<SmoothNormalsOfMultipliers>(model_, pair, law);
+      press_pair<SmoothNormalsOfMultipliers>(model_, pair, kept_[p].multiplier);
     else
-      press_pair<FacetNormals>(model_, pair, law);
+      press_pair<FacetNormals>(model_, pair, kept_[p].multiplier);
   }
 }
 

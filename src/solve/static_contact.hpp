@@ -7,7 +7,7 @@
 namespace railwave {
 
 /// What contact is to the search for a static equilibrium. Pairs with penalty springs press as they do in the run.
-/// Pairs with multipliers press by augmented Lagrange (kernels/static_contact.hpp). A force evaluation leaves what
+/// Pairs with multipliers press by augmented Lagrange (kernels/contact/laws/augmented_penalty.hpp). A force evaluation leaves what
 /// nodes touch, stick to and have flowed plastically in the arrays; a trial that is not taken must not.
 class StaticContact {
  public:
@@ -34,7 +34,7 @@ class StaticContact {
  private:
   struct Kept {
     ContactArrays contact;
-    Array<double*> friction_now, multiplier;
+    Array<double*> law_state, multiplier;
   };
 
   Model& model_;

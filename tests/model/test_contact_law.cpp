@@ -1,9 +1,11 @@
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/contact/laws/augmented_penalty.hpp"
 #include "model/contact_law.hpp"
 #include "model/host_copy.hpp"
 
@@ -22,8 +24,10 @@ struct Ask {
 
 std::vector<PenaltyGrowth::Spring> ask(const scene::Contact& contact, const std::vector<double>& depths) {
   const Array<PenaltyGrowth::Spring*> answers("answers", depths.size());
-  Kokkos::parallel_for("ask", Range(0, depths.size()),
-                       Ask{make_contact_law(contact, 1).growth, to_device("depths", depths), answers});
+  const ContactLawArrays law = make_contact_law(contact, 1);
+  Kokkos::parallel_for(
+      "ask", Range(0, depths.size()),
+      Ask{{law.growth.data(), static_cast<int>(law.growth.extent(0))}, to_device("depths", depths), answers});
   const auto host = to_host(answers);
   return {host.data(), host.data() + depths.size()};
 }
@@ -59,15 +63,17 @@ TEST_CASE("a growing penalty's force and energy are the integrals of its stiffne
   CHECK(largest_growth(contact) == 4);
 }
 
-TEST_CASE("without points the penalty is linear, and no law is active where a plain one does") {
+TEST_CASE("without points the penalty is linear, and a pair has the simplest law that does") {
   scene::Contact contact;
   contact.friction = 0.3;
-  CHECK_FALSE(make_contact_law(contact, 5).active);
+  CHECK(make_contact_law(contact, 5).number == 0);
+  CHECK(make_contact_law(contact, 5).state.extent(0) == 0);
+  CHECK(friction_now(contact, make_contact_law(contact, 5)).empty());
   contact.damping = 0.1;
   const ContactLawArrays law = make_contact_law(contact, 5);
-  CHECK(law.active);
-  CHECK(law.damping_force.extent(0) == 5);
-  CHECK(law.friction_now.extent(0) == 0);
+  CHECK(law.number == 1);
+  CHECK(law.state.extent(0) == 5 * GrowingPenalty::state_values);
+  CHECK(friction_now(contact, law).empty());
   for (const auto& spring : ask(contact, {3e-6})) {
     CHECK(spring.stiffness == 1);
     CHECK(spring.force == 3e-6);
@@ -77,5 +83,65 @@ TEST_CASE("without points the penalty is linear, and no law is active where a pl
   contact.damping = 0;
   contact.dynamic_friction = 0.2;
   contact.friction_decay = 6;
-  CHECK(make_contact_law(contact, 5).friction_now.extent(0) == 5);
+  const ContactLawArrays falling = make_contact_law(contact, 5);
+  reset_contact_law(contact, falling);
+  CHECK(friction_now(contact, falling) == std::vector<double>(5, 0.3));
+}
+
+TEST_CASE("laws are functions of numbers: force and energy of a linear penalty, a growing one, an augmented one") {
+  const LinearPenalty linear{0.4};
+  const ContactPoint in{-2e-6, 5e8}, out{1e-9, 5e8};
+  CHECK(linear.touches(in, nullptr));
+  CHECK_FALSE(linear.touches(out, nullptr));
+  CHECK(linear.pressing(in, nullptr) == 2e-6 * 5e8);
+  CHECK(linear.friction(3, nullptr) == 0.4);
+  CHECK(linear.stored(in, 1e6, 9e4) == 0.5 * 1.09e6 / 5e8);
+
+  const PenaltyGrowth::Point points[] = {{0, 1, 0, 0, 0}};
+  GrowingPenalty growing{{points, 1}, 0.4, 0.1, 2, true, 0};
+  double state[GrowingPenalty::state_values] = {};
+  CHECK(growing.pressing(in, state) == linear.pressing(in, nullptr));
+  CHECK(growing.stored(in, 1e6, 9e4) == linear.stored(in, 1e6, 9e4));
+  CHECK_THAT(growing.friction(0.5, state), WithinRel(0.1 + 0.3 * std::exp(-1.0), 1e-14));
+  CHECK(state[GrowingPenalty::friction_now] == growing.friction(0.5, state));
+  growing.part(out, state);
+  CHECK(state[GrowingPenalty::friction_now] == 0.4);
+
+  AugmentedPenalty augmented{{0.4}, 4};
+  double multiplier[] = {1500};
+  CHECK(augmented.spring(5e8) == 2e9);
+  CHECK(augmented.touches(out, multiplier));
+  CHECK(augmented.pressing(out, multiplier) == 1500 - 5e8 * 1e-9);
+  CHECK_FALSE(augmented.touches({1e-5, 5e8}, multiplier));
+}
+
+TEST_CASE("what the dashpot of a growing penalty takes is what it has done over the way") {
+  // A mass meets a damped spring: the sum of its own energy, the spring's and what is dissipated stays.
+  const PenaltyGrowth::Point points[] = {{0, 1, 2e5, 0, 0}};
+  const double damping = GENERATE(0.05, 0.5, 1.5), mass = 0.02, stiffness = 3e8;
+  const GrowingPenalty law{{points, 1}, 0, 0, 0, false, damping};
+  double state[GrowingPenalty::state_values] = {};
+  const double step = 1e-9;
+  double gap = 1e-9, speed = 0.1, stored = 0;
+  const double given = 0.5 * mass * speed * speed;
+  for (int k = 0; k < 400000 && !(gap > 0 && speed < 0); ++k) {
+    ContactPoint point{gap, stiffness};
+    point.approach = speed;
+    point.inverse_mass = 1 / mass;
+    point.elapsed = step;
+    double force = 0;
+    if (law.touches(point, state)) {
+      force = law.pressing(point, state);
+      stored = law.stored(point, force * force, 0);
+    } else {
+      law.part(point, state);
+      stored = 0;
+    }
+    CHECK(law.dissipated(state) >= 0);
+    const double held = 0.5 * mass * speed * speed + stored + law.dissipated(state);
+    if (k % 1000 == 0) CHECK_THAT(held, WithinRel(given, 2e-3));
+    speed -= step * force / mass;
+    gap -= step * speed;
+  }
+  CHECK(law.dissipated(state) > 0.1 * given);
 }

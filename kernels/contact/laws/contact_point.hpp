@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Kokkos_Core.hpp>
+
+/// A contact law says with what a node presses on the other body and what friction can hold, from numbers alone: it
+/// knows no arrays, no search and no motion. kernels/contact/law_at_nodes.hpp brings it to the nodes. It is a struct
+/// with its parameters and these members, in a file of its own here, listed in src/model/contact_law.hpp:
+///
+/// | member | what |
+/// |---|---|
+/// | `state_values` | doubles that each slave node keeps from step to step, zero at the start; 0: none |
+/// | `asks_approach()` | whether it is told `approach`, `inverse_mass` and `elapsed`, if it has a state |
+/// | `spring(k)` | N/m, of the springs of a segment whose penalty has k |
+/// | `touches(point, state)` | whether there is contact |
+/// | `pressing(point, state)` | N, the normal force, never a pull unless the law is one of adhesion |
+/// | `friction(slip, state)` | coefficient that bounds the tangential force, at a speed of sliding, m/s |
+/// | `part(point, state)` | the node has come off |
+/// | `stored(point, normal_square, tangential_square)` | J in the springs, from the forces' squares, N2 |
+/// | `dissipated(state)` | J that the law has taken out so far, beside friction |
+namespace railwave {
+
+/// What a law is told of a node.
+struct ContactPoint {
+  double gap;               ///< m; negative: penetration
+  double stiffness;         ///< N/m, of the springs there
+  double approach = 0;      ///< m/s, positive: they near each other
+  double inverse_mass = 0;  ///< 1/kg, of the contact as one mass that meets a wall
+  double elapsed = 0;       ///< s since the instant before; 0: there is none, or time has no meaning
+};
+
+}  // namespace railwave

@@ -1,0 +1,30 @@
+#pragma once
+
+namespace railwave {
+
+/// Types that the program chooses from when a model is built.
+template <class... Types>
+struct TypeList {};
+
+/// A type as a value.
+template <class T>
+struct TypeOf {
+  using type = T;
+};
+
+/// Calls `work(number, TypeOf<...>)` for each type of a list, on the host.
+template <class Work, class... Types>
+void for_each_type(TypeList<Types...> /*list*/, const Work& work) {
+  int number = 0;
+  (work(number++, TypeOf<Types>{}), ...);
+}
+
+/// Calls `work(TypeOf<...>)` for the type that has the number in the list.
+template <class List, class Work>
+void with_type(List list, int number, const Work& work) {
+  for_each_type(list, [&](int of_type, auto type) {
+    if (of_type == number) work(type);
+  });
+}
+
+}  // namespace railwave

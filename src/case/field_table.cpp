@@ -26,6 +26,7 @@ const std::vector<FieldRow>& field_table() {
       {"velocity", node, 3, "m/s", both, ""},
       {"acceleration", node, 3, "m/s2", both, ""},
       {"stress", element, 6, "Pa", both, "Cauchy stress xx, yy, zz, xy, yz, zx"},
+      {"mises", element, 1, "Pa", FieldRow::fields, "von Mises' equivalent of the stress"},
       {"strain", element, 6, "1", FieldRow::histories,
        "logarithmic strain ln V of the element's mean deformation gradient, elastic and plastic together, tensor "
        "components"},

@@ -3,12 +3,21 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/von_mises.hpp"
+
 namespace railwave {
 namespace {
 
 template <NodeField field>
 HostField motion(const Model& model, const std::vector<int>& nodes) {
   return node_field(model, field, nodes);
+}
+
+HostField mises(const Model& model, const std::vector<int>& elements) {
+  const std::vector<double> stress = element_stress(model, elements).values;
+  HostField field{1, std::vector<double>(elements.size())};
+  for (std::size_t i = 0; i < elements.size(); ++i) field.values[i] = von_mises(&stress[6 * i]);
+  return field;
 }
 
 struct Fetch {
@@ -18,8 +27,11 @@ struct Fetch {
 
 /// One for each row of the table that serves `fields`.
 constexpr Fetch fetches[] = {
-    {"displacement", motion<NodeField::displacement>}, {"velocity", motion<NodeField::velocity>},
-    {"acceleration", motion<NodeField::acceleration>}, {"stress", element_stress},
+    {"displacement", motion<NodeField::displacement>},
+    {"velocity", motion<NodeField::velocity>},
+    {"acceleration", motion<NodeField::acceleration>},
+    {"stress", element_stress},
+    {"mises", mises},
     {"plastic_strain", element_plastic_strain},
 };
 

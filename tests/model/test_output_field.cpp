@@ -1,6 +1,8 @@
 // The table of fields: every row that a case may name has values, as many as it says.
 
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers_floating_point.hpp>
+#include <cmath>
 
 #include "model/output_field.hpp"
 #include "output/dataset_units.hpp"
@@ -9,6 +11,7 @@
 
 using namespace railwave;
 using namespace railwave::verify;
+using Catch::Matchers::WithinRel;
 
 TEST_CASE("every field that output.fields may name can be fetched, with the components that the table tells") {
   scene::Scene scene = TwoBlocks{}.scene(1e-5);
@@ -25,6 +28,22 @@ TEST_CASE("every field that output.fields may name can be fetched, with the comp
   }
   const FieldRow unknown{"temperature", FieldRow::Place::node, 1, "K", FieldRow::fields, ""};
   CHECK_THROWS_AS(output_field(model, unknown, asked), std::logic_error);
+}
+
+TEST_CASE("the field mises is von Mises' equivalent of the Cauchy stress") {
+  scene::Scene scene = TwoBlocks{}.scene(1e-5);
+  scene.contacts.clear();
+  scene.solver.precision = scene::Precision::double_precision;
+  Model model;
+  build_model(scene, model);
+  // Uniaxial strain e gives the principal differences 2 mu e, 2 mu e and 0; simple shear g adds the stress xy = mu g.
+  const double e = 1e-6, g = 2e-6, mu = 210e9 / 2.6;
+  set_position(model, [&](const Vec3& x, int) { return Vec3{(1 + e) * x[0] + g * x[1], x[1], x[2]}; });
+  const double expected = std::sqrt(4 * mu * mu * e * e + 3 * mu * mu * g * g);
+  const HostField field = output_field(model, field_named("mises"), {0, 5});
+  REQUIRE(field.values.size() == 2);
+  // The law's second order is of the size of the strains.
+  for (const double value : field.values) CHECK_THAT(value, WithinRel(expected, 10 * (e + g)));
 }
 
 TEST_CASE("every quantity of histories has its place in the means of a set") {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "case/field_table.hpp"
 #include "case/track_entries.hpp"
 
 namespace railwave::case_file {
@@ -37,13 +38,13 @@ class Expansion {
 
   void add(const scene::Probe& probe) {
     const std::string subject = "[probes." + probe.name + "]";
-    const auto asks = [&](std::initializer_list<const char*> names) {
-      return std::any_of(names.begin(), names.end(), [&](const char* name) {
-        return std::find(probe.quantities.begin(), probe.quantities.end(), name) != probe.quantities.end();
+    const auto asks = [&](FieldRow::Place place) {
+      return std::any_of(probe.quantities.begin(), probe.quantities.end(), [&](const std::string& quantity) {
+        const FieldRow* row = find_field(quantity);
+        return row != nullptr && row->place == place;
       });
     };
-    const bool motion = asks({"displacement", "velocity", "acceleration"}),
-               inside = asks({"stress", "strain", "plastic_strain"});
+    const bool motion = asks(FieldRow::Place::node), inside = asks(FieldRow::Place::element);
     for (int k = 0; k < probe.count; ++k) {
       scene::Vec3 position = probe.position;
       for (int i = 0; i < 3; ++i) position[i] += k * probe.spacing[i];

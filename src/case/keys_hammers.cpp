@@ -1,3 +1,4 @@
+#include "case/field_table.hpp"
 #include "case/keys.hpp"
 #include "case/rules.hpp"
 
@@ -92,12 +93,8 @@ Section probe_section() {
           .within(at_least(0)),
       key("count", &Probe::count, "how many").within(between(1, 10000)),
       key("spacing", &Probe::spacing, "from one to the next").in("m").otherwise("none: needed where count is above 1"),
-      key("quantities", &Probe::quantities,
-          "what is recorded. `stress`: Cauchy stress xx, yy, zz, xy, yz, zx; `strain`: logarithmic strain ln V of the "
-          "element's mean "
-          "deformation gradient, elastic and plastic together, tensor components; `plastic_strain`: equivalent plastic "
-          "strain")
-          .one_of({"displacement", "velocity", "acceleration", "stress", "strain", "plastic_strain"}),
+      key("quantities", &Probe::quantities, "what is recorded. " + fields_help(FieldRow::histories))
+          .one_of(names_of(fields_for(FieldRow::histories))),
   };
   section.rule = check_probe;
   return section;

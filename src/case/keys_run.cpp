@@ -1,3 +1,4 @@
+#include "case/field_table.hpp"
 #include "case/keys.hpp"
 #include "case/rules.hpp"
 
@@ -130,8 +131,8 @@ Section output_section() {
           .in("s")
           .within(at_least(0)),
       key("field_sets", &Output::field_sets, "where fields are written").names(whole_part | element_set | surface),
-      key("fields", &Output::fields, "which fields")
-          .one_of({"displacement", "velocity", "acceleration", "stress", "plastic_strain"}),
+      key("fields", &Output::fields, "which fields. " + fields_help(FieldRow::fields))
+          .one_of(names_of(fields_for(FieldRow::fields))),
       key("history_sets", &Output::history_sets,
           "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by "
           "mass; of an element set "

@@ -133,7 +133,7 @@ struct Probe : Place {
   int count = 1;
   Vec3 spacing{0, 0, 0};  ///< m, from one to the next
   std::vector<std::string> quantities{"displacement", "velocity",
-                                      "acceleration"};  ///< of these and stress, strain, plastic_strain
+                                      "acceleration"};  ///< names of case/field_table.hpp that serve histories
 };
 
 enum class CurveType { constant, cosine_ramp, table, half_sine };
@@ -342,7 +342,7 @@ struct Output {
   double field_interval = 0;        ///< s; 0: only at the beginning and the end
   std::vector<std::string>
       field_sets;  ///< `part` or `part.element_set` or `part.surface`: element and node fields on these
-  std::vector<std::string> fields;  ///< displacement, velocity, acceleration, stress, plastic_strain
+  std::vector<std::string> fields;  ///< names of case/field_table.hpp that serve fields
   std::vector<std::string>
       history_sets;  ///< `part.node_set` or point masses: mean motion; `part.element_set`: mean stress and strain
   double progress_interval = 5;  ///< wall seconds between progress lines

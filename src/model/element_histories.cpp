@@ -130,9 +130,9 @@ void build_element_histories(Model& model) {
   for (const HistorySet& set : sets) {
     if (!set.inside()) continue;
     elements.insert(elements.end(), set.elements.begin(), set.elements.end());
-    histories.wants_stress |= set.stress;
-    histories.wants_strain |= set.strain;
-    histories.wants_plastic_strain |= set.plastic_strain;
+    histories.wants_stress |= set.has("stress");
+    histories.wants_strain |= set.has("strain");
+    histories.wants_plastic_strain |= set.has("plastic_strain");
   }
   if (elements.empty()) return;
   std::sort(elements.begin(), elements.end());

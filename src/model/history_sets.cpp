@@ -1,6 +1,7 @@
 #include "model/history_sets.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
@@ -45,6 +46,10 @@ bool yields(const scene::Scene& scene, const Assembly& assembly, const std::vect
   });
 }
 
+bool asks(const scene::Probe& probe, const FieldRow& row) {
+  return std::find(probe.quantities.begin(), probe.quantities.end(), row.name) != probe.quantities.end();
+}
+
 HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const std::string& name) {
   HistorySet set;
   set.name = name;
@@ -63,23 +68,17 @@ HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const st
     known.erase(std::unique(known.begin(), known.end()), known.end());
     throw InputError(unknown_set(scene, {"history_sets", 0}, "output", name, known));
   }
-  set.displacement = set.velocity = set.acceleration = has_nodes;
-  set.stress = set.strain = has_elements;
-  set.plastic_strain = has_elements && yields(scene, assembly, elements->second);
+  const AskedProbe asked = probe_of(scene, part, own);
+  for (const FieldRow* row : fields_for(FieldRow::histories)) {
+    if (row->of_nodes() ? !has_nodes : !has_elements) continue;
+    const bool idle =
+        !asked.probe && std::string(row->name) == "plastic_strain" && !yields(scene, assembly, elements->second);
+    if (!idle && (!asked.probe || asks(*asked.probe, *row))) set.quantities.push_back(row);
+  }
   if (const auto* hammer = named(scene.hammers, own); hammer && hammer->part == part) set.asked_by = "hammer " + own;
-  if (const AskedProbe asked = probe_of(scene, part, own); asked.probe) {
-    const auto& wanted = asked.probe->quantities;
-    const auto has = [&](const char* quantity) {
-      return std::find(wanted.begin(), wanted.end(), quantity) != wanted.end();
-    };
+  if (asked.probe) {
     set.asked_by = "probe " + asked.probe->name;
     set.asked_position = asked.position;
-    set.displacement = has_nodes && has("displacement");
-    set.velocity = has_nodes && has("velocity");
-    set.acceleration = has_nodes && has("acceleration");
-    set.stress = has_elements && has("stress");
-    set.strain = has_elements && has("strain");
-    set.plastic_strain = has_elements && has("plastic_strain");
   }
   if (!set.inside()) return set;
   set.elements = elements->second;
@@ -92,6 +91,17 @@ HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const st
 }
 
 }  // namespace
+
+bool HistorySet::has(const std::string& quantity) const {
+  return std::any_of(quantities.begin(), quantities.end(), [&](const FieldRow* row) { return row->name == quantity; });
+}
+
+std::vector<const FieldRow*> HistorySet::quantities_of(FieldRow::Place place) const {
+  std::vector<const FieldRow*> rows;
+  std::copy_if(quantities.begin(), quantities.end(), std::back_inserter(rows),
+               [&](const FieldRow* row) { return row->place == place; });
+  return rows;
+}
 
 std::vector<double> volume_shares(const Assembly& assembly, const std::vector<int>& elements) {
   std::vector<double> share;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "case/field_table.hpp"
 #include "model/assembly.hpp"
 
 namespace railwave {
@@ -18,15 +19,17 @@ struct ElementMeans {
 /// One of scene.output.history_sets, and what its history holds.
 struct HistorySet {
   std::string name;
-  bool displacement = false, velocity = false, acceleration = false;  ///< means by mass of its nodes
-  bool stress = false, strain = false, plastic_strain = false;        ///< means by volume of its elements
+  /// In the order of case/field_table.hpp: of nodes means by mass, of elements means by volume.
+  std::vector<const FieldRow*> quantities;
   std::string asked_by;       ///< "hammer NAME" or "probe NAME", where one of these made the set
-  std::vector<int> elements;  ///< ascending; empty unless one of stress, strain, plastic_strain
+  std::vector<int> elements;  ///< ascending; empty unless a quantity is one of elements
   Vec3 element_centre{};      ///< m, undeformed, mean of their centres by volume
   Vec3 asked_position{};      ///< m, of a probe: as the case has it
   bool of_probe() const { return asked_by.compare(0, 6, "probe ") == 0; }
-  bool motion() const { return displacement || velocity || acceleration; }
-  bool inside() const { return stress || strain || plastic_strain; }
+  bool has(const std::string& quantity) const;
+  std::vector<const FieldRow*> quantities_of(FieldRow::Place place) const;
+  bool motion() const { return !quantities_of(FieldRow::Place::node).empty(); }
+  bool inside() const { return !quantities_of(FieldRow::Place::element).empty(); }
 };
 
 /// What each of scene.output.history_sets means, in their order: a node set or point mass has its motion written, an

@@ -40,7 +40,7 @@ ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, c
   for (const auto& facet : first.facets) corners.insert(corners.end(), facet.begin(), facet.end());
   group.write("facets", corners, {first.facets.size(), 4});
   std::vector<double> coordinates = first.position;
-  const std::vector<double> moved = source.nodes(NodeField::displacement, nodes).values;
+  const std::vector<double> moved = source.field(field_named("displacement"), nodes).values;
   for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] -= moved.at(i);
   group.write("coordinates", coordinates, {count, 3});
   area = group.create_growing<double>("area", {count}, each_time);
@@ -59,7 +59,7 @@ void ContactSection::Side::add(const ContactSide& state, const FieldSource& sour
   if (state.nodes != nodes) throw std::logic_error("the nodes of a contact surface changed during the run");
   const std::size_t count = nodes.size();
   append(area, state.area, count);
-  append(displacement, source.nodes(NodeField::displacement, nodes).values, 3 * count);
+  append(displacement, source.field(field_named("displacement"), nodes).values, 3 * count);
   append(position, state.position, 3 * count);
   append(velocity, state.velocity, 3 * count);
   append(normal, state.normal, 3 * count);

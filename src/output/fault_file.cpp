@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "model/fields.hpp"
+#include "model/output_field.hpp"
 #include "output/grid_writer.hpp"
 #include "output/output_place.hpp"
 #include "output/results_writer.hpp"
@@ -37,12 +37,15 @@ std::string write_part(const Model& model, const Fault& fault, const hdf5::Group
   const Piece piece(model.assembly.nodes, corners);
   GridWriter grid(parts, "/parts", name, file, 8);
   grid.cells(piece.nodes, piece.connectivity);
-  for (const auto& [field, called] : {std::pair{NodeField::displacement, "displacement"},
-                                      {NodeField::velocity, "velocity"},
-                                      {NodeField::acceleration, "acceleration"}})
-    grid.node_values(called, node_field(model, field, nodes).values, 3);
-  grid.cell_values("stress", element_stress(model, elements).values, 6);
-  grid.values("plastic_strain", element_plastic_strain(model, elements).values);
+  for (const FieldRow* row : fields_for(FieldRow::fields)) {
+    const std::vector<double> values = output_field(model, *row, row->of_nodes() ? nodes : elements).values;
+    if (row->of_nodes())
+      grid.node_values(row->name, values, row->components);
+    else if (row->components > 1)
+      grid.cell_values(row->name, values, row->components);
+    else
+      grid.values(row->name, values);
+  }
   grid.values("element", elements);
   grid.values("culprit", culprit);
   return grid.text();

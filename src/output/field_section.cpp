@@ -1,8 +1,7 @@
 #include "output/field_section.hpp"
 
+#include <algorithm>
 #include <stdexcept>
-
-#include "output/field_names.hpp"
 
 namespace railwave {
 namespace {
@@ -36,25 +35,20 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
     moments_ = group.create_growing<double>("moment", {elements, 3}, each_time);
   }
   for (const std::string& name : fields) {
-    const bool of_element = name == "stress" || name == "plastic_strain";
-    if (of_element && set.is_beam()) continue;
-    if (name == "stress") {
-      element_columns_.push_back(
-          {&FieldSource::stress, 6, group.create_growing<double>(name, {elements, 6}, each_time)});
-    } else if (name == "plastic_strain") {
-      element_columns_.push_back(
-          {&FieldSource::plastic_strain, 1, group.create_growing<double>(name, {elements}, each_time)});
-    } else {
-      node_columns_.push_back({node_field_named(name), group.create_growing<double>(name, {nodes, 3}, each_time)});
-    }
+    const FieldRow& row = field_named(name);
+    if (!set.has(row)) continue;
+    hdf5::Shape shape{set.numbers(row).size()};
+    if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
+    columns_.push_back({&row, group.create_growing<double>(name, shape, each_time)});
   }
+  std::stable_partition(columns_.begin(), columns_.end(), [](const Column& one) { return one.field->of_nodes(); });
 }
 
 void FieldSection::add_values(const FieldSource& source, long step) {
-  for (NodeColumn& column : node_columns_)
-    append(column.dataset, source.nodes(column.field, set_.nodes), set_.nodes.size(), 3, set_.name);
-  for (ElementColumn& column : element_columns_)
-    append(column.dataset, (source.*column.fetch)(set_.elements), set_.elements.size(), column.components, set_.name);
+  for (Column& column : columns_) {
+    const std::vector<int>& numbers = set_.numbers(*column.field);
+    append(column.dataset, source.field(*column.field, numbers), numbers.size(), column.field->components, set_.name);
+  }
   if (set_.is_beam()) add_section_forces(source);
   steps_.append(&step, 1);
 }

@@ -13,8 +13,7 @@ namespace railwave {
 /// time.
 class FieldSection {
  public:
-  /// `fields`: of displacement, velocity, acceleration, stress, plastic_strain. Beams have section forces and moments
-  /// whatever is asked.
+  /// `fields`: names of case/field_table.hpp. Beams have section forces and moments whatever is asked.
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
@@ -22,21 +21,15 @@ class FieldSection {
   void add_time(double time) { times_.append(&time, 1); }
 
  private:
-  struct NodeColumn {
-    NodeField field;
-    hdf5::Dataset dataset;
-  };
-  OutputSet set_;
-  struct ElementColumn {
-    HostField (FieldSource::*fetch)(const std::vector<int>&) const;
-    int components;
+  struct Column {
+    const FieldRow* field;
     hdf5::Dataset dataset;
   };
   void add_section_forces(const FieldSource& source);
 
+  OutputSet set_;
   hdf5::Dataset times_, steps_, forces_, moments_;
-  std::vector<NodeColumn> node_columns_;
-  std::vector<ElementColumn> element_columns_;
+  std::vector<Column> columns_;  ///< those of nodes first
 };
 
 }  // namespace railwave

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "output/field_names.hpp"
-
 namespace railwave {
 namespace {
 
@@ -22,7 +20,6 @@ std::vector<int> sort_and_place(std::vector<int>& numbers) {
 void append(std::vector<int>& all, const std::vector<int>& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 HostField pick(const HostField& all, const std::vector<int>& place, const std::vector<int>& numbers) {
-  if (all.components == 0) throw std::logic_error(not_selected);
   const std::size_t components = all.components;
   HostField picked{all.components, std::vector<double>(components * numbers.size())};
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -36,30 +33,26 @@ HostField pick(const HostField& all, const std::vector<int>& place, const std::v
 }  // namespace
 
 std::size_t FieldSelection::bytes() const {
-  const std::size_t of_node = 3 * node_fields.size(), of_element = (stress ? 6 : 0) + (plastic_strain ? 1 : 0);
-  return sizeof(double) * (of_node * nodes.size() + of_element * elements.size());
+  std::size_t values = 0;
+  for (const FieldRow* row : fields) values += static_cast<std::size_t>(row->components) * numbers(*row).size();
+  return sizeof(double) * values;
 }
 
 FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
                              int contact_count, const FieldSource& source) {
   FieldSelection selection;
   selection.contact_count = contact_count;
-  bool wants_nodes = false;
+  bool wants_nodes = false, wants_elements = false;
   for (const std::string& name : fields) {
-    if (name == "stress")
-      selection.stress = true;
-    else if (name == "plastic_strain")
-      selection.plastic_strain = true;
-    else {
-      selection.node_fields.push_back(node_field_named(name));
-      wants_nodes = true;
-    }
+    const FieldRow& row = field_named(name);
+    selection.fields.push_back(&row);
+    (row.of_nodes() ? wants_nodes : wants_elements) = true;
   }
   for (const OutputSet& set : sets) {
     if (wants_nodes) append(selection.nodes, set.nodes);
     if (set.is_beam())
       selection.beams = true;
-    else if (selection.stress || selection.plastic_strain)
+    else if (wants_elements)
       append(selection.elements, set.elements);
   }
   for (int i = 0; i < contact_count; ++i) {
@@ -68,9 +61,10 @@ FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vect
     append(selection.nodes, state.master.nodes);
   }
   // The contact surfaces are written with their displacement, whatever fields the sets are to have.
-  auto& of_nodes = selection.node_fields;
-  if (contact_count > 0 && std::find(of_nodes.begin(), of_nodes.end(), NodeField::displacement) == of_nodes.end())
-    of_nodes.push_back(NodeField::displacement);
+  const FieldRow* displacement = &field_named("displacement");
+  auto& selected = selection.fields;
+  if (contact_count > 0 && std::find(selected.begin(), selected.end(), displacement) == selected.end())
+    selected.push_back(displacement);
   selection.place_of_node = sort_and_place(selection.nodes);
   selection.place_of_element = sort_and_place(selection.elements);
   return selection;
@@ -78,26 +72,17 @@ FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vect
 
 FieldSnapshot::FieldSnapshot(const FieldSource& source, std::shared_ptr<const FieldSelection> selection)
     : selection_(std::move(selection)) {
-  for (const NodeField field : selection_->node_fields) node_fields_.push_back(source.nodes(field, selection_->nodes));
-  if (selection_->stress) stress_ = source.stress(selection_->elements);
-  if (selection_->plastic_strain) plastic_strain_ = source.plastic_strain(selection_->elements);
+  for (const FieldRow* row : selection_->fields) fields_.push_back(source.field(*row, selection_->numbers(*row)));
   if (selection_->beams) beams_ = source.beams();
   for (int i = 0; i < selection_->contact_count; ++i) contacts_.push_back(source.contact(i));
 }
 
-HostField FieldSnapshot::nodes(NodeField field, const std::vector<int>& node_numbers) const {
-  const auto& fields = selection_->node_fields;
-  const auto found = std::find(fields.begin(), fields.end(), field);
-  if (found == fields.end()) throw std::logic_error(not_selected);
-  return pick(node_fields_[found - fields.begin()], selection_->place_of_node, node_numbers);
-}
-
-HostField FieldSnapshot::stress(const std::vector<int>& element_numbers) const {
-  return pick(stress_, selection_->place_of_element, element_numbers);
-}
-
-HostField FieldSnapshot::plastic_strain(const std::vector<int>& element_numbers) const {
-  return pick(plastic_strain_, selection_->place_of_element, element_numbers);
+HostField FieldSnapshot::field(const FieldRow& row, const std::vector<int>& numbers) const {
+  const auto& selected = selection_->fields;
+  const auto found = std::find(selected.begin(), selected.end(), &row);
+  if (found == selected.end()) throw std::logic_error(not_selected);
+  return pick(fields_[found - selected.begin()],
+              row.of_nodes() ? selection_->place_of_node : selection_->place_of_element, numbers);
 }
 
 }  // namespace railwave

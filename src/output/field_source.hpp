@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "case/field_table.hpp"
 #include "model/fields.hpp"
 
 namespace railwave {
@@ -10,9 +11,8 @@ namespace railwave {
 class FieldSource {
  public:
   virtual ~FieldSource() = default;
-  virtual HostField nodes(NodeField field, const std::vector<int>& node_numbers) const = 0;
-  virtual HostField stress(const std::vector<int>& element_numbers) const = 0;
-  virtual HostField plastic_strain(const std::vector<int>& element_numbers) const = 0;
+  /// @param numbers of nodes or elements, whichever the field belongs to
+  virtual HostField field(const FieldRow& row, const std::vector<int>& numbers) const = 0;
   virtual ContactState contact(int number) const = 0;
   /// Section forces and moments of all elements of beams, N and N m: six components.
   virtual HostField beams() const { return {6, {}}; }

@@ -88,13 +88,13 @@ class Group {
   std::vector<std::string> names() const;  ///< of everything in this group, by alphabet
 
   /// Dataset that grows along its first dimension; `row` is the shape of one entry. Its attribute `unit` is that of
-  /// output_fields.hpp.
+  /// dataset_units.hpp.
   template <class T>
   Dataset create_growing(const std::string& name, const Shape& row, const Storage& storage) const;
 
   /// In a file opened by File::extend() these take what is there; throw if that is of another shape.
   /// Dataset of fixed shape, written at once.
-  /// @param unit its attribute `unit`; empty: that of output_fields.hpp, none where that does not know it
+  /// @param unit its attribute `unit`; empty: that of dataset_units.hpp, none where that does not know it
   template <class T>
   void write(const std::string& name, const std::vector<T>& values, const Shape& shape, const std::string& unit = {},
              Check check = Check::by_chunk) const;

@@ -4,8 +4,8 @@
 
 #include "case/memory.hpp"
 #include "output/call_limit.hpp"
+#include "output/dataset_units.hpp"
 #include "output/hdf5_parts.hpp"
-#include "output/output_fields.hpp"
 #include "output/room.hpp"
 
 namespace railwave::hdf5 {

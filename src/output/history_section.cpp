@@ -10,10 +10,14 @@ namespace {
 
 constexpr hdf5::Storage blocks{1024, false};
 
-constexpr const char* motion_names[] = {"displacement", "velocity", "acceleration"};
-
 void write_place(const hdf5::Group& group, const char* name, const Vec3& place) {
   group.write<double>(name, {place.begin(), place.end()}, {3});
+}
+
+hdf5::Dataset quantity_in(const hdf5::Group& group, const FieldRow& row) {
+  hdf5::Shape shape;
+  if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
+  return group.create_growing<double>(row.name, shape, blocks);
 }
 
 template <class Numbers>
@@ -29,11 +33,19 @@ void HistorySection::Column<T>::write(hsize_t rows) {
   values.clear();
 }
 
+template <class Values>
+template <class Means>
+void HistorySection::QuantityColumn<Values>::push(const Means& means) {
+  const double* first = values(means);
+  column.values.insert(column.values.end(), first, first + components);
+}
+
 HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                                const std::vector<std::string>& sets,
                                const std::vector<std::pair<std::string, int>>& beams,
                                const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
-                               const std::vector<std::string>& askers, const std::vector<std::array<bool, 3>>& motions,
+                               const std::vector<std::string>& askers,
+                               const std::vector<std::vector<const FieldRow*>>& motions,
                                const std::vector<HistorySet>& elements) {
   const hdf5::Group history = root.create_group("history");
   times_.dataset = history.create_growing<double>("time", {}, blocks);
@@ -59,15 +71,15 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
                          {count_in(group, "nodes_slipping"), {}}});
   }
   const hdf5::Group set_groups = history.create_group("set");
+  const auto all_motions = fields_for(FieldRow::histories, FieldRow::Place::node);
   for (const std::string& name : sets) {
     const hdf5::Group group = set_groups.create_group(name);
     if (const std::size_t set = sets_.size(); set < askers.size() && !askers[set].empty())
       group.set_attribute("asked_by", askers[set]);
     if (const std::size_t set = sets_.size(); set < positions.size()) write_place(group, "position", positions[set]);
-    MotionColumns& columns = sets_.emplace_back();
-    for (int k = 0; k < 3; ++k)
-      if (motions.empty() || motions[sets_.size() - 1][k])
-        columns.quantity[k] = Column<double>{vector_in(group, motion_names[k]), {}};
+    auto& columns = sets_.emplace_back();
+    for (const FieldRow* row : motions.empty() ? all_motions : motions[sets_.size() - 1])
+      columns.push_back({row->components, motion_values(*row), {quantity_in(group, *row), {}}});
   }
   for (const HistorySet& set : elements) {
     const hdf5::Group group = set_groups.has(set.name) ? set_groups.group(set.name) : set_groups.create_group(set.name);
@@ -76,11 +88,9 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
     write_place(group, "element_centre", set.element_centre);
     if (set.of_probe()) write_place(group, "asked_position", set.asked_position);
     group.write("elements", set.elements, {set.elements.size()});
-    ElementColumns& columns = elements_.emplace_back();
-    if (set.stress) columns.stress = Column<double>{group.create_growing<double>("stress", {6}, blocks), {}};
-    if (set.strain) columns.strain = Column<double>{group.create_growing<double>("strain", {6}, blocks), {}};
-    if (set.plastic_strain)
-      columns.plastic_strain = Column<double>{group.create_growing<double>("plastic_strain", {}, blocks), {}};
+    auto& columns = elements_.emplace_back();
+    for (const FieldRow* row : set.quantities_of(FieldRow::Place::element))
+      columns.push_back({row->components, element_values(*row), {quantity_in(group, *row), {}}});
   }
   if (!loads.empty()) {
     const hdf5::Group load_groups = history.create_group("load");
@@ -123,16 +133,10 @@ void HistorySection::add(const HistorySample& sample) {
     contacts_[i].nodes_in_contact.values.push_back(sample.contacts[i].nodes_in_contact);
     contacts_[i].nodes_slipping.values.push_back(sample.contacts[i].nodes_slipping);
   }
-  for (std::size_t i = 0; i < sets_.size(); ++i) {
-    const Vec3* values[] = {&sample.sets[i].displacement, &sample.sets[i].velocity, &sample.sets[i].acceleration};
-    for (int k = 0; k < 3; ++k)
-      if (sets_[i].quantity[k]) push(sets_[i].quantity[k]->values, *values[k]);
-  }
-  for (std::size_t i = 0; i < elements_.size(); ++i) {
-    if (elements_[i].stress) push(elements_[i].stress->values, sample.elements[i].stress);
-    if (elements_[i].strain) push(elements_[i].strain->values, sample.elements[i].strain);
-    if (elements_[i].plastic_strain) elements_[i].plastic_strain->values.push_back(sample.elements[i].plastic_strain);
-  }
+  for (std::size_t i = 0; i < sets_.size(); ++i)
+    for (auto& quantity : sets_[i]) quantity.push(sample.sets[i]);
+  for (std::size_t i = 0; i < elements_.size(); ++i)
+    for (auto& quantity : elements_[i]) quantity.push(sample.elements[i]);
   for (std::size_t i = 0; i < beams_.size(); ++i) {
     push(beams_[i].force.values, sample.beams[i].force);
     push(beams_[i].moment.values, sample.beams[i].moment);
@@ -156,11 +160,9 @@ void HistorySection::write() {
     contact.nodes_slipping.write(rows);
   }
   for (auto& set : sets_)
-    for (auto& quantity : set.quantity)
-      if (quantity) quantity->write(rows);
+    for (auto& quantity : set) quantity.column.write(rows);
   for (auto& set : elements_)
-    for (auto* column : {&set.stress, &set.strain, &set.plastic_strain})
-      if (*column) (*column)->write(rows);
+    for (auto& quantity : set) quantity.column.write(rows);
   for (auto& beam : beams_) {
     beam.force.write(rows);
     beam.moment.write(rows);

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "output/hdf5.hpp"
+#include "output/history_values.hpp"
 #include "solve/observer.hpp"
 
 namespace railwave {
@@ -24,13 +23,14 @@ struct LoadNames {
 class HistorySection {
  public:
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m,
-  /// undeformed), if that is known; loads; what in the case asked for each set, if known; which of displacement,
-  /// velocity and acceleration is written of each set, all unless told; sets whose stress, strain or plastic strain is
-  /// written, which may have the names of others.
+  /// undeformed), if that is known; loads; what in the case asked for each set, if known; which
+  /// quantities of nodes are written of each set, all unless told; sets of which quantities of elements are written,
+  /// which may have the names of others.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                  const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams = {},
                  const std::vector<Vec3>& positions = {}, const std::vector<LoadNames>& loads = {},
-                 const std::vector<std::string>& askers = {}, const std::vector<std::array<bool, 3>>& motions = {},
+                 const std::vector<std::string>& askers = {},
+                 const std::vector<std::vector<const FieldRow*>>& motions = {},
                  const std::vector<HistorySet>& elements = {});
 
   void add(const HistorySample& sample);
@@ -48,11 +48,14 @@ class HistorySection {
     Column<double> normal_force, tangential_force, master_force;
     Column<long> nodes_in_contact, nodes_slipping;
   };
-  struct MotionColumns {
-    std::optional<Column<double>> quantity[3];  ///< displacement, velocity, acceleration
-  };
-  struct ElementColumns {
-    std::optional<Column<double>> stress, strain, plastic_strain;
+  /// One quantity of a set; Values says where it is in the set's means.
+  template <class Values>
+  struct QuantityColumn {
+    int components;
+    Values values;
+    Column<double> column;
+    template <class Means>
+    void push(const Means& means);
   };
 
   struct BeamColumns {
@@ -68,8 +71,8 @@ class HistorySection {
   Column<long> steps_;
   std::vector<Column<double>> energies_;
   std::vector<ContactColumns> contacts_;
-  std::vector<MotionColumns> sets_;
-  std::vector<ElementColumns> elements_;
+  std::vector<std::vector<QuantityColumn<MotionValues>>> sets_;
+  std::vector<std::vector<QuantityColumn<ElementValues>>> elements_;
   std::vector<BeamColumns> beams_;
   std::vector<LoadColumn> loads_;
 };

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "case/field_table.hpp"
 #include "case/scene.hpp"
 #include "model/assembly.hpp"
 
@@ -21,6 +22,10 @@ struct OutputSet {
 
   bool is_surface() const { return corner_count == 4; }
   bool is_beam() const { return corner_count == 2; }
+  /// Beams have no fields of elements but their section forces.
+  bool has(const FieldRow& row) const { return row.of_nodes() || !is_beam(); }
+  /// Nodes or elements of which the field is written.
+  const std::vector<int>& numbers(const FieldRow& row) const { return row.of_nodes() ? nodes : elements; }
   /// Group of the results file.
   std::string group() const { return (is_beam() ? "/beams/" : "/fields/") + name; }
 };

@@ -13,6 +13,7 @@
 #include "case/error.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
+#include "model/output_field.hpp"
 #include "output/fault_file.hpp"
 #include "output/results_size.hpp"
 #include "solve/beams.hpp"
@@ -24,13 +25,9 @@ namespace {
 class ModelFields : public FieldSource {
  public:
   explicit ModelFields(const Model& model) : model_(model) {}
-  HostField nodes(NodeField field, const std::vector<int>& numbers) const override {
-    return node_field(model_, field, numbers);
+  HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
+    return output_field(model_, row, numbers);
   }
-  HostField plastic_strain(const std::vector<int>& numbers) const override {
-    return element_plastic_strain(model_, numbers);
-  }
-  HostField stress(const std::vector<int>& numbers) const override { return element_stress(model_, numbers); }
   ContactState contact(int number) const override { return contact_state(model_, number); }
   HostField beams() const override {
     HostField all{6, {}};
@@ -109,7 +106,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
     if (set.motion()) {
       description_.history_sets.push_back(set.name);
       description_.history_askers.push_back(set.asked_by);
-      description_.history_motions.push_back({set.displacement, set.velocity, set.acceleration});
+      description_.history_motions.push_back(set.quantities_of(FieldRow::Place::node));
     }
     if (set.inside()) description_.element_histories.push_back(set);
   }

@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "case/error.hpp"
+#include "case/field_table.hpp"
 #include "case/memory.hpp"
 #include "model/model.hpp"
 #include "output/energy_terms.hpp"
-#include "output/output_fields.hpp"
 
 namespace railwave {
 namespace {
@@ -23,11 +23,9 @@ double values_of_output(const RunDescription& description, const Assembly& assem
   double values = 0;
   for (const OutputSet& set : description.sets) {
     if (set.is_beam()) values += 6.0 * static_cast<double>(set.elements.size());
-    for (const std::string& field : description.fields) {
-      const bool of_element = field == "stress" || field == "plastic_strain";
-      if (of_element && set.is_beam()) continue;
-      values += components_of(field) * static_cast<double>(of_element ? set.elements.size() : set.nodes.size());
-    }
+    for (const std::string& name : description.fields)
+      if (const FieldRow& row = field_named(name); set.has(row))
+        values += row.components * static_cast<double>(set.numbers(row).size());
   }
   const auto add_surface = [&](const std::string& surface) {
     if (const auto found = assembly.surfaces.find(surface); found != assembly.surfaces.end())
@@ -40,13 +38,21 @@ double values_of_output(const RunDescription& description, const Assembly& assem
   return values;
 }
 
+double components_of(const std::vector<const FieldRow*>& rows) {
+  double components = 0;
+  for (const FieldRow* row : rows) components += row->components;
+  return components;
+}
+
 double values_of_sample(const RunDescription& description) {
-  double values =
-      2 + static_cast<double>(std::size(energy_terms)) + 11.0 * static_cast<double>(description.contacts.size()) +
-      9.0 * static_cast<double>(description.history_sets.size()) + 3.0 * static_cast<double>(description.loads.size());
+  const double motion = components_of(fields_for(FieldRow::histories, FieldRow::Place::node));
+  double values = 2 + static_cast<double>(std::size(energy_terms)) +
+                  11.0 * static_cast<double>(description.contacts.size()) +
+                  motion * static_cast<double>(description.history_sets.size()) +
+                  3.0 * static_cast<double>(description.loads.size());
   for (const auto& beam : description.beams) values += 6.0 * beam.second;
   for (const HistorySet& set : description.element_histories)
-    values += 6.0 * set.stress + 6.0 * set.strain + 1.0 * set.plastic_strain;
+    values += components_of(set.quantities_of(FieldRow::Place::element));
   return values;
 }
 

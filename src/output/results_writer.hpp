@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -35,15 +34,15 @@ struct RunDescription {
   long element_count = 0;
   std::vector<ContactNames> contacts;
   std::vector<std::string> history_sets;  ///< those whose motion is written
-  std::vector<std::array<bool, 3>>
-      history_motions;                  ///< of each of these: displacement, velocity, acceleration; or none: all three
+  std::vector<std::vector<const FieldRow*>>
+      history_motions;                  ///< of each of these: which quantities of nodes; or none: all
   std::vector<Vec3> history_positions;  ///< m, undeformed, of each of these; or none
   std::vector<std::string>
       history_askers;  ///< "hammer NAME" or "probe NAME" of each of these, or empty; or none at all
-  std::vector<HistorySet> element_histories;       ///< those whose stress, strain or plastic strain is written
+  std::vector<HistorySet> element_histories;       ///< those of which a quantity of elements is written
   std::vector<std::pair<std::string, int>> beams;  ///< names, numbers of elements
   std::vector<LoadNames> loads;
-  std::vector<std::string> fields;  ///< displacement, velocity, acceleration, stress, plastic_strain
+  std::vector<std::string> fields;  ///< names of case/field_table.hpp
   std::vector<OutputSet> sets;
   std::string key;  ///< checkpoint_key(); empty: not known
 };

@@ -108,15 +108,9 @@ void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string
   text.geometry(set.nodes.size(), group + "coordinates");
   if (set.is_beam())
     for (const char* field : {"force", "moment"}) text.attribute(field, "Cell", set.elements.size(), 3, group + field);
-  for (const std::string& field : fields) {
-    if (set.is_beam() && (field == "stress" || field == "plastic_strain")) continue;
-    if (field == "stress")
-      text.attribute(field, "Cell", set.elements.size(), 6, group + field);
-    else if (field == "plastic_strain")
-      text.attribute(field, "Cell", set.elements.size(), 1, group + field);
-    else
-      text.attribute(field, "Node", set.nodes.size(), 3, group + field);
-  }
+  for (const std::string& name : fields)
+    if (const FieldRow& row = field_named(name); set.has(row))
+      text.attribute(name, row.of_nodes() ? "Node" : "Cell", set.numbers(row).size(), row.components, group + name);
   text.close_grid();
 }
 

@@ -23,7 +23,7 @@ struct XdmfContactSide {
 /// does not.
 class XdmfFile {
  public:
-  /// Makes nothing yet. `fields` are those of the case: displacement, velocity, acceleration, stress, plastic_strain.
+  /// Makes nothing yet. `fields` are those of the case, names of case/field_table.hpp.
   XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields,
            FileKind kind = kinds::results_xdmf());
 

@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/field_table.hpp"
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
-#include "output/output_fields.hpp"
+#include "output/dataset_units.hpp"
 #include "post/set_names.hpp"
 
 namespace railwave {
@@ -20,8 +21,6 @@ struct Quantity {
   bool vector;
 };
 
-constexpr Quantity of_sets[] = {{"displacement", true}, {"velocity", true}, {"acceleration", true}};
-constexpr Quantity of_element_sets[] = {{"stress", false}, {"strain", false}, {"plastic_strain", false}};
 constexpr Quantity of_contacts[] = {{"normal_force", true},
                                     {"tangential_force", true},
                                     {"master_force", true},
@@ -99,6 +98,10 @@ std::vector<std::string> names_of(const Quantity (&quantities)[n]) {
   return names;
 }
 
+std::vector<std::string> names_of_sets(FieldRow::Place place) {
+  return names_of(fields_for(FieldRow::histories, place));
+}
+
 /// OWNER.QUANTITY[.REST], OWNER one of `owners`, which may hold dots: the longest that fits.
 template <std::size_t n>
 ChannelPlace owned(const char* group, const std::string& text, const std::vector<std::string>& owners,
@@ -141,9 +144,7 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
   std::size_t at = std::string::npos, after = 0;
   ChannelPlace place;
   place.group = "set";
-  auto quantities = names_of(of_sets);
-  for (const std::string& inside : names_of(of_element_sets)) quantities.push_back(inside);
-  for (const std::string& quantity : quantities) {
+  for (const std::string& quantity : names_of(fields_for(FieldRow::histories))) {
     const std::string word = '.' + quantity;
     const std::size_t found = text.rfind(word);
     if (found == std::string::npos || found == 0 ||
@@ -164,8 +165,9 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
         asked.refuse(fmt::format("there is none of that name; did you mean '{}'?", near));
     asked.refuse("there is none of that name; there are " + names.summary());
   }
-  place.vector = find(std::begin(of_sets), std::end(of_sets), place.quantity) != nullptr;
-  place.tensor = !place.vector && place.quantity != "plastic_strain";
+  const FieldRow& row = field_named(place.quantity);
+  place.vector = row.components == 3;
+  place.tensor = row.components == 6;
   if (place.vector)
     set_direction(place, text.substr(after), asked);
   else if (place.tensor)
@@ -175,7 +177,7 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
 
   const auto entries = split(text.substr(0, at), '+');
   std::vector<std::vector<ChannelPlace>> channels;
-  auto sets = place.vector ? names.sets : names.element_sets;
+  auto sets = row.of_nodes() ? names.sets : names.element_sets;
   std::sort(sets.begin(), sets.end(), in_number_order);
   for (const std::string& entry : entries) {
     std::size_t count = 0;
@@ -188,11 +190,11 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
     if (count == 0)
       asked.refuse(!sets.empty()
                        ? fmt::format("there is no history of a set '{}'{}; {}", entry,
-                                     place.vector ? "" : " with its " + place.quantity, suggestion(entry, sets))
-                   : place.vector ? "the run wrote the history of no set; the case names them in output.history_sets"
-                                  : "the run wrote the stress or strain of no set; the case asks for it by [probes] "
-                                    "with quantities, or by element sets in "
-                                    "output.history_sets");
+                                     row.of_nodes() ? "" : " with its " + place.quantity, suggestion(entry, sets))
+                   : row.of_nodes() ? "the run wrote the history of no set; the case names them in output.history_sets"
+                                    : "the run wrote the stress or strain of no set; the case asks for it by [probes] "
+                                      "with quantities, or by element sets in "
+                                      "output.history_sets");
   }
   if (entries.size() == 1) return channels;
   std::vector<ChannelPlace> all;
@@ -221,8 +223,8 @@ std::vector<std::string> ChannelNames::all() const {
     for (const std::string& owner : owners)
       for (const std::string& quantity : quantities) result.push_back(prefix + owner + '.' + quantity + suffix);
   };
-  add(sets, "", names_of(of_sets), "");
-  add(element_sets, "", names_of(of_element_sets), "");
+  add(sets, "", names_of_sets(FieldRow::Place::node), "");
+  add(element_sets, "", names_of_sets(FieldRow::Place::element), "");
   add(contacts, "contact.", names_of(of_contacts), "");
   add(beams, "beam.", names_of(of_beams), ".0");
   add(loads, "load.", names_of(of_loads), "");
@@ -244,8 +246,8 @@ std::string ChannelNames::summary() const {
     text += fmt::format("{}{} of {}{}", text.empty() ? "" : "; ", form, joined(owners),
                         more > 0 ? fmt::format(" and {} more", more) : "");
   };
-  add(sets, "SET.", names_of(of_sets));
-  add(element_sets, "SET.", names_of(of_element_sets));
+  add(sets, "SET.", names_of_sets(FieldRow::Place::node));
+  add(element_sets, "SET.", names_of_sets(FieldRow::Place::element));
   add(contacts, "contact.NAME.", names_of(of_contacts));
   add(beams, "beam.NAME.", names_of(of_beams));
   add(loads, "load.NAME.", names_of(of_loads));

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/field_table.hpp"
+#include "model/von_mises.hpp"
 #include "post/channel_name.hpp"
 
 namespace railwave {
@@ -28,24 +30,18 @@ ChannelNames names_in(const hdf5::Group& history) {
   std::vector<std::string> moving, inside;
   for (const std::string& set : names("set")) {
     const hdf5::Group group = history.group("set").group(set);
-    const auto any = [&](std::initializer_list<const char*> quantities) {
-      return std::any_of(quantities.begin(), quantities.end(),
-                         [&](const char* quantity) { return group.has(quantity); });
+    const auto any_of = [&](FieldRow::Place place) {
+      const auto rows = fields_for(FieldRow::histories, place);
+      return std::any_of(rows.begin(), rows.end(), [&](const FieldRow* row) { return group.has(row->name); });
     };
-    if (any({"displacement", "velocity", "acceleration"})) moving.push_back(set);
-    if (any({"stress", "strain", "plastic_strain"})) inside.push_back(set);
+    if (any_of(FieldRow::Place::node)) moving.push_back(set);
+    if (any_of(FieldRow::Place::element)) inside.push_back(set);
   }
   return {moving, names("contact"), names("beam"), names("energy"), loads, inside};
 }
 
 hdf5::Group group_of(const hdf5::Group& history, const ChannelPlace& place) {
   return place.owner.empty() ? history.group(place.group) : history.group(place.group).group(place.owner);
-}
-
-/// Von Mises' equivalent of a stress xx, yy, zz, xy, yz, zx.
-double von_mises(const double* s) {
-  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-  return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
 /// One component of all samples of a tensor.
@@ -99,7 +95,9 @@ HistoryChannel read_mean(const hdf5::Group& history, const std::vector<ChannelPl
     const hdf5::Group group = group_of(history, place);
     placed = placed && place.group == "set" && group.has("position");
     // Stress holds at the element's centre, motion at the nodes.
-    const char* where = !place.vector && group.has("element_centre") ? "element_centre" : "position";
+    const FieldRow* row = find_field(place.quantity);
+    const bool inside = row != nullptr && row->of_elements();
+    const char* where = inside && group.has("element_centre") ? "element_centre" : "position";
     if (placed) position += read_vector(group, where) / static_cast<double>(places.size());
     owners += (owners.empty() ? "" : "+") + place.owner;
   }

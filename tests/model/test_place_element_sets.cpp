@@ -128,11 +128,11 @@ TEST_CASE("history sets are what their names and probes ask for") {
   auto sets = resolve_history_sets(scene, assemble(scene));
   REQUIRE(sets.size() == 2);
   CHECK((sets[0].motion() && !sets[0].inside()));
-  CHECK((!sets[1].motion() && sets[1].stress && sets[1].strain && !sets[1].plastic_strain));
+  CHECK((!sets[1].motion() && sets[1].has("stress") && sets[1].has("strain") && !sets[1].has("plastic_strain")));
   const Vec3 middle{11, 1, 1.5};
   for (int i = 0; i < 3; ++i) CHECK_THAT(sets[1].element_centre[i], WithinAbs(middle[i], 1e-12));
   scene.materials[0].yield_stress = 1e9;
-  CHECK(resolve_history_sets(scene, assemble(scene))[1].plastic_strain);
+  CHECK(resolve_history_sets(scene, assemble(scene))[1].has("plastic_strain"));
   scene.output.history_sets = {"block.pickt"};
   CHECK_THAT(verify::complaint_of_building(scene),
              ContainsSubstring("there is no set 'block.pickt'; did you mean 'block.picked'?"));

@@ -42,22 +42,15 @@ class Source : public FieldSource {
  public:
   explicit Source(double time) : time_(time) {}
 
-  HostField nodes(NodeField field, const std::vector<int>& numbers) const override {
-    const double kind = field == NodeField::displacement ? 1e-6 : field == NodeField::velocity ? 1.0 : 1e3;
-    HostField result{3, {}};
-    for (const int n : numbers)
-      for (int c = 0; c < 3; ++c) result.values.push_back(kind * (n + 0.25 * c + 1000 * time_));
-    return result;
-  }
-  HostField stress(const std::vector<int>& numbers) const override {
-    HostField result{6, {}};
-    for (const int e : numbers)
-      for (int c = 0; c < 6; ++c) result.values.push_back(1e6 * (e + 0.1 * c + 1000 * time_));
-    return result;
-  }
-  HostField plastic_strain(const std::vector<int>& numbers) const override {
-    HostField result{1, {}};
-    for (const int e : numbers) result.values.push_back(1e-3 * e + time_);
+  HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
+    const std::string name = row.name;
+    const double scale = name == "displacement" ? 1e-6 : name == "velocity" ? 1.0 : name == "acceleration" ? 1e3 : 1e6;
+    HostField result{row.components, {}};
+    for (const int number : numbers)
+      for (int c = 0; c < row.components; ++c)
+        result.values.push_back(name == "plastic_strain"
+                                    ? 1e-3 * number + time_
+                                    : scale * (number + (row.of_nodes() ? 0.25 : 0.1) * c + 1000 * time_));
     return result;
   }
   ContactState contact(int) const override { return hertz_contact_state(hertz(time_), {}, HertzForces::sampled); }

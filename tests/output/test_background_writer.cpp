@@ -120,17 +120,9 @@ std::string complaint_of_full_disk(const std::string& path) {
 class Passing : public made_up::Source {
  public:
   using Source::Source;
-  HostField nodes(NodeField field, const std::vector<int>& numbers) const override {
-    ++of_nodes;
-    return present(Source::nodes(field, numbers));
-  }
-  HostField stress(const std::vector<int>& numbers) const override {
-    ++of_elements;
-    return present(Source::stress(numbers));
-  }
-  HostField plastic_strain(const std::vector<int>& numbers) const override {
-    ++of_elements;
-    return present(Source::plastic_strain(numbers));
+  HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
+    ++(row.of_nodes() ? of_nodes : of_elements);
+    return present(Source::field(row, numbers));
   }
   mutable int of_nodes = 0, of_elements = 0;
   bool gone = false;
@@ -245,12 +237,13 @@ TEST_CASE("a snapshot has what was selected, and says so of the rest") {
       std::make_shared<const FieldSelection>(select_fields({run.sets[1]}, {"velocity", "stress"}, 0, source));
   const FieldSnapshot snapshot(source, selection);
   const std::vector<int> some{7, 0, 7, 11};
-  CHECK(snapshot.stress(some).values == source.stress(some).values);
-  CHECK(snapshot.stress(some).components == 6);
-  CHECK(snapshot.nodes(NodeField::velocity, {3, 1}).values == source.nodes(NodeField::velocity, {3, 1}).values);
-  CHECK_THROWS_AS(snapshot.stress({12}), std::logic_error);  // of the upper layer
-  CHECK_THROWS_AS(snapshot.stress({-1}), std::logic_error);
-  CHECK_THROWS_AS(snapshot.stress({100000}), std::logic_error);
-  CHECK_THROWS_AS(snapshot.nodes(NodeField::displacement, {3}), std::logic_error);
-  CHECK_THROWS_AS(snapshot.plastic_strain({0}), std::logic_error);
+  const FieldRow &stress = field_named("stress"), &velocity = field_named("velocity");
+  CHECK(snapshot.field(stress, some).values == source.field(stress, some).values);
+  CHECK(snapshot.field(stress, some).components == 6);
+  CHECK(snapshot.field(velocity, {3, 1}).values == source.field(velocity, {3, 1}).values);
+  CHECK_THROWS_AS(snapshot.field(stress, {12}), std::logic_error);  // of the upper layer
+  CHECK_THROWS_AS(snapshot.field(stress, {-1}), std::logic_error);
+  CHECK_THROWS_AS(snapshot.field(stress, {100000}), std::logic_error);
+  CHECK_THROWS_AS(snapshot.field(field_named("displacement"), {3}), std::logic_error);
+  CHECK_THROWS_AS(snapshot.field(field_named("plastic_strain"), {0}), std::logic_error);
 }

@@ -94,8 +94,9 @@ TEST_CASE("every history sample and field is read back") {
   const OutputSet set = made_up::description().sets[2];
   CHECK(top.dataset("nodes").read<int>() == set.nodes);
   CHECK(same(top.dataset("velocity").read_row<double>(3),
-             made_up::Source(1e-6 * 300).nodes(NodeField::velocity, set.nodes).values));
-  CHECK(same(top.dataset("stress").read_row<double>(4), made_up::Source(1e-6 * 400).stress(set.elements).values));
+             made_up::Source(1e-6 * 300).field(field_named("velocity"), set.nodes).values));
+  CHECK(same(top.dataset("stress").read_row<double>(4),
+             made_up::Source(1e-6 * 400).field(field_named("stress"), set.elements).values));
   CHECK_THROWS_WITH(top.dataset("stress").read_row<double>(5), ContainsSubstring("/fields/block.top/stress"));
 
   const ContactState state = made_up::Source(1e-6 * 200).contact(0);

@@ -2,6 +2,7 @@
 
 #include "kernels/materials/material.hpp"
 #include "kernels/materials/plastic_flow.hpp"
+#include "kernels/materials/polar_rotation.hpp"
 
 namespace railwave {
 
@@ -84,6 +85,40 @@ struct FlowHistory {
         else
           G[i][j] = K[i][j];
       }
+  }
+};
+
+/// The same with a back stress b, Kirchhoff's, a deviator, which turns with the material: what is kept is a = R^T b R
+/// in the axes of the reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body
+/// touches and which does not swing to and fro in large shear.
+template <int Values>
+struct BackStressHistory : FlowHistory<Values> {
+  static constexpr int back_stress = 7;  ///< first of the history's values of a: xx, yy, zz, xy, yz, zx; Pa
+
+  /// R^T: the inverse deformation gradient is U^-1 R^T.
+  template <class S, class Patch, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const Patch& patch, const T (&K)[3][3], T (&turned)[3][3]) {
+    T G[3][3];
+    FlowHistory<Values>::template inverse_gradient<S>(patch, K, G);
+    polar_rotation<S>(G, turned);
+  }
+
+  /// b from a.
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void load_back(int batch, const T (&turned)[3][3], T (&back)[6]) const {
+    T kept[6];
+    for (int c = 0; c < 6; ++c) kept[c] = load_history<S>(this->template value<S>(batch, back_stress + c));
+    carry(kept, turned, back);
+  }
+
+  /// @param added to b
+  template <class S, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void add_back(int batch, const T (&turned)[3][3], const T (&added)[6]) const {
+    T rotation[3][3], kept[6];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) rotation[i][j] = turned[j][i];
+    carry(added, rotation, kept);
+    for (int c = 0; c < 6; ++c) add_to_history<S>(this->template value<S>(batch, back_stress + c), kept[c]);
   }
 };
 

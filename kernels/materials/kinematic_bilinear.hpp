@@ -1,7 +1,6 @@
 #pragma once
 
 #include "kernels/materials/flow_history.hpp"
-#include "kernels/materials/polar_rotation.hpp"
 
 namespace railwave {
 
@@ -13,12 +12,9 @@ struct KinematicConstants {
 /// Bilinear with a back stress: of the hardening modulus H the share beta widens the yield surface and 1 - beta moves
 /// it (Prager; Simo & Hughes, Computational Inelasticity, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
 ///   q <= sigma_y + beta H e_p,   de_p = (q_trial - limit) / (3 mu + H),   db = 2/3 (1 - beta) H (3/2 de_p xi / q).
-/// The back stress b (Kirchhoff's, a deviator) turns with the material: what is kept is a = R^T b R in the axes of the
-/// reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body touches and which does
-/// not swing to and fro in large shear. beta = 1 is Bilinear, which knows nothing of all this.
-struct KinematicBilinear : FlowHistory<13> {
+/// beta = 1 is Bilinear, which knows nothing of all this.
+struct KinematicBilinear : BackStressHistory<13> {
   using Constants = KinematicConstants;
-  static constexpr int back_stress = 7;  ///< first of the history's values of a: xx, yy, zz, xy, yz, zx; Pa
 
   const Constants* constants;  ///< by row
 
@@ -48,10 +44,9 @@ struct KinematicBilinear : FlowHistory<13> {
     // As long as nothing has flowed there is no back stress either.
     const bool has_flowed = any_lane(flowed > S(0));
     if (has_flowed) {
-      T kept[6], back[6];
+      T back[6];
       turn_back<S>(patch, K, turned);
-      for (int c = 0; c < 6; ++c) kept[c] = load_history<S>(value<S>(batch, back_stress + c));
-      carry(kept, turned, back);
+      load_back<S>(batch, turned, back);
       for (int c = 0; c < 6; ++c) xi[c] -= back[c];
     }
     const T mises_square = S(1.5) * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]) +
@@ -63,7 +58,10 @@ struct KinematicBilinear : FlowHistory<13> {
     const T increment = radial_return<S>(bilinear, yields, xi, mises_square, limit, tau, lost);
     book_flow<S, false>(patch, batch, K, e, yields, lost, increment);
     if (!has_flowed) turn_back<S>(patch, K, turned);
-    move_surface<S>(patch, batch, turned, lost);
+    T moved[6];
+    const S modulus = S(2.0 / 3 * (1 - patch.constants.isotropic_share) * bilinear.hardening);
+    for (int c = 0; c < 6; ++c) moved[c] = modulus * lost[c];
+    add_back<S>(batch, turned, moved);
   }
 
   /// Work of the flow: what isotropic hardening makes of it, and 3 a : a / (4 (1 - beta) H) in the moved surface, which
@@ -78,28 +76,6 @@ struct KinematicBilinear : FlowHistory<13> {
     double square = 0;
     for (int c = 0; c < 6; ++c) square += (c < 3 ? 1 : 2) * history[back_stress + c] * history[back_stress + c];
     return isotropic + 0.75 * square / kinematic;
-  }
-
- private:
-  /// R^T: the inverse deformation gradient is U^-1 R^T.
-  template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const OfPatch<S>& patch, const T (&K)[3][3], T (&turned)[3][3]) {
-    T G[3][3];
-    inverse_gradient<S>(patch, K, G);
-    polar_rotation<S>(G, turned);
-  }
-
-  /// @param lost flow of the Hencky strain; zero in lanes that do not yield
-  template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void move_surface(const OfPatch<S>& patch, int batch, const T (&turned)[3][3],
-                                                const T (&lost)[6]) const {
-    T rotation[3][3], back[6], kept[6];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) rotation[i][j] = turned[j][i];
-    const S modulus = S(2.0 / 3 * (1 - patch.constants.isotropic_share) * patch.constants.bilinear.hardening);
-    for (int c = 0; c < 6; ++c) back[c] = modulus * lost[c];
-    carry(back, rotation, kept);
-    for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, back_stress + c), kept[c]);
   }
 };
 

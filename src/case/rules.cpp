@@ -117,23 +117,6 @@ void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
   }
 }
 
-void check_material(void* entry, EntryCheck& check) {
-  const auto& material = *static_cast<scene::Material*>(entry);
-  if (check.given("tangent_modulus") && !check.given("yield_stress")) {
-    check.complain("tangent_modulus",
-                   "has no effect without yield_stress; give that too, or leave tangent_modulus out");
-  }
-  if (check.given("hardening_beta") && !check.given("tangent_modulus")) {
-    check.complain("hardening_beta",
-                   "has no effect without tangent_modulus; give that too, or leave hardening_beta out");
-  }
-  if (check.sound({"tangent_modulus", "youngs_modulus"}) && material.tangent_modulus > 0 &&
-      !(material.tangent_modulus < material.youngs_modulus)) {
-    check.complain("tangent_modulus", fmt::format("is {}, must be smaller than youngs_modulus ({})",
-                                                  material.tangent_modulus, material.youngs_modulus));
-  }
-}
-
 namespace {
 
 /// Elements of a body of so many divisions, against those that solids of a railway have.

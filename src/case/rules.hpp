@@ -22,7 +22,6 @@ class EntryCheck {
 
 // Rules that bind several keys of one entry; each gets the section's entry. They also set defaults that depend on
 // another key.
-void check_material(void* entry, EntryCheck& check);
 void check_mesh(void* entry, EntryCheck& check);
 void check_part(void* entry, EntryCheck& check);
 void check_sleeper(void* entry, EntryCheck& check);  // rules_track.cpp

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/materials/bilinear.hpp"
+#include "kernels/materials/chaboche.hpp"
 #include "kernels/materials/elastic.hpp"
 #include "kernels/materials/kinematic_bilinear.hpp"
 #include "kernels/type_list.hpp"
@@ -9,6 +10,6 @@ namespace railwave {
 
 /// Every material of elements. CMake reads this line and compiles the kernels of each in files of their own
 /// (src/CMakeLists.txt).
-using Materials = TypeList<Elastic, Bilinear, KinematicBilinear>;
+using Materials = TypeList<Elastic, Bilinear, KinematicBilinear, Chaboche>;
 
 }  // namespace railwave

@@ -10,7 +10,7 @@ struct KinematicConstants {
 };
 
 /// Bilinear with a back stress: of the hardening modulus H the share beta widens the yield surface and 1 - beta moves
-/// it (Prager; Simo & Hughes, Computational Inelasticity, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
+/// it (Prager 1956; Simo and Hughes 1998, 3.3.1). With xi = s - b and q = sqrt(3/2 xi : xi),
 ///   q <= sigma_y + beta H e_p,   de_p = (q_trial - limit) / (3 mu + H),   db = 2/3 (1 - beta) H (3/2 de_p xi / q).
 /// beta = 1 is Bilinear, which knows nothing of all this.
 struct KinematicBilinear : BackStressHistory<13> {

@@ -9,7 +9,7 @@
 /// strain E_p = (F_p^T F_p - I)/2, which lives in the reference configuration: zero at the start, untouched by
 /// rotations of the body. Seen from the present configuration it takes its share from the Almansi strain, and what is
 /// left is elastic: e = (I - G^T G)/2 - G^T E_p G with G = F^-1, h = -1/2 ln(I - 2 e). The radial return is that of
-/// Simo & Hughes, Computational Inelasticity, 3.3 and 9.3: in Hencky strain it is the one of small strains. Flow stress
+/// Simo and Hughes 1998, 3.3 and 9.3: in Hencky strain it is the one of small strains. Flow stress
 /// and stress are Kirchhoff's, so that the work of the flow is a function of the equivalent plastic strain; Cauchy's
 /// differ by J = 1 + tr h, 0.1 % at a yield strain of 0.3 %. Symmetric tensors are six values: xx, yy, zz, xy, yz, zx.
 /// S is the number, T the lanes' type.

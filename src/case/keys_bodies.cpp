@@ -20,6 +20,26 @@ void check_material(void* entry, EntryCheck& check) {
     check.complain("hardening_beta",
                    "has no effect without tangent_modulus; give that too, or leave hardening_beta out");
   }
+  for (const char* key : {"isotropic_saturation", "back_stress_modulus"}) {
+    if (!check.given(key)) continue;
+    if (!check.given("yield_stress"))
+      check.complain(key, fmt::format("has no effect without yield_stress; give that too, or leave {} out", key));
+    if (check.given("tangent_modulus"))
+      check.complain(key, fmt::format("is one law of hardening and tangent_modulus another; leave {} or "
+                                      "tangent_modulus out",
+                                      key));
+  }
+  if (check.given("isotropic_saturation") != check.given("isotropic_rate"))
+    check.complain(check.given("isotropic_rate") ? "isotropic_rate" : "isotropic_saturation",
+                   "isotropic_saturation and isotropic_rate are one law; give both or neither");
+  if (check.given("back_stress_recall") && !check.given("back_stress_modulus"))
+    check.complain("back_stress_recall",
+                   "has no effect without back_stress_modulus; give that too, or leave back_stress_recall out");
+  if (check.sound({"isotropic_saturation", "yield_stress"}) && material.yield_stress &&
+      !(material.isotropic_saturation > -*material.yield_stress))
+    check.complain("isotropic_saturation",
+                   fmt::format("is {} Pa: with that nothing is left of yield_stress ({} Pa) in the end",
+                               material.isotropic_saturation, *material.yield_stress));
   if (check.sound({"tangent_modulus", "youngs_modulus"}) && material.tangent_modulus > 0 &&
       !(material.tangent_modulus < material.youngs_modulus)) {
     check.complain("tangent_modulus", fmt::format("is {}, must be smaller than youngs_modulus ({})",
@@ -63,6 +83,18 @@ Section material_section() {
           "(Prager), "
           "between is mixed")
           .within(between(0, 1)),
+      key("isotropic_saturation", &Material::isotropic_saturation,
+          "Q of a flow stress that grows, or with Q < 0 falls, by Q (1 - exp(-b p)) with the equivalent plastic strain "
+          "p "
+          "(Voce)")
+          .in("Pa"),
+      key("isotropic_rate", &Material::isotropic_rate, "b of that").within(at_least(0)),
+      key("back_stress_modulus", &Material::back_stress_modulus,
+          "C of a yield surface that moves by db = 2/3 C de_p - gamma b dp (Armstrong and Frederick, Chaboche)")
+          .in("Pa")
+          .within(at_least(0)),
+      key("back_stress_recall", &Material::back_stress_recall, "gamma of that: the surface moves by C / gamma at most")
+          .within(at_least(0)),
   };
   section.rule = check_material;
   return section;

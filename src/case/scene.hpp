@@ -29,6 +29,10 @@ struct Material : Place {
   std::optional<double> yield_stress;  ///< Pa, von Mises; absent: elastic
   double tangent_modulus = 0;          ///< Pa, slope of stress over strain beyond yield, uniaxial stress
   double hardening_beta = 1;           ///< share of the hardening that is isotropic; the rest moves the yield surface
+  double isotropic_saturation = 0;     ///< Pa, by how much the flow stress grows in the end
+  double isotropic_rate = 0;           ///< of that over plastic strain
+  double back_stress_modulus = 0;      ///< Pa, by which the yield surface begins to move
+  double back_stress_recall = 0;       ///< share of the back stress that fades over plastic strain
 
   /// lambda + 2 mu, Pa
   double dilatational_modulus() const {

@@ -46,7 +46,20 @@ struct MaterialTrait<KinematicBilinear> {
   }
 };
 
-/// Which of `Materials` a case's material is.
+template <>
+struct MaterialTrait<Chaboche> {
+  static constexpr const char* words = ", elastoplastic with hardening that saturates";
+  static constexpr const char* left_out_as = nullptr;
+  static bool is_of(const scene::Material& material) {
+    return material.yield_stress && (material.isotropic_saturation != 0 || material.back_stress_modulus > 0);
+  }
+  static ChabocheConstants constants(const scene::Material& material) {
+    return {elastic_constants(material), *material.yield_stress,       material.isotropic_saturation,
+            material.isotropic_rate,     material.back_stress_modulus, material.back_stress_recall};
+  }
+};
+
+/// Which of `Materials` a case's material is: the last that says so.
 inline int material_number(const scene::Material& material) {
   int found = -1;
   for_each_type(Materials{}, [&](int number, auto type) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "case/key.hpp"
@@ -29,7 +30,13 @@ Section output_section();
 
 Section watch_section();  // keys_watch.cpp
 
+/// What the sets of a type of mesh are called, for the reference page.
+struct MeshSets {
+  std::string type, node_sets, surfaces, element_sets;
+};
+
 Section mesh_section();  // keys_meshes.cpp
+std::vector<MeshSets> mesh_sets();
 Section seam_section();
 
 Section material_section();  // keys_bodies.cpp

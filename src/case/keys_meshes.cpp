@@ -1,8 +1,10 @@
+#include <iterator>
+
 #include "case/keys.hpp"
 #include "case/keys_rail.hpp"
 #include "case/rules.hpp"
 
-// The meshes: each type has its own keys.
+// The meshes: each type has its own keys, and sets with names of their own.
 namespace railwave::case_file {
 
 using scene::BoxMesh;
@@ -256,8 +258,7 @@ Section mesh_section() {
   auto section = named_section("meshes", "mesh", &scene::Scene::meshes,
                                "Meshes of 8-node hexahedra, made by a generator or read from a file.");
   section.keys = {key("type", &MeshSource::type, "what makes it")
-                      .one_of({"box", "wheel", "rail", "file", "crowned_block", "roller", "cylinder", "fishplate",
-                               "rail_pad", "wheelset"})
+                      .one_of({std::begin(scene::mesh_type_names), std::end(scene::mesh_type_names)})
                       .needed()};
   section.add_keys("box", box_keys());
   section.add_keys("wheel", wheel_keys(&MeshSource::wheel));
@@ -271,6 +272,21 @@ Section mesh_section() {
   section.add_keys("wheelset", wheelset_keys());
   section.rule = check_mesh;
   return section;
+}
+
+std::vector<MeshSets> mesh_sets() {
+  return {
+      {"box", "`x_min`, `x_max`, `y_min`, `y_max`, `z_min`, `z_max`", "the same six", ""},
+      {"crowned_block", "`x_min`, `x_max`, `y_min`, `y_max`, `bottom`, `top`", "the same six, `zone`", ""},
+      {"roller", "`y_min`, `y_max`, `tread`, `bore`; unless it is a ring, `arc_min`, `arc_max`", "the same, `zone`",
+       ""},
+      {"cylinder", "`z_min`, `z_max`, `skin`", "the same three", ""},
+      {"wheel", "`bore`, `centre_section`", "`tread`, `running_surface`", "`zone`"},
+      {"wheelset", "as `wheel`, `middle`", "as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the axle",
+       "`zone`, `wheel`, `axle`"},
+      {"rail", "`foot`, `start`, `end`",
+       "`head`, `running_surface`, `foot`, `fishing_left`, `fishing_right`, `start_face`, `end_face`", "`zone`"},
+  };
 }
 
 Section seam_section() {

@@ -76,16 +76,9 @@ end = 1e-3
 
 | mesh | node sets | surfaces | element sets |
 |---|---|---|---|
-| `box` | `x_min`, `x_max`, `y_min`, `y_max`, `z_min`, `z_max` | the same six | |
-| `crowned_block` | `x_min`, `x_max`, `y_min`, `y_max`, `bottom`, `top` | the same six, `zone` | |
-| `roller` | `y_min`, `y_max`, `tread`, `bore`; unless it is a ring, `arc_min`, `arc_max` | the same, `zone` | |
-| `cylinder` | `z_min`, `z_max`, `skin` | the same three | |
-| `wheel` | `bore`, `centre_section` | `tread`, `running_surface` | `zone` |
-| `wheelset` | as `wheel`, `middle` | as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the)"
-                                     R"( axle | `zone`, `wheel`, `axle` |
-| `rail` | `foot`, `start`, `end` | `head`, `running_surface`, `foot`, `fishing_left`,)"
-                                     R"( `fishing_right`, `start_face`, `end_face` | `zone` |
+)";
 
+constexpr const char* introduction_after_sets = R"(
 `tread` and `head` are where bodies usually touch: the contact band over the solution zone, and a margin around it.
 `running_surface` goes all along the wheel or rail; `zone` is the solution zone; `middle` is where a half wheelset
 ends, a whole one's sets are also there by halves, as `left_tread` and `right_tread`; `centre_section` is the wheel's
@@ -136,6 +129,14 @@ spacing = [0.6, 0, 0]
 
 Required keys have no default. Keys of three numbers take them along x, y, z.
 )";
+
+std::string sets_table() {
+  std::string text;
+  for (const auto& row : mesh_sets())
+    text += fmt::format("| `{}` | {} | {} |{} |\n", row.type, row.node_sets, row.surfaces,
+                        row.element_sets.empty() ? "" : " " + row.element_sets);
+  return text;
+}
 
 /// Quoted choices as code, and no bar that would end a column.
 std::string cell(std::string text) {
@@ -207,7 +208,7 @@ std::string section_text(const Section& section) {
 }  // namespace
 
 std::string case_reference_markdown() {
-  std::string text = introduction;
+  std::string text = introduction + sets_table() + introduction_after_sets;
   for (const auto& section : sections()) text += section_text(section);
   return text +
          "\n# Limits by unit\n\nBesides what the tables above allow, for every key that has the unit; those of "

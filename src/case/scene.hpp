@@ -16,12 +16,6 @@ namespace railwave::scene {
 
 using Box = std::array<Vec3, 2>;  ///< lowest and highest corner
 
-/// Where an entry stands, for errors found after reading.
-struct Place {
-  std::string name;  ///< the entry's own name, e.g. "wheel" of [parts.wheel]
-  int line = 0;
-};
-
 struct Material : Place {
   double youngs_modulus = 0;  ///< Pa
   double poissons_ratio = 0;
@@ -44,20 +38,6 @@ struct Material : Place {
   double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
   /// C_s, m/s
   double shear_speed() const { return std::sqrt(shear_modulus() / density); }
-};
-
-struct MeshSource : Place {
-  MeshType type = MeshType::box;
-  BoxMesh box;
-  WheelMesh wheel;
-  RailMesh rail;
-  FileMesh file;
-  CrownedBlockMesh crowned_block;
-  RollerMesh roller;
-  CylinderMesh cylinder;
-  FishplateMesh fishplate;
-  RailPadMesh rail_pad;
-  WheelsetMesh wheelset;
 };
 
 /// A crack in a mesh: nodes doubled on a plane across the rail, its two faces surfaces NAME_before and NAME_behind.

@@ -6,11 +6,18 @@
 #include <vector>
 
 /// Parameters of the meshes that a case can name, in SI units; the meshes are made of them by src/mesh.
+///
+/// A new mesh has a struct and a line of RAILWAVE_MESHES here, its keys and the names of its sets in keys_meshes.cpp,
+/// and its generator in src/mesh, see mesh/build_mesh.hpp.
 namespace railwave::scene {
 
 using Vec3 = std::array<double, 3>;
 
-enum class MeshType { box, wheel, rail, file, crowned_block, roller, cylinder, fishplate, rail_pad, wheelset };
+/// Where an entry stands, for errors found after reading.
+struct Place {
+  std::string name;  ///< the entry's own name, e.g. "wheel" of [parts.wheel]
+  int line = 0;
+};
 
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
@@ -81,7 +88,7 @@ struct FileMesh {
   double scale = 1.0;  ///< multiplies coordinates: 0.001 for a mesh in mm
 };
 
-/// A block with a curved top, its crest above (0, 0); see mesh/crowned_block.hpp.
+/// A block with a curved top, its crest above (0, 0); see mesh/crowned_block.cpp.
 struct CrownedBlockMesh {
   Vec3 origin{-0.04, -0.04, -0.06};  ///< lowest corner, m
   Vec3 size{0.08, 0.08, 0.06};       ///< m, height at the crest
@@ -98,7 +105,7 @@ struct CrownedBlockMesh {
   double coarse_size = 0.01;           ///< m, largest cell
 };
 
-/// A ring or a sector of it, axle along y through the origin; see mesh/roller.hpp.
+/// A ring or a sector of it, axle along y through the origin; see mesh/roller.cpp.
 struct RollerMesh {
   double radius = 0.46;  ///< m, of the tread, at y = 0
   double bore_radius = 0.40;
@@ -119,7 +126,7 @@ struct RollerMesh {
   double coarse_size = 0.01;           ///< m, largest cell
 };
 
-/// A solid round bar along z, its lower end in z = 0; see mesh/cylinder.hpp.
+/// A solid round bar along z, its lower end in z = 0; see mesh/cylinder.cpp.
 struct CylinderMesh {
   double radius = 0.01;       ///< m
   double length = 0.05;       ///< m
@@ -132,7 +139,7 @@ struct CylinderMesh {
 
 enum class RailSide { left, right };  ///< left: towards -y, where a rail of positive inclination leans
 
-/// A bar in the fishing chamber at one side of a rail; see mesh/fishplate.hpp.
+/// A bar in the fishing chamber at one side of a rail; see mesh/fishplate.cpp.
 struct FishplateMesh {
   std::string rail;    ///< the mesh that it fits
   RailMesh rail_mesh;  ///< that mesh's parameters, filled in when the case has been read
@@ -146,7 +153,7 @@ struct FishplateMesh {
   std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
 };
 
-/// A pad under a rail's foot, as wide as that and leaning with it, of even thickness; see mesh/rail_pad.hpp.
+/// A pad under a rail's foot, as wide as that and leaning with it, of even thickness; see mesh/rail_pad.cpp.
 struct RailPadMesh {
   std::string rail;      ///< the mesh that it lies under
   RailMesh rail_mesh;    ///< that mesh's parameters, filled in when the case has been read
@@ -157,7 +164,7 @@ struct RailPadMesh {
   std::optional<double> size;  ///< m, largest element along and across the rail; absent: as the foot's are
 };
 
-/// Wheel and half axle in one, or both halves; see mesh/wheelset.hpp. Its origin is the axle's middle.
+/// Wheel and half axle in one, or both halves; see mesh/wheelset.cpp. Its origin is the axle's middle.
 struct WheelsetMesh : WheelMesh {
   WheelsetMesh() : axle{{0, 0.08}, {0.61, 0.08}, {0.89, 0.0675}, {1.1, 0.0675}} {}
 
@@ -166,5 +173,39 @@ struct WheelsetMesh : WheelMesh {
   std::vector<std::array<double, 2>> axle;  ///< y and radius, m, from the middle outwards
   double axle_size = 0.05;                  ///< m, largest element size along the axle beside the hub
 };
+
+/// Every mesh that a case can name: its `type`, and the struct of its parameters. MeshType and MeshSource below, the
+/// case file's choices of `type` and the generators that src/mesh expects (mesh/build_mesh.hpp) are made of this list.
+/// New ones come last.
+#define RAILWAVE_MESHES(RAILWAVE_MESH)           \
+  RAILWAVE_MESH(box, BoxMesh)                    \
+  RAILWAVE_MESH(wheel, WheelMesh)                \
+  RAILWAVE_MESH(rail, RailMesh)                  \
+  RAILWAVE_MESH(file, FileMesh)                  \
+  RAILWAVE_MESH(crowned_block, CrownedBlockMesh) \
+  RAILWAVE_MESH(roller, RollerMesh)              \
+  RAILWAVE_MESH(cylinder, CylinderMesh)          \
+  RAILWAVE_MESH(fishplate, FishplateMesh)        \
+  RAILWAVE_MESH(rail_pad, RailPadMesh)           \
+  RAILWAVE_MESH(wheelset, WheelsetMesh)
+
+#define RAILWAVE_TYPE(type, Parameters) type,
+#define RAILWAVE_NAME(type, Parameters) #type,
+#define RAILWAVE_FIELD(type, Parameters) Parameters type;
+
+enum class MeshType { RAILWAVE_MESHES(RAILWAVE_TYPE) };
+
+/// What the types are called in a case, in the order of MeshType.
+inline constexpr const char* mesh_type_names[] = {RAILWAVE_MESHES(RAILWAVE_NAME)};
+
+/// A mesh of a case; only the parameters of its own type count.
+struct MeshSource : Place {
+  MeshType type = MeshType::box;
+  RAILWAVE_MESHES(RAILWAVE_FIELD)
+};
+
+#undef RAILWAVE_TYPE
+#undef RAILWAVE_NAME
+#undef RAILWAVE_FIELD
 
 }  // namespace railwave::scene

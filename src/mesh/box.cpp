@@ -1,14 +1,17 @@
-#include "mesh/box.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
 
+/// A rectangular block of `box.divisions[0..2]` equal hexahedra along x, y, z between `box.origin` and
+/// `box.origin + box.size` (m). Node and element numbers run fastest along x, then y, then z.
+/// Node sets and surfaces x_min, x_max, y_min, y_max, z_min, z_max are its six sides.
+/// Throws InputError when a size or division isn't positive, or the block has more nodes than an int counts.
 namespace railwave {
 namespace {
 
@@ -36,9 +39,7 @@ void check(const scene::MeshSource& source) {
                                  std::numeric_limits<int>::max()));
 }
 
-}  // namespace
-
-Mesh box_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const scene::BoxMesh& box = source.box;
   const auto& n = box.divisions;
@@ -50,5 +51,14 @@ Mesh box_mesh(const scene::MeshSource& source) {
     return x;
   });
 }
+
+double elements(const scene::MeshSource& source) {
+  const auto& n = source.box.divisions;
+  return static_cast<double>(n[0]) * n[1] * n[2];
+}
+
+}  // namespace
+
+MeshGenerator box_generator() { return {build, elements}; }
 
 }  // namespace railwave

@@ -1,14 +1,19 @@
-#include "mesh/crowned_block.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/build_mesh.hpp"
 #include "mesh/crown.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
 
+/// A block whose top is curved: plane, cylinder, sphere, or an arc turned about an axis, exact at every node. Its crest
+/// is above (0, 0), at the height of the top of the box between `origin` and `origin + size`. Cells have zone_size in
+/// the zone under the top and grow away from it along x, y and downwards; the curve fades out towards the plane bottom.
+/// Node sets and surfaces: top, bottom, x_min, x_max, y_min, y_max; surface zone, the top over the
+/// solution zone: in a contact the small facets only, for large thin ones cost step. Throws InputError if the
+/// parameters don't fit.
 namespace railwave {
 namespace {
 
@@ -44,23 +49,22 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-}  // namespace
+/// Along x, along y and from the top down.
+GridLines lines_of(const scene::CrownedBlockMesh& b) {
+  const double layer = b.layer_height.value_or(b.zone_size), half = b.zone_width / 2;
+  return {
+      GradedLine{b.origin[0], b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth, b.coarse_size},
+      GradedLine{b.origin[1], b.origin[1] + b.size[1], b.zone_centre - half, b.zone_centre + half, b.zone_size,
+                 b.growth, b.coarse_size},
+      GradedLine{0, b.size[2], 0, b.zone_layers * layer, layer, b.growth, b.coarse_size}};
+}
 
-Mesh crowned_block_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const scene::CrownedBlockMesh& b = source.crowned_block;
-  const double layer = b.layer_height.value_or(b.zone_size), height = b.size[2];
-  const GradedLine along{b.origin[0],  b.origin[0] + b.size[0], b.zone_start, b.zone_end, b.zone_size, b.growth,
-                         b.coarse_size};
-  const GradedLine across{b.origin[1],
-                          b.origin[1] + b.size[1],
-                          b.zone_centre - b.zone_width / 2,
-                          b.zone_centre + b.zone_width / 2,
-                          b.zone_size,
-                          b.growth,
-                          b.coarse_size};
-  const auto x = nodes_of(along), y = nodes_of(across);
-  const auto depth = nodes_of({0, height, 0, b.zone_layers * layer, layer, b.growth, b.coarse_size});
+  const double height = b.size[2];
+  const GridLines lines = lines_of(b);
+  const auto x = nodes_of(lines[0]), y = nodes_of(lines[1]), depth = nodes_of(lines[2]);
   const int layers = static_cast<int>(depth.size()) - 1;
   const Grid grid{{static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1, layers},
                   false,
@@ -70,8 +74,16 @@ Mesh crowned_block_mesh(const scene::MeshSource& source) {
     const double drop = crown_fall(b.radius_along, b.radius_across, x[i], y[j]);
     return Vec3{x[i], y[j], b.origin[2] + (height - drop) * (1 - depth[layers - k] / height)};
   });
-  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["top"], along, across);
+  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["top"], lines[0], lines[1]);
   return mesh;
 }
+
+double elements(const scene::MeshSource& source) { return cells_of(lines_of(source.crowned_block)); }
+
+double fine_size(const scene::MeshSource& source) { return source.crowned_block.zone_size; }
+
+}  // namespace
+
+MeshGenerator crowned_block_generator() { return {build, elements, fine_size}; }
 
 }  // namespace railwave

@@ -1,11 +1,14 @@
-#include "mesh/cylinder.hpp"
-
 #include <cmath>
 
+#include "mesh/build_mesh.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_room.hpp"
 #include "mesh/round_core.hpp"
 
+/// A solid round bar along z from z = 0, its axis through the origin: a square-like core of core_divisions x
+/// core_divisions columns of elements, its sides bulged, within four blocks of ring_divisions that reach the skin (an
+/// O-grid); exact at every node of the skin. Layers along z grow by a constant factor, so that the last is end_ratio
+/// times the first. Node sets and surfaces: skin, z_min, z_max. Throws InputError if the parameters don't fit.
 namespace railwave {
 namespace {
 
@@ -76,9 +79,7 @@ std::vector<double> heights(const scene::CylinderMesh& c) {
   return z;
 }
 
-}  // namespace
-
-Mesh cylinder_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const double core = source.cylinder.core_divisions, rings = source.cylinder.ring_divisions,
                layers_wanted = source.cylinder.length_divisions;
@@ -112,5 +113,14 @@ Mesh cylinder_mesh(const scene::MeshSource& source) {
     }
   return mesh;
 }
+
+double elements(const scene::MeshSource& source) {
+  const scene::CylinderMesh& c = source.cylinder;
+  return (static_cast<double>(c.core_divisions) + 4.0 * c.ring_divisions) * c.core_divisions * c.length_divisions;
+}
+
+}  // namespace
+
+MeshGenerator cylinder_generator() { return {build, elements}; }
 
 }  // namespace railwave

@@ -1,5 +1,3 @@
-#include "mesh/fishplate.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,11 +6,17 @@
 #include <utility>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/extrusion.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_room.hpp"
 #include "mesh/rail.hpp"
 
+/// A fishplate: a bar along x that fills the fishing chamber of a rail's mesh at one side, inclined as the rail is. Its
+/// inner side follows the facets of the rail's mesh, with their nodes: under the head, along the web (`clearance` away
+/// from it), on the foot; its outer side is plane. Surfaces upper, inner and lower (towards head, web and foot), outer,
+/// start_face, end_face; `fishing` is the first three together, where it bridges a gap those before the gap, and
+/// `fishing_2` those behind it. Throws InputError when it doesn't fit the chamber.
 namespace railwave {
 namespace {
 
@@ -173,9 +177,7 @@ Stations plate_stations(const std::vector<double>& ends, double size, std::vecto
   return stations;
 }
 
-}  // namespace
-
-Mesh fishplate_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const scene::FishplateMesh& plate = source.fishplate;
   scene::MeshSource rail = source;
@@ -218,5 +220,15 @@ Mesh fishplate_mesh(const scene::MeshSource& source) {
   mesh.surfaces["end_face"] = faces_at_station(extrusion, last);
   return std::move(extrusion.mesh);
 }
+
+double elements(const scene::MeshSource& source) {
+  const scene::FishplateMesh& plate = source.fishplate;
+  constexpr double section = 60;  // quadrilaterals of a chamber between zone_size and three times that
+  return section * std::max(1.0, (plate.end - plate.start) / plate.size.value_or(3 * plate.rail_mesh.zone_size));
+}
+
+}  // namespace
+
+MeshGenerator fishplate_generator() { return {build, elements}; }
 
 }  // namespace railwave

@@ -82,6 +82,12 @@ std::vector<double> nodes_of(const GradedLine& line) {
   return nodes;
 }
 
+double cells_of(const GridLines& lines) {
+  double cells = 1;
+  for (const GradedLine& line : lines) cells *= static_cast<double>(nodes_of(line).size()) - 1;
+  return cells;
+}
+
 std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& first, const GradedLine& second) {
   const auto in_zone = [](const GradedLine& line) {
     const auto nodes = nodes_of(line);

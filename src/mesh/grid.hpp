@@ -31,6 +31,11 @@ struct GradedLine {
 };
 std::vector<double> nodes_of(const GradedLine& line);
 
+/// The lines along the three directions of a graded grid.
+using GridLines = std::array<GradedLine, 3>;
+/// How many cells such a grid has.
+double cells_of(const GridLines& lines);
+
 /// Those faces of a side of the third direction whose cells have their middles in the zones of the lines along the
 /// first two.
 std::vector<Face> zone_faces(const std::vector<Face>& side, const GradedLine& first, const GradedLine& second);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/extrusion.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/height_map.hpp"
@@ -129,6 +130,14 @@ Mesh rail_mesh(const scene::MeshSource& source) {
     apply_height_map(HeightMap(r.height_map), r.height_map_depth, mesh.surfaces["running_surface"], place_of(source),
                      mesh);
   return std::move(extrusion.mesh);
+}
+
+MeshGenerator rail_generator() {
+  return {[](const scene::MeshSource& source, MeshNotes*) { return rail_mesh(source); }, rail_elements,
+          [](const scene::MeshSource& source) {
+            const scene::RailMesh& r = source.rail;
+            return r.path_start ? std::max(r.zone_size, r.path_size) : r.zone_size;
+          }};
 }
 
 }  // namespace railwave

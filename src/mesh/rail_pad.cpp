@@ -1,5 +1,3 @@
-#include "mesh/rail_pad.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,11 +5,17 @@
 #include <stdexcept>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_room.hpp"
 #include "mesh/rail.hpp"
 
+/// A pad under a rail's foot from `start` to `end` along x: as wide as the foot's underside, leaning with it,
+/// `thickness` thick everywhere. Its lines along and across the rail are those of the foot's elements, so that it can
+/// be tied to the foot node on node and is nowhere the coarser mesh; `size` parts them further. Node sets and surfaces
+/// x_min, x_max, y_min, y_max, z_min, z_max as a box has them. Throws InputError where it is no part of the rail's
+/// length, and if the rail's parameters do not fit each other.
 namespace railwave {
 namespace {
 
@@ -54,9 +58,7 @@ std::vector<double> parted(const std::vector<double>& lines, double size) {
   return all;
 }
 
-}  // namespace
-
-Mesh rail_pad_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   const scene::RailPadMesh& pad = source.rail_pad;
   scene::MeshSource rail = source;
   rail.name = pad.rail;
@@ -85,5 +87,21 @@ Mesh rail_pad_mesh(const scene::MeshSource& source) {
     return leaning({across[j], pad.thickness * (k - pad.layers) / pad.layers}, along[i]);
   });
 }
+
+double elements(const scene::MeshSource& source) {
+  const scene::RailPadMesh& pad = source.rail_pad;
+  const scene::RailMesh& rail = pad.rail_mesh;
+  const double foot = rail.section == "60E1" ? 0.15 : 0.14;  // m, width
+  const double across = foot / std::min(pad.size.value_or(1), 1.5 * rail.section_size);
+  const double along = (pad.end - pad.start) / std::min({pad.size.value_or(1), rail.coarse_size, rail.core_size});
+  const double in_zone =
+      std::clamp(std::min(pad.end, rail.zone_end) - std::max(pad.start, rail.zone_start), 0.0, pad.end - pad.start);
+  return pad.layers * std::max(1.0, across) *
+         (std::max(1.0, along) + in_zone / std::min(rail.core_size, 9 * rail.zone_size));
+}
+
+}  // namespace
+
+MeshGenerator rail_pad_generator() { return {build, elements}; }
 
 }  // namespace railwave

@@ -1,14 +1,19 @@
-#include "mesh/roller.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/build_mesh.hpp"
 #include "mesh/crown.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
 
+/// A roller, a whole ring or a sector of one, exact at every node of its tread, which may be crowned. The axle lies
+/// along y through the origin; arcs are measured at the tread from the lowest point, positive towards +x. Cells have
+/// zone_size in the zone under the tread and grow away from it round the roller, along the axle and inwards. Node sets
+/// and surfaces: tread, bore, y_min, y_max; of a sector also arc_min, arc_max; surface zone, the tread over the
+/// solution zone: in a contact the small facets only, for large thin ones cost step. Throws InputError if the
+/// parameters don't fit.
 namespace railwave {
 namespace {
 
@@ -60,18 +65,21 @@ GradedLine line_around(const scene::RollerMesh& r) {
       r.zone_start - rest / 2, r.zone_end + rest / 2, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
 }
 
-}  // namespace
+/// Round the roller, along y and from the tread inwards.
+GridLines lines_of(const scene::RollerMesh& r) {
+  const double layer = r.layer_height.value_or(r.zone_size), half = r.zone_width / 2;
+  return {line_around(r),
+          GradedLine{r.side_start, r.side_end, r.zone_centre - half, r.zone_centre + half, r.zone_size, r.growth,
+                     r.coarse_size},
+          GradedLine{0, r.radius - r.bore_radius, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size}};
+}
 
-Mesh roller_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const scene::RollerMesh& r = source.roller;
-  const double layer = r.layer_height.value_or(r.zone_size), wall = r.radius - r.bore_radius;
-  const GradedLine around = line_around(r);
-  const GradedLine across{
-      r.side_start, r.side_end,   r.zone_centre - r.zone_width / 2, r.zone_centre + r.zone_width / 2, r.zone_size,
-      r.growth,     r.coarse_size};
-  const auto arc = nodes_of(around), y = nodes_of(across);
-  const auto depth = nodes_of({0, wall, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size});
+  const double wall = r.radius - r.bore_radius;
+  const GridLines lines = lines_of(r);
+  const auto arc = nodes_of(lines[0]), y = nodes_of(lines[1]), depth = nodes_of(lines[2]);
   const Grid grid{
       {static_cast<int>(arc.size()) - 1, static_cast<int>(y.size()) - 1, static_cast<int>(depth.size()) - 1},
       r.ring,
@@ -82,8 +90,16 @@ Mesh roller_mesh(const scene::MeshSource& source) {
     const double angle = arc[i] / r.radius;
     return Vec3{radius * std::sin(angle), y[j], -radius * std::cos(angle)};
   });
-  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["tread"], around, across);
+  mesh.surfaces["zone"] = zone_faces(mesh.surfaces["tread"], lines[0], lines[1]);
   return mesh;
 }
+
+double elements(const scene::MeshSource& source) { return cells_of(lines_of(source.roller)); }
+
+double fine_size(const scene::MeshSource& source) { return source.roller.zone_size; }
+
+}  // namespace
+
+MeshGenerator roller_generator() { return {build, elements, fine_size}; }
 
 }  // namespace railwave

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/extrusion.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -121,6 +122,16 @@ double wheel_elements(const scene::MeshSource& source, const scene::WheelMesh& w
   }
 }
 
+double wheel_fine_size(const scene::WheelMesh& w) {
+  return w.path_start ? std::max(w.zone_size, w.path_size) : w.zone_size;
+}
+
 Mesh wheel_mesh(const scene::MeshSource& source) { return wheel_body(source, source.wheel).extrusion.mesh; }
+
+MeshGenerator wheel_generator() {
+  return {[](const scene::MeshSource& source, MeshNotes*) { return wheel_mesh(source); },
+          [](const scene::MeshSource& source) { return wheel_elements(source, source.wheel); },
+          [](const scene::MeshSource& source) { return wheel_fine_size(source.wheel); }};
+}
 
 }  // namespace railwave

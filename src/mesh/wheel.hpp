@@ -33,6 +33,9 @@ void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& w
 /// About how many elements a wheel has, without making it. Throws InputError if the parameters don't fit.
 double wheel_elements(const scene::MeshSource& source, const scene::WheelMesh& wheel);
 
+/// Largest length, m, of its fine elements along the tread: those of the zone and, if it has one, of the path.
+double wheel_fine_size(const scene::WheelMesh& wheel);
+
 /// Layers round a wheel; those of the last level reach the bore.
 Stations wheel_stations(const scene::WheelMesh& wheel);
 

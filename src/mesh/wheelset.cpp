@@ -1,5 +1,3 @@
-#include "mesh/wheelset.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "case/error.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/mesh_room.hpp"
 #include "mesh/mirror.hpp"
@@ -14,6 +13,13 @@
 #include "mesh/ring_disc.hpp"
 #include "mesh/wheel.hpp"
 
+/// Two wheels on a solid axle along y, in one mesh: the axle shares the nodes of the bores. The origin is the axle's
+/// middle, the tape circles lie in y = +-(flange_back_distance / 2 + 0.070 m), the flanges inside. The half at y > 0 is
+/// a wheel as mesh/wheel.hpp makes it; the other is its mirror image. Sets: those of a wheel; element sets wheel and
+/// axle; surfaces skin (the axle's beside the hubs), journal, axle_end; node set middle, in y = 0. A half has a surface
+/// middle there. With both halves each set covers both, and left_NAME (y > 0), right_NAME one. The wheel's coarse_size
+/// is taken as much smaller as makes an even number of cells round the bore, or its zone a few cells longer. Throws
+/// InputError if the parameters don't fit.
 namespace railwave {
 namespace {
 
@@ -196,9 +202,7 @@ scene::WheelMesh with_even_bore(const scene::MeshSource& source) {
                   place_of(source), source.wheelset.coarse_size));
 }
 
-}  // namespace
-
-double wheelset_elements(const scene::MeshSource& source) {
+double elements(const scene::MeshSource& source) {
   const scene::WheelsetMesh& w = source.wheelset;
   const double wheel = wheel_elements(source, w);
   check(source);
@@ -210,7 +214,7 @@ double wheelset_elements(const scene::MeshSource& source) {
   return (w.half ? 1 : 2) * (wheel + disc * layers);
 }
 
-Mesh wheelset_mesh(const scene::MeshSource& source) {
+Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   const scene::WheelsetMesh& w = source.wheelset;
   check_wheel_mesh(source, w);
   check(source);
@@ -222,5 +226,11 @@ Mesh wheelset_mesh(const scene::MeshSource& source) {
   add_axle(w, body, mesh);
   return w.half ? mesh : both_halves(mesh);
 }
+
+double fine_size(const scene::MeshSource& source) { return wheel_fine_size(source.wheelset); }
+
+}  // namespace
+
+MeshGenerator wheelset_generator() { return {build, elements, fine_size}; }
 
 }  // namespace railwave

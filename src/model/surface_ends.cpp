@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "mesh/mesh_size.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave {
@@ -181,23 +182,7 @@ double finest_wanted(const scene::Scene& scene, const std::string& part) {
   const auto mesh = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                  [&](const scene::MeshSource& one) { return one.name == own->mesh; });
   if (mesh == scene.meshes.end()) return 0;
-  const auto with_path = [](double zone, bool path, double path_size) {
-    return coarse * (path ? std::max(zone, path_size) : zone);
-  };
-  switch (mesh->type) {
-    case scene::MeshType::wheel:
-      return with_path(mesh->wheel.zone_size, mesh->wheel.path_start.has_value(), mesh->wheel.path_size);
-    case scene::MeshType::wheelset:
-      return with_path(mesh->wheelset.zone_size, mesh->wheelset.path_start.has_value(), mesh->wheelset.path_size);
-    case scene::MeshType::rail:
-      return with_path(mesh->rail.zone_size, mesh->rail.path_start.has_value(), mesh->rail.path_size);
-    case scene::MeshType::crowned_block:
-      return coarse * mesh->crowned_block.zone_size;
-    case scene::MeshType::roller:
-      return coarse * mesh->roller.zone_size;
-    default:
-      return 0;
-  }
+  return coarse * fine_element_size(*mesh);
 }
 
 }  // namespace railwave

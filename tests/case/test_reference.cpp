@@ -35,6 +35,22 @@ TEST_CASE("the page's example is a case", "[case]") {
   CHECK(mistakes_of(file.path()).empty());
 }
 
+TEST_CASE("each type of mesh has keys of its own, and the table of sets names types that there are", "[case]") {
+  const auto* section = find_section("meshes");
+  REQUIRE(section);
+  const auto& types = section->type_key()->choices;
+  CHECK(types.size() == std::size(scene::mesh_type_names));
+  for (const auto& type : types) {
+    INFO("type " << type);
+    CHECK(std::any_of(section->keys.begin(), section->keys.end(),
+                      [&](const Key& key) { return !key.types.empty() && key.belongs_to(type); }));
+  }
+  for (const auto& row : mesh_sets()) {
+    INFO("type " << row.type);
+    CHECK(std::find(types.begin(), types.end(), row.type) != types.end());
+  }
+}
+
 TEST_CASE("the table of keys is sound", "[case]") {
   std::set<std::string> names;
   for (const auto& section : sections()) {

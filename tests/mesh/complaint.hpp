@@ -3,15 +3,14 @@
 #include <string>
 
 #include "case/error.hpp"
-#include "case/scene.hpp"
-#include "mesh/mesh.hpp"
+#include "mesh/build_mesh.hpp"
 
 namespace railwave {
 
-/// What a generator says of a mesh's parameters; nothing if they suit it.
-inline std::string complaint_of(Mesh (*generator)(const scene::MeshSource&), const scene::MeshSource& source) {
+/// What a mesh's generator says of its parameters; nothing if they suit it.
+inline std::string complaint_of(const scene::MeshSource& source) {
   try {
-    generator(source);
+    build_mesh(source);
   } catch (const InputError& error) {
     return error.what();
   }

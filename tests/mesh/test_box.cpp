@@ -5,7 +5,7 @@
 #include <set>
 
 #include "case/error.hpp"
-#include "mesh/box.hpp"
+#include "mesh/build_mesh.hpp"
 
 using namespace railwave;
 
@@ -35,7 +35,7 @@ Vec3 area(const Mesh& mesh, const Face& face) {
 }  // namespace
 
 TEST_CASE("a box has the divisions, corners and six sides asked for") {
-  const Mesh mesh = box_mesh(block());
+  const Mesh mesh = build_mesh(block());
   REQUIRE(mesh.nodes.size() == 4 * 5 * 3);
   REQUIRE(mesh.elements.size() == 3 * 4 * 2);
   CHECK(mesh.nodes.front() == Vec3{1, -2, 0.5});
@@ -69,14 +69,14 @@ TEST_CASE("a box that can't be made is refused by name and line") {
   auto source = block();
   SECTION("no thickness") {
     source.box.size[2] = 0;
-    CHECK_THROWS_WITH(box_mesh(source), ContainsSubstring("[meshes.block] (line 7): size along z is 0"));
+    CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("[meshes.block] (line 7): size along z is 0"));
   }
   SECTION("no divisions") {
     source.box.divisions[1] = 0;
-    CHECK_THROWS_WITH(box_mesh(source), ContainsSubstring("divisions along y is 0"));
+    CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("divisions along y is 0"));
   }
   SECTION("more nodes than can be numbered") {
     source.box.divisions = {2000, 2000, 2000};
-    CHECK_THROWS_AS(box_mesh(source), InputError);
+    CHECK_THROWS_AS(build_mesh(source), InputError);
   }
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "complaint.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/crown.hpp"
-#include "mesh/crowned_block.hpp"
 #include "mesh/quality.hpp"
 #include "topology.hpp"
 
@@ -59,7 +59,7 @@ TEST_CASE("A crowned block's top is a sphere, a cylinder, a turned arc or a plan
   const std::pair<double, double> shapes[] = {{0, 0}, {0.46, 0}, {0, 0.3}, {0.46, 0.46}, {0.46, 0.3}};
   for (const auto& [along, across] : shapes) {
     CAPTURE(along, across);
-    const Mesh mesh = crowned_block_mesh(block(along, across));
+    const Mesh mesh = build_mesh(block(along, across));
     check_sound(mesh);
     double highest = -1;
     for (int n : mesh.node_sets.at("top")) {
@@ -87,7 +87,7 @@ TEST_CASE("A crowned block has the volume under its crown") {
     const auto& b = source.crowned_block;
     const double exact = b.size[0] * b.size[1] * (b.size[2] - mean_fall(b));
     // Chords of 2 mm lie h^2 / 12 (1 / R_x + 1 / R_y) under the arcs, 4.6e-5 of the height.
-    CHECK_THAT(mesh_quality(crowned_block_mesh(source), 1).volume, WithinRel(exact, 5e-5));
+    CHECK_THAT(mesh_quality(build_mesh(source), 1).volume, WithinRel(exact, 5e-5));
   }
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("The zone of a crowned block has the size and the layers asked for, al
     b.origin[1] = 0;
     b.size[1] = 0.0013;
   }
-  const Mesh mesh = crowned_block_mesh(source);
+  const Mesh mesh = build_mesh(source);
   check_sound(mesh);
   int found = 0;
   for (const Face& face : mesh.surfaces.at("top")) {
@@ -130,7 +130,7 @@ TEST_CASE("Parameters of a crowned block that do not fit are named with what is 
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = block(0, 0.3);
     change(source.crowned_block);
-    return complaint_of(crowned_block_mesh, source);
+    return complaint_of(source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& b) { b.radius_across = 0.03; }),

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "complaint.hpp"
-#include "mesh/cylinder.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/quality.hpp"
 #include "topology.hpp"
 
@@ -31,7 +31,7 @@ TEST_CASE("A cylinder is a sound solid whatever its divisions, exact at every no
     scene::MeshSource source = cylinder();
     source.cylinder.core_divisions = core;
     source.cylinder.ring_divisions = ring;
-    const Mesh mesh = cylinder_mesh(source);
+    const Mesh mesh = build_mesh(source);
     CHECK(mesh.elements.size() == static_cast<std::size_t>(core * (core + 4 * ring) * 20));
     const MeshQuality quality = mesh_quality(mesh, 1);
     CHECK(quality.inverted == 0);
@@ -56,13 +56,13 @@ TEST_CASE("A cylinder has the volume of the prism on its skin's polygon, and com
   source.cylinder.core_divisions = 16;
   source.cylinder.ring_divisions = 8;
   const double sides = 64, polygon = 0.5 * sides * std::sin(2 * M_PI / sides) * 1e-4;
-  const double volume = mesh_quality(cylinder_mesh(source), 1).volume;
+  const double volume = mesh_quality(build_mesh(source), 1).volume;
   CHECK_THAT(volume, WithinRel(polygon * 0.05, 1e-12));
   CHECK_THAT(volume, WithinRel(M_PI * 1e-4 * 0.05, 2e-3));
 }
 
 TEST_CASE("A cylinder's faces look outwards: skin away from the axis, ends along it") {
-  const Mesh mesh = cylinder_mesh(cylinder());
+  const Mesh mesh = build_mesh(cylinder());
   const auto area = [&](const char* name, int axis) {
     double sum = 0;
     for (const Face& face : mesh.surfaces.at(name)) {
@@ -87,7 +87,7 @@ TEST_CASE("A cylinder's faces look outwards: skin away from the axis, ends along
 TEST_CASE("A cylinder's layers grow from the first to end_ratio times it") {
   scene::MeshSource source = cylinder();
   source.cylinder.end_ratio = 3;
-  const Mesh mesh = cylinder_mesh(source);
+  const Mesh mesh = build_mesh(source);
   const auto height = [&](std::size_t e) {
     return mesh.nodes[mesh.elements[e][4]][2] - mesh.nodes[mesh.elements[e][0]][2];
   };
@@ -98,7 +98,7 @@ TEST_CASE("Parameters of a cylinder that do not fit are named with what is allow
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = cylinder();
     change(source.cylinder);
-    return complaint_of(cylinder_mesh, source);
+    return complaint_of(source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& c) { c.core_share = 0.95; }),

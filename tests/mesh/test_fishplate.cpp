@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "complaint.hpp"
-#include "mesh/fishplate.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
 #include "topology.hpp"
@@ -83,7 +83,7 @@ TEST_CASE("a fishplate lies on the facets of its rail, on either side") {
       source.fishplate.side = side;
       const bool left = side == scene::RailSide::left;
       INFO(section << (left ? " left" : " right"));
-      const Mesh plate = fishplate_mesh(source), rail = rail_mesh(rail_of(source));
+      const Mesh plate = build_mesh(source), rail = rail_mesh(rail_of(source));
       const MeshQuality quality = mesh_quality(plate, 1);
       CHECK(quality.inverted == 0);
       CHECK(quality.jacobian_ratio.value > 0.2);
@@ -132,7 +132,7 @@ TEST_CASE("a plate's web clearance, thickness and element size are those asked f
   source.fishplate.size = 0.01;
   source.fishplate.gap_start.reset();
   source.fishplate.gap_end.reset();
-  const Mesh plate = fishplate_mesh(source), rail = rail_mesh(rail_of(source));
+  const Mesh plate = build_mesh(source), rail = rail_mesh(rail_of(source));
   double web = 1, inner = 1, outer = 0;
   for (const Face& face : rail.surfaces.at("fishing_right"))
     for (int n : rail.face_nodes(face)) web = std::min(web, rail.nodes[n][1]);
@@ -160,7 +160,7 @@ TEST_CASE("plates fit rails of other sizes") {
       change(source.fishplate.rail_mesh);
       source.fishplate.side = side;
       INFO(name);
-      const MeshQuality quality = mesh_quality(fishplate_mesh(source), 1);
+      const MeshQuality quality = mesh_quality(build_mesh(source), 1);
       CHECK(quality.inverted == 0);
       CHECK(quality.jacobian_ratio.value > 0.15);
       CHECK(quality.step.value > 0.4 * source.fishplate.rail_mesh.zone_size);
@@ -171,7 +171,7 @@ TEST_CASE("fishplates that do not fit are told with what is allowed") {
   const auto complaint = [](auto change) {
     scene::MeshSource source = plate_source();
     change(source.fishplate);
-    return complaint_of(fishplate_mesh, source);
+    return complaint_of(source);
   };
   CHECK_THAT(complaint([](auto& p) { p.thickness = 0.06; }),
              ContainsSubstring("[meshes.plate] (line 7): thickness = 0.06; allowed: 0.0") &&

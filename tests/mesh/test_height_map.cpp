@@ -134,7 +134,7 @@ TEST_CASE("A rail's running surface takes the measured heights, and the rail bel
 
 TEST_CASE("A height map that inverts elements is refused with the place") {
   const MapFile file(dip_file(40));
-  CHECK_THAT(complaint_of(rail_mesh, rail_with(file.path())),
+  CHECK_THAT(complaint_of(rail_with(file.path())),
              ContainsSubstring("[meshes.rail] (line 17): height_map: inverts the element at ("));
 }
 

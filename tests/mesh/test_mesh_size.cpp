@@ -88,6 +88,25 @@ TEST_CASE("the sizes of what lies on others is told within a factor") {
   check_within(pad, 3);
 }
 
+TEST_CASE("the fine elements of a mesh are those of its zone and its path, where it has them") {
+  auto wheel = named(scene::MeshType::wheel), wheelset = named(scene::MeshType::wheelset);
+  auto rail = named(scene::MeshType::rail);
+  CHECK(fine_element_size(wheel) == 0.002);
+  CHECK(fine_element_size(wheelset) == 0.002);
+  CHECK(fine_element_size(rail) == 0.002);
+  wheel.wheel.path_start = -0.5;
+  wheelset.wheelset.path_start = -0.5;
+  rail.rail.path_start = -0.2;
+  CHECK(fine_element_size(wheel) == 0.003);
+  CHECK(fine_element_size(wheelset) == 0.003);
+  CHECK(fine_element_size(rail) == 0.003);
+  CHECK(fine_element_size(named(scene::MeshType::crowned_block)) == 0.001);
+  CHECK(fine_element_size(named(scene::MeshType::roller)) == 0.001);
+  for (const auto type : {scene::MeshType::box, scene::MeshType::file, scene::MeshType::cylinder,
+                          scene::MeshType::fishplate, scene::MeshType::rail_pad})
+    CHECK(fine_element_size(named(type)) == 0);
+}
+
 TEST_CASE("parts that can't fit are refused before any of them is meshed, and the largest is named") {
   scene::Scene scene;
   scene.path = "case.toml";

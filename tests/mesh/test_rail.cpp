@@ -166,7 +166,7 @@ TEST_CASE("Rail parameters that do not fit are named with what is allowed") {
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = rail_source();
     change(source.rail);
-    return complaint_of(rail_mesh, source);
+    return complaint_of(source);
   };
   CHECK_THAT(complaint([](auto& r) { r.section = "49E5"; }),
              ContainsSubstring("[meshes.rail] (line 17): section = 49E5; allowed"));

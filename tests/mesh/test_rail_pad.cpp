@@ -6,10 +6,10 @@
 
 #include "case/solid_pad.hpp"
 #include "complaint.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/rail.hpp"
-#include "mesh/rail_pad.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -59,7 +59,7 @@ TEST_CASE("a rail pad has the foot's lines, is as wide as the foot, and as thick
         pad.end = 0.21;
         pad.layers = 3;
         INFO(section << ", inclination " << inclination << ", zone_size " << zone);
-        const Mesh mesh = rail_pad_mesh(source), rail = rail_mesh(rail_of(source));
+        const Mesh mesh = build_mesh(source), rail = rail_mesh(rail_of(source));
         double volume = 0, wide = 0;
         for (const auto& element : mesh.elements) {
           std::array<Vec3, 8> corners;
@@ -89,9 +89,9 @@ TEST_CASE("a rail pad has the foot's lines, is as wide as the foot, and as thick
 
 TEST_CASE("a rail pad keeps the foot's lines where they are parted") {
   scene::MeshSource source = pad_source();
-  const Mesh plain = rail_pad_mesh(source);
+  const Mesh plain = build_mesh(source);
   source.rail_pad.size = 0.005;
-  const Mesh parted = rail_pad_mesh(source);
+  const Mesh parted = build_mesh(source);
   const auto& nodes = parted.node_sets.at("z_max");
   for (int n : plain.node_sets.at("z_max")) CHECK(nearest(parted, nodes, plain.nodes[n]) < 1e-12);
   for (const auto& element : parted.elements) {
@@ -103,8 +103,8 @@ TEST_CASE("a rail pad keeps the foot's lines where they are parted") {
 TEST_CASE("a rail pad that is not under its rail is told") {
   scene::MeshSource source = pad_source();
   source.rail_pad.start = -0.4;
-  CHECK_THAT(complaint_of(rail_pad_mesh, source),
+  CHECK_THAT(complaint_of(source),
              ContainsSubstring("[meshes.pad] (line 7): start = -0.4; allowed: -0.3 m, the rail's start, or more"));
   source.rail_pad.start = 0.1;
-  CHECK_THAT(complaint_of(rail_pad_mesh, source), ContainsSubstring("end = 0.08; allowed: more than start = 0.1 m"));
+  CHECK_THAT(complaint_of(source), ContainsSubstring("end = 0.08; allowed: more than start = 0.1 m"));
 }

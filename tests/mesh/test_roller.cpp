@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "complaint.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/roller.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -45,7 +45,7 @@ TEST_CASE("A roller's tread is a cylinder, or a sphere where its crown has its o
       scene::MeshSource source = roller();
       source.roller.ring = ring;
       source.roller.crown_radius = crown;
-      const Mesh mesh = roller_mesh(source);
+      const Mesh mesh = build_mesh(source);
       check_sound(mesh, ring ? 0 : 2);
       for (int n : mesh.node_sets.at("tread")) {
         const auto [x, y, z] = mesh.nodes[n];
@@ -65,14 +65,14 @@ TEST_CASE("A roller has the volume of its ring") {
   source.roller.ring = true;
   const double exact = M_PI * (0.46 * 0.46 - 0.4 * 0.4) * 0.08;
   // Chords of 10 mm on a circle of 0.46 m cut off (0.01 / 0.46)^2 / 6 of it.
-  CHECK_THAT(mesh_quality(roller_mesh(source), 1).volume, WithinRel(exact, 1e-4));
+  CHECK_THAT(mesh_quality(build_mesh(source), 1).volume, WithinRel(exact, 1e-4));
 }
 
 TEST_CASE("A roller's zone lies about the lowest point, positive arcs towards +x, its tread turned outwards") {
   scene::MeshSource source = roller();
   source.roller.zone_start = -0.005;
   source.roller.zone_end = 0.03;
-  const Mesh mesh = roller_mesh(source);
+  const Mesh mesh = build_mesh(source);
   int found = 0;
   for (const Face& face : mesh.surfaces.at("tread")) {
     const auto c = mesh.face_nodes(face);
@@ -94,7 +94,7 @@ TEST_CASE("Parameters of a roller that do not fit are named with what is allowed
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = roller();
     change(source.roller);
-    return complaint_of(roller_mesh, source);
+    return complaint_of(source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& r) { r.bore_radius = 0.5; }),

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "case/error.hpp"
-#include "mesh/box.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/connected_bodies.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
@@ -24,7 +24,7 @@ Mesh box(std::array<int, 3> divisions) {
   scene::MeshSource source;
   source.box.size = {0.12, 0.04, 0.02};
   source.box.divisions = divisions;
-  return box_mesh(source);
+  return build_mesh(source);
 }
 
 scene::Seam seam(Vec3 place, double length, double depth, double angle) {

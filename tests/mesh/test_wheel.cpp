@@ -185,7 +185,7 @@ TEST_CASE("Wheel parameters that do not fit are named with what is allowed") {
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = wheel_source();
     change(source.wheel);
-    return complaint_of(wheel_mesh, source);
+    return complaint_of(source);
   };
   CHECK_THAT(complaint([](auto& w) { w.profile = "S1003"; }),
              ContainsSubstring("[meshes.wheel] (line 9): profile = S1003; allowed"));

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "complaint.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/profiles.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/wheel.hpp"
-#include "mesh/wheelset.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -70,7 +70,7 @@ void check_sound(const Mesh& mesh, double zone_size, int euler) {
 
 TEST_CASE("Half a wheelset is a wheel whose bore an axle fills, one sound solid with the volume of both") {
   const scene::MeshSource source = coarse(true);
-  const Mesh mesh = wheelset_mesh(source);
+  const Mesh mesh = build_mesh(source);
   check_sound(mesh, 0.004, 2);
   scene::MeshSource wheel = source;
   wheel.type = scene::MeshType::wheel;
@@ -89,7 +89,7 @@ TEST_CASE("The axle's quality and steps do not suffer from a fine zone") {
     scene::MeshSource source = coarse(true);
     source.wheelset.zone_size = size;
     source.wheelset.zone_length = 0.3;
-    const Mesh mesh = wheelset_mesh(source);
+    const Mesh mesh = build_mesh(source);
     check_sound(mesh, size, 2);
     Mesh axle = mesh;
     axle.elements.clear();
@@ -103,7 +103,7 @@ TEST_CASE("The axle's quality and steps do not suffer from a fine zone") {
 }
 
 TEST_CASE("Wheels stand at the flange-back distance, flanges inside; sets lie where their names say") {
-  const Mesh mesh = wheelset_mesh(coarse(false));
+  const Mesh mesh = build_mesh(coarse(false));
   check_sound(mesh, 0.004, 2);
   double inner = 1e300;
   for (int e : mesh.element_sets.at("left_wheel"))
@@ -132,7 +132,7 @@ TEST_CASE("Wheels stand at the flange-back distance, flanges inside; sets lie wh
   }
   CHECK(mesh.surfaces.count("middle") == 0);
   for (int n : mesh.node_sets.at("middle")) CHECK(mesh.nodes[n][1] == 0);
-  const Mesh half = wheelset_mesh(coarse(true));
+  const Mesh half = build_mesh(coarse(true));
   CHECK(half.surfaces.at("middle").size() > 20);
   CHECK(mesh.elements.size() == 2 * half.elements.size());
   CHECK(mesh.nodes.size() == 2 * half.nodes.size() - half.node_sets.at("middle").size());
@@ -144,7 +144,7 @@ TEST_CASE("Parameters of a wheelset that do not fit are named with what is allow
   const auto complaint = [](auto change) -> std::string {
     scene::MeshSource source = coarse(true);
     change(source.wheelset);
-    return complaint_of(wheelset_mesh, source);
+    return complaint_of(source);
   };
   CHECK(complaint([](auto&) {}).empty());
   CHECK_THAT(complaint([](auto& w) { w.axle[1][0] = 0.7; }),

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/error.hpp"
-#include "mesh/mesh_file.hpp"
+#include "mesh/build_mesh.hpp"
 #include "source_folder.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
@@ -32,10 +32,11 @@ TEST_CASE("each broken mesh file is refused with its message") {
     REQUIRE(expected.size() > 20);
 
     scene::MeshSource source;
+    source.type = scene::MeshType::file;
     source.file.path = path.string();
     std::string message = "(none: the file was read)";
     try {
-      read_mesh_file(source);
+      build_mesh(source);
     } catch (const InputError& error) {
       message = error.what();
     }

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "case/error.hpp"
-#include "mesh/mesh_file.hpp"
+#include "mesh/build_mesh.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
 using namespace railwave;
@@ -41,9 +41,10 @@ class Damage {
 
   void read(const std::string& bytes) {
     scene::MeshSource source;
+    source.type = scene::MeshType::file;
     source.file.path = folder_.write("damaged" + ending_, bytes);
     try {
-      if (!sound(read_mesh_file(source))) ++unsound_;
+      if (!sound(build_mesh(source))) ++unsound_;
     } catch (const InputError& error) {
       ++refused_;
       if (std::strlen(error.what()) < 20) ++unsound_;
@@ -92,9 +93,10 @@ TEST_CASE("a Gmsh file cut before its elements' end is never taken for whole") {
   const auto end = bytes.rfind("$EndElements") + std::string("$EndElements").size();
   for (std::size_t length = 0; length < end; ++length) {
     scene::MeshSource source;
+    source.type = scene::MeshType::file;
     source.file.path = folder.write("cut.msh", bytes.substr(0, length));
     CAPTURE(name, length);
-    CHECK_THROWS_AS(read_mesh_file(source), InputError);
+    CHECK_THROWS_AS(build_mesh(source), InputError);
   }
 }
 
@@ -138,25 +140,27 @@ TEST_CASE("a binary header that promises more than the file holds is refused bef
   const std::uint64_t count = std::uint64_t(1) << 61;
   std::memcpy(damaged.data() + damaged.find(section) + section.size() + 8 * field, &count, 8);
   scene::MeshSource source;
+  source.type = scene::MeshType::file;
   source.file.path = folder.write("huge.msh", damaged);
   CAPTURE(section, field);
-  CHECK_THROWS_WITH(read_mesh_file(source), ContainsSubstring("huge.msh: byte ") &&
-                                                ContainsSubstring("the header promises 2305843009213693952"));
+  CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("huge.msh: byte ") &&
+                                            ContainsSubstring("the header promises 2305843009213693952"));
 }
 
 TEST_CASE("a binary file of the other byte order, and one with a number that isn't finite, are refused") {
   const TemporaryFolder folder;
   scene::MeshSource source;
+  source.type = scene::MeshType::file;
   auto swapped = bytes_of(test_data + "small_binary.msh");
   const auto mark = swapped.find("4.1 1 8\n") + 8;
   std::swap(swapped[mark], swapped[mark + 3]);
   source.file.path = folder.write("swapped.msh", swapped);
-  CHECK_THROWS_WITH(read_mesh_file(source), ContainsSubstring("save the file as ASCII"));
+  CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("save the file as ASCII"));
 
   auto endless = bytes_of(test_data + "small_binary.msh");
   const double infinity = HUGE_VAL;
   // Header 4 x 8 bytes, block 3 x 4 + 8, one tag of 8: then the first coordinate.
   std::memcpy(endless.data() + endless.find("$Nodes\n") + 7 + 32 + 20 + 8, &infinity, 8);
   source.file.path = folder.write("endless.msh", endless);
-  CHECK_THROWS_WITH(read_mesh_file(source), ContainsSubstring("node's coordinate isn't a finite number"));
+  CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("node's coordinate isn't a finite number"));
 }

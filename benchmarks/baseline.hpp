@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 /// The loop as most programs have it, to compare with: one element at a time, nodal forces summed by atomics, stress
 /// stored and advanced by its Jaumann rate, viscous hourglass control; rows of three numbers a node (on a host). Shares

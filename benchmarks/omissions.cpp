@@ -7,8 +7,8 @@
 #include "benchmarks/common/program.hpp"
 #include "benchmarks/rolling_scene.hpp"
 #include "case/error.hpp"
-#include "solve/account.hpp"
-#include "solve/settle.hpp"
+#include "solve/monitor/account.hpp"
+#include "solve/statics/settle.hpp"
 
 namespace railwave::bench {
 namespace {

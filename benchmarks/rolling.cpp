@@ -7,8 +7,8 @@
 #include "benchmarks/common/loop.hpp"
 #include "benchmarks/common/program.hpp"
 #include "benchmarks/rolling_scene.hpp"
-#include "solve/account.hpp"
-#include "solve/settle.hpp"
+#include "solve/monitor/account.hpp"
+#include "solve/statics/settle.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave::bench {

@@ -7,7 +7,7 @@
 #include "benchmarks/stability/scenes.hpp"
 #include "benchmarks/stability/trial.hpp"
 #include "case/error.hpp"
-#include "model/stable_step.hpp"
+#include "model/time_step/stable_step.hpp"
 
 namespace railwave::bench {
 namespace {

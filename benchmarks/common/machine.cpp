@@ -5,7 +5,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "benchmarks/common/machine.hpp"
 #include "benchmarks/common/records.hpp"
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave::bench {
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <vector>
 
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave::bench {
 

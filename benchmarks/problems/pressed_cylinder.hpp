@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "benchmarks/problems/problem.hpp"
-#include "solve/settle.hpp"
+#include "solve/statics/settle.hpp"
 
 namespace railwave::bench {
 

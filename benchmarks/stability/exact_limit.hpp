@@ -7,7 +7,7 @@
 #include "benchmarks/common/loop.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
-#include "model/lanczos.hpp"
+#include "model/time_step/lanczos.hpp"
 
 namespace railwave::bench {
 

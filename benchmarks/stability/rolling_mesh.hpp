@@ -1,7 +1,7 @@
 #pragma once
 
 #include "benchmarks/rolling_scene.hpp"
-#include "solve/settle.hpp"
+#include "solve/statics/settle.hpp"
 
 namespace railwave::bench {
 

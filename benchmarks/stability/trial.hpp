@@ -6,7 +6,7 @@
 
 #include "benchmarks/common/loop.hpp"
 #include "model/host_copy.hpp"
-#include "solve/run_state.hpp"
+#include "solve/checkpoint/run_state.hpp"
 
 namespace railwave::bench {
 

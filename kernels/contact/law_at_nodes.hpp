@@ -1,9 +1,17 @@
 #pragma once
 
-#include "kernels/contact/laws/contact_point.hpp"
-#include "kernels/contact_normals.hpp"
+#include "kernels/contact/contact_normals.hpp"
+#include "kernels/contact/laws/growing_penalty.hpp"
 
 namespace railwave {
+
+/// What a pair keeps for its law.
+struct ContactLawArrays {
+  int number = 0;                       ///< of the law among `ContactLaws`, see src/model/contact/contact_law.hpp
+  double damping = 0;                   ///< share of critical damping
+  Array<PenaltyGrowth::Point*> growth;  ///< empty without
+  Array<double*> state;                 ///< the law's state, value by value, each by slave node
+};
 
 /// What laws that have a state are brought to the nodes with.
 struct LawSurroundings {
@@ -17,7 +25,7 @@ template <class Law>
 inline constexpr bool has_surroundings = Law::state_values > 0;
 
 /// A law as the contact kernels use it: it is told what it asks for, its state comes from the arrays and goes there.
-/// @tparam Normals along which nodes press: see kernels/contact_normals.hpp
+/// @tparam Normals along which nodes press: see kernels/contact/contact_normals.hpp
 template <class Law, class Normals>
 struct LawAtNodes {
   struct Nothing {};

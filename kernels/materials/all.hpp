@@ -4,7 +4,7 @@
 #include "kernels/materials/chaboche.hpp"
 #include "kernels/materials/elastic.hpp"
 #include "kernels/materials/kinematic_bilinear.hpp"
-#include "kernels/type_list.hpp"
+#include "kernels/support/type_list.hpp"
 
 namespace railwave {
 

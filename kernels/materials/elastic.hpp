@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/lanes.hpp"
+#include "kernels/support/lanes.hpp"
 
 namespace railwave {
 

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "kernels/lanes.hpp"
-#include "kernels/spaces.hpp"
+#include "kernels/support/lanes.hpp"
+#include "kernels/support/spaces.hpp"
 
 /// A material of elements is a struct with these members, in a file of its own here, listed in
-/// kernels/materials/all.hpp. What it is to the host stands in src/model/materials.hpp.
+/// kernels/materials/all.hpp. What it is to the host stands in src/model/elements/materials.hpp.
 ///
 /// | member | what |
 /// |---|---|

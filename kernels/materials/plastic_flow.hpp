@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "kernels/lane_choice.hpp"
 #include "kernels/materials/elastic.hpp"
+#include "kernels/support/lane_choice.hpp"
 
 /// Von Mises plasticity at finite strain without anything to rotate. F = F_e F_p; what is kept is the plastic Green
 /// strain E_p = (F_p^T F_p - I)/2, which lives in the reference configuration: zero at the start, untouched by

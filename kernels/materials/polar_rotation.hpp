@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/lane_choice.hpp"
 #include "kernels/materials/plastic_flow.hpp"
+#include "kernels/support/lane_choice.hpp"
 
 namespace railwave {
 

@@ -24,8 +24,8 @@ struct FieldRow {
 
 /// The one table of these. The case's keys and their help, the results with their units and the estimate of their size,
 /// the XDMF companion, fault files and the names of channels all follow from it. What fetches the values of a field is
-/// in model/output_field.cpp, that of a history in output/history_values.cpp: a new row needs an entry there, and
-/// nothing else.
+/// in model/output_field.cpp, that of a history in output/histories/history_values.cpp: a new row needs an entry there,
+/// and nothing else.
 const std::vector<FieldRow>& field_table();
 
 /// The rows that serve one use, in the table's order.

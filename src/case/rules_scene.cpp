@@ -8,8 +8,8 @@
 #include <set>
 #include <utility>
 
-// Entries of one case file that cannot all hold, as far as their names show it; model/contradictions.cpp looks at what
-// the names mean.
+// Entries of one case file that cannot all hold, as far as their names show it; model/checks/contradictions.cpp looks
+// at what the names mean.
 namespace railwave::case_file {
 namespace {
 

@@ -219,7 +219,8 @@ struct InitialMotion : Place {
   std::vector<std::string> parts;  ///< parts and point masses
   Vec3 velocity{0, 0, 0};
   Vec3 angular_velocity{0, 0, 0};  ///< rad/s
-  bool rolling = false;  ///< the angular velocity is the one that rolls; the model fills it in, see model/rolling.hpp
+  bool rolling =
+      false;  ///< the angular velocity is the one that rolls; the model fills it in, see model/contact/rolling.hpp
   std::optional<double> rolling_radius;  ///< m, for that; absent: where the part touches, or its mesh's nominal radius
   std::optional<Vec3> centre;            ///< of rotation; absent: the centre of mass of `around`, or of each part
   std::string around;  ///< node set whose centre of mass is the centre of rotation, e.g. an axle's bore

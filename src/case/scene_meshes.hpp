@@ -88,7 +88,7 @@ struct FileMesh {
   double scale = 1.0;  ///< multiplies coordinates: 0.001 for a mesh in mm
 };
 
-/// A block with a curved top, its crest above (0, 0); see mesh/crowned_block.cpp.
+/// A block with a curved top, its crest above (0, 0); see mesh/generators/crowned_block.cpp.
 struct CrownedBlockMesh {
   Vec3 origin{-0.04, -0.04, -0.06};  ///< lowest corner, m
   Vec3 size{0.08, 0.08, 0.06};       ///< m, height at the crest
@@ -105,7 +105,7 @@ struct CrownedBlockMesh {
   double coarse_size = 0.01;           ///< m, largest cell
 };
 
-/// A ring or a sector of it, axle along y through the origin; see mesh/roller.cpp.
+/// A ring or a sector of it, axle along y through the origin; see mesh/generators/roller.cpp.
 struct RollerMesh {
   double radius = 0.46;  ///< m, of the tread, at y = 0
   double bore_radius = 0.40;
@@ -126,7 +126,7 @@ struct RollerMesh {
   double coarse_size = 0.01;           ///< m, largest cell
 };
 
-/// A solid round bar along z, its lower end in z = 0; see mesh/cylinder.cpp.
+/// A solid round bar along z, its lower end in z = 0; see mesh/generators/cylinder.cpp.
 struct CylinderMesh {
   double radius = 0.01;       ///< m
   double length = 0.05;       ///< m
@@ -139,7 +139,7 @@ struct CylinderMesh {
 
 enum class RailSide { left, right };  ///< left: towards -y, where a rail of positive inclination leans
 
-/// A bar in the fishing chamber at one side of a rail; see mesh/fishplate.cpp.
+/// A bar in the fishing chamber at one side of a rail; see mesh/generators/fishplate.cpp.
 struct FishplateMesh {
   std::string rail;    ///< the mesh that it fits
   RailMesh rail_mesh;  ///< that mesh's parameters, filled in when the case has been read
@@ -153,7 +153,7 @@ struct FishplateMesh {
   std::optional<double> gap_start, gap_end;  ///< x range of a gap between two rails that it bridges
 };
 
-/// A pad under a rail's foot, as wide as that and leaning with it, of even thickness; see mesh/rail_pad.cpp.
+/// A pad under a rail's foot, as wide as that and leaning with it, of even thickness; see mesh/generators/rail_pad.cpp.
 struct RailPadMesh {
   std::string rail;      ///< the mesh that it lies under
   RailMesh rail_mesh;    ///< that mesh's parameters, filled in when the case has been read
@@ -164,7 +164,7 @@ struct RailPadMesh {
   std::optional<double> size;  ///< m, largest element along and across the rail; absent: as the foot's are
 };
 
-/// Wheel and half axle in one, or both halves; see mesh/wheelset.cpp. Its origin is the axle's middle.
+/// Wheel and half axle in one, or both halves; see mesh/generators/wheelset.cpp. Its origin is the axle's middle.
 struct WheelsetMesh : WheelMesh {
   WheelsetMesh() : axle{{0, 0.08}, {0.61, 0.08}, {0.89, 0.0675}, {1.1, 0.0675}} {}
 

@@ -5,7 +5,7 @@
 
 #include "mesh/grading.hpp"
 #include "mesh/mesh.hpp"
-#include "mesh/section.hpp"
+#include "mesh/sections/section.hpp"
 
 namespace railwave {
 

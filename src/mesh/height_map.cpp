@@ -9,8 +9,8 @@
 
 #include "case/error.hpp"
 #include "case/number_table.hpp"
+#include "mesh/files/text_file.hpp"
 #include "mesh/hexahedron.hpp"
-#include "mesh/text_file.hpp"
 
 namespace railwave {
 namespace {

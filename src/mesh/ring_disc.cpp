@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/section_smoothing.hpp"
+#include "mesh/sections/section_smoothing.hpp"
 
 namespace railwave {
 namespace {

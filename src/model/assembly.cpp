@@ -16,9 +16,9 @@
 #include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
 #include "model/assemble_notes.hpp"
-#include "model/beams.hpp"
-#include "model/place_element_sets.hpp"
-#include "model/place_sets.hpp"
+#include "model/beams/beams.hpp"
+#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
 
 namespace railwave {
 namespace {

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <limits>
 
-#include "kernels/contact_force.hpp"
+#include "kernels/contact/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
-#include "model/contact_law.hpp"
+#include "model/contact/contact_law.hpp"
 #include "model/element_precision.hpp"
+#include "model/elements/materials.hpp"
+#include "model/elements/patch_launch.hpp"
 #include "model/host_copy.hpp"
-#include "model/materials.hpp"
 #include "model/model.hpp"
-#include "model/patch_launch.hpp"
 
 namespace railwave {
 namespace {

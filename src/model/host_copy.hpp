@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 /// Copies between std::vector and device arrays.
 namespace railwave {

@@ -1,5 +1,5 @@
 #include "model/build_steps.hpp"
-#include "model/materials.hpp"
+#include "model/elements/materials.hpp"
 
 namespace railwave {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "case/activity.hpp"
-#include "model/absorbing_layer.hpp"
-#include "model/beams.hpp"
+#include "model/beams/beams.hpp"
+#include "model/boundaries/absorbing_layer.hpp"
+#include "model/boundaries/non_reflecting_ends.hpp"
 #include "model/build_steps.hpp"
-#include "model/contact_law.hpp"
+#include "model/contact/contact_law.hpp"
 #include "model/model_room.hpp"
-#include "model/non_reflecting.hpp"
 #include "model/visit_arrays.hpp"
 
 namespace railwave {

@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/carried_nodes.hpp"
-#include "kernels/contact/law_arrays.hpp"
-#include "kernels/contact_normals.hpp"
-#include "kernels/damping_arrays.hpp"
-#include "kernels/element_force.hpp"
+#include "kernels/boundaries/non_reflecting.hpp"
+#include "kernels/contact/contact_normals.hpp"
+#include "kernels/contact/law_at_nodes.hpp"
+#include "kernels/contact/multiplier_arrays.hpp"
+#include "kernels/elements/damping_arrays.hpp"
+#include "kernels/elements/element_force.hpp"
+#include "kernels/loads/set_loads.hpp"
 #include "kernels/materials/material.hpp"
-#include "kernels/multiplier_arrays.hpp"
-#include "kernels/nodes.hpp"
-#include "kernels/non_reflecting.hpp"
-#include "kernels/reduction_space.hpp"
-#include "kernels/set_loads.hpp"
-#include "kernels/tie.hpp"
+#include "kernels/nodes/carried_nodes.hpp"
+#include "kernels/nodes/nodes.hpp"
+#include "kernels/support/reduction_space.hpp"
+#include "kernels/ties/tie.hpp"
 #include "model/assembly.hpp"
-#include "model/connector_cells.hpp"
+#include "model/elements/patch_order.hpp"
+#include "model/loads/connector_cells.hpp"
 #include "model/output_times.hpp"
-#include "model/patches.hpp"
 #include "model/subcycling.hpp"
 
 namespace railwave {
@@ -104,7 +104,7 @@ struct ContactPair {
   ContactArrays arrays;
   ContactLawArrays law;
   ContactWindow window;
-  MultiplierArrays multipliers;  ///< of the second algorithm, see kernels/contact_multiplier.hpp
+  MultiplierArrays multipliers;  ///< of the second algorithm, see kernels/contact/contact_multiplier.hpp
   Array<double*[3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
   long next_look = -1;                                    ///< step at which the window is looked at again
   long next_near_look = -1;  ///< step at which the nodes that can touch are picked out of it again
@@ -144,7 +144,8 @@ struct NonReflectingEnds {
   std::vector<char> alone;  ///< by node of the model: feels no other extra forces; may have a pace of its own
 };
 
-/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see model/absorbing_layer.hpp.
+/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see
+/// model/boundaries/absorbing_layer.hpp.
 struct AbsorbingLayers {
   struct Zone {
     int layer = 0;           ///< position in scene.absorbing_layers

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "model/boundaries/held_directions.hpp"
+#include "model/boundaries/ties.hpp"
 #include "model/build_steps.hpp"
-#include "model/held_directions.hpp"
 #include "model/host_copy.hpp"
-#include "model/ties.hpp"
 
 namespace railwave {
 namespace {

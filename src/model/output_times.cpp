@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "model/model.hpp"
-#include "model/stable_step.hpp"
+#include "model/time_step/stable_step.hpp"
 
 namespace railwave {
 namespace {

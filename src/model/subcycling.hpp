@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/paced_nodes.hpp"
+#include "kernels/nodes/paced_nodes.hpp"
 #include "model/assembly.hpp"
 
 namespace railwave {
 
 struct Model;
 
-/// How a model is subcycled; see kernels/paced_nodes.hpp.
+/// How a model is subcycled; see kernels/nodes/paced_nodes.hpp.
 struct Subcycling {
   int levels = 1;  ///< 1: every element takes every step
   NodePaces paces;

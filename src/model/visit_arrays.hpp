@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "model/beams.hpp"
-#include "model/element_histories.hpp"
+#include "model/beams/beams.hpp"
+#include "model/elements/element_histories.hpp"
 #include "model/model.hpp"
 
 /// Every array of a model, once each. What holds of all of them is made from these visits: the bytes held, what a reset

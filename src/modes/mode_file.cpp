@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/output_place.hpp"
 #include "output/results_writer.hpp"
 

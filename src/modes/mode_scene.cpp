@@ -7,7 +7,7 @@
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
-#include "model/hourglass_scale.hpp"
+#include "model/elements/hourglass_scale.hpp"
 
 namespace railwave {
 namespace {

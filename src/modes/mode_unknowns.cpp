@@ -2,7 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "model/beams.hpp"
+#include "model/beams/beams.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solve/static_unknowns.hpp"
+#include "solve/statics/static_unknowns.hpp"
 
 namespace railwave {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "case/error.hpp"
-#include "model/beams.hpp"
+#include "model/beams/beams.hpp"
 #include "modes/eigenpairs.hpp"
 #include "modes/strain_energy.hpp"
 

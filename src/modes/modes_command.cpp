@@ -8,7 +8,7 @@
 
 #include "case/error.hpp"
 #include "model/assemble_notes.hpp"
-#include "model/doubts.hpp"
+#include "model/checks/doubts.hpp"
 #include "modes/mode_file.hpp"
 #include "modes/mode_scene.hpp"
 #include "output/atomic_file.hpp"

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "model/host_copy.hpp"
-#include "model/settling_stiffness.hpp"
+#include "model/time_step/settling_stiffness.hpp"
 
 namespace railwave {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "model/tangent_springs.hpp"
+#include "model/time_step/tangent_springs.hpp"
 #include "modes/mode_unknowns.hpp"
 
 namespace railwave {

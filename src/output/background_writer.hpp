@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "output/field_snapshot.hpp"
+#include "output/fields/field_snapshot.hpp"
 #include "output/results_writer.hpp"
 #include "output/task_thread.hpp"
 

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "kernels/patches.hpp"
+#include "kernels/elements/patches.hpp"
 #include "model/model.hpp"
 #include "output/hash.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/output_place.hpp"
 #include "output/seal.hpp"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "solve/run_state.hpp"
+#include "solve/checkpoint/run_state.hpp"
 
 namespace railwave {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "model/model.hpp"
-#include "solve/fault.hpp"
+#include "solve/monitor/fault.hpp"
 
 namespace railwave {
 

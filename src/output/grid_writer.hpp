@@ -9,7 +9,7 @@
 
 #include "mesh/mesh.hpp"
 #include "output/atomic_file.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 /// Grids of one instant for ParaView: arrays in an HDF5 file, and the XDMF text that names them.
 namespace railwave {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "model/stable_step.hpp"
+#include "model/time_step/stable_step.hpp"
 #include "output/atomic_file.hpp"
 #include "output/grid_writer.hpp"
 #include "output/results_writer.hpp"

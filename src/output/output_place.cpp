@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "mesh/text_file.hpp"
+#include "mesh/files/text_file.hpp"
 
 namespace railwave {
 namespace {

@@ -5,9 +5,9 @@
 #include <chrono>
 #include <ostream>
 
-#include "model/contact_law.hpp"
+#include "model/contact/contact_law.hpp"
 #include "model/model.hpp"
-#include "solve/settle.hpp"
+#include "solve/statics/settle.hpp"
 
 namespace railwave {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "output/energy_terms.hpp"
+#include "output/histories/energy_terms.hpp"
 
 namespace railwave {
 namespace {

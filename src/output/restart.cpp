@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "case/error.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {

@@ -16,7 +16,7 @@
 #include "model/output_field.hpp"
 #include "output/fault_file.hpp"
 #include "output/results_size.hpp"
-#include "solve/beams.hpp"
+#include "solve/tasks/beam_forces.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {

@@ -11,7 +11,7 @@
 #include "case/field_table.hpp"
 #include "case/memory.hpp"
 #include "model/model.hpp"
-#include "output/energy_terms.hpp"
+#include "output/histories/energy_terms.hpp"
 
 namespace railwave {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "case/surface_names.hpp"
 #include "output/checkpoint_file.hpp"
-#include "output/contact_section.hpp"
-#include "output/field_section.hpp"
-#include "output/history_section.hpp"
-#include "output/xdmf.hpp"
+#include "output/fields/contact_section.hpp"
+#include "output/fields/field_section.hpp"
+#include "output/fields/xdmf.hpp"
+#include "output/histories/history_section.hpp"
 
 namespace railwave {
 

@@ -12,7 +12,7 @@
 #include "case/results_place.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/fault_file.hpp"
-#include "output/hdf5_marks.hpp"
+#include "output/hdf5/hdf5_marks.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {

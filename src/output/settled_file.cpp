@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "kernels/patches.hpp"
+#include "kernels/elements/patches.hpp"
 #include "output/hash.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/seal.hpp"
 
 namespace railwave {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "solve/static_state.hpp"
+#include "solve/statics/static_state.hpp"
 
 namespace railwave {
 

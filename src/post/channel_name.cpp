@@ -11,7 +11,7 @@
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
 #include "output/dataset_units.hpp"
-#include "post/set_names.hpp"
+#include "post/name_patterns.hpp"
 
 namespace railwave {
 namespace {

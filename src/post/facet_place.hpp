@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "post/field_vectors.hpp"
 #include "post/surface_mesh.hpp"
-#include "post/vectors.hpp"
 
 namespace railwave {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "post/vectors.hpp"
+#include "post/field_vectors.hpp"
 
 namespace railwave {
 

@@ -4,7 +4,7 @@
 
 #include "case/error.hpp"
 #include "output/atomic_file.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "post/vectors.hpp"
+#include "post/field_vectors.hpp"
 
 namespace railwave {
 namespace {

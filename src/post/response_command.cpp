@@ -9,7 +9,7 @@
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "post/hammer_test.hpp"
 #include "post/own_file.hpp"
 #include "signal/resonances.hpp"

@@ -7,7 +7,7 @@
 
 #include "case/error.hpp"
 #include "model/fields.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "post/vectors.hpp"
+#include "post/field_vectors.hpp"
 
 namespace railwave {
 

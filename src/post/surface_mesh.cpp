@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "output/contact_section.hpp"
+#include "output/fields/contact_section.hpp"
 
 namespace railwave {
 namespace {

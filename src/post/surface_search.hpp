@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/nearest_point.hpp"
+#include "model/contact/nearest_point.hpp"
 #include "post/facet_place.hpp"
 
 namespace railwave {

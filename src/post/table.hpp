@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 

@@ -4,11 +4,11 @@
 
 #include "case/error.hpp"
 #include "mesh/vectors.hpp"
-#include "model/centre_of_mass.hpp"
+#include "model/checks/centre_of_mass.hpp"
+#include "model/contact/rolling.hpp"
 #include "model/host_copy.hpp"
-#include "model/rolling.hpp"
-#include "solve/beams.hpp"
-#include "solve/settle.hpp"
+#include "solve/statics/settle.hpp"
+#include "solve/tasks/beam_forces.hpp"
 
 namespace railwave {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/mesh.hpp"
-#include "model/history_sets.hpp"
-#include "solve/fault.hpp"
+#include "model/elements/history_sets.hpp"
+#include "solve/monitor/fault.hpp"
 
 namespace railwave {
 
@@ -107,7 +107,7 @@ class RunObserver {
  public:
   virtual ~RunObserver() = default;
   virtual void begin(const Model& /*model*/) {}
-  /// Next: what in the scene may be a mistake (model/doubts.hpp), a line each.
+  /// Next: what in the scene may be a mistake (model/checks/doubts.hpp), a line each.
   virtual void doubts(const std::vector<std::string>& /*lines*/) {}
   /// Every few steps of a dynamic relaxation.
   virtual void settling(const Model& /*model*/, const SettleReport& /*so_far*/) {}

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "model/place_element_sets.hpp"
-#include "model/place_sets.hpp"
-#include "model/stable_step.hpp"
+#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
 #include "model/subcycling.hpp"
-#include "solve/contact_window.hpp"
+#include "model/time_step/stable_step.hpp"
+#include "solve/tasks/contact_window.hpp"
 
 namespace railwave {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "solve/force_swing.hpp"
+#include "solve/monitor/force_swing.hpp"
+#include "solve/monitor/watch.hpp"
 #include "solve/observer.hpp"
 #include "solve/step_control.hpp"
-#include "solve/watch.hpp"
 
 namespace railwave {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "kernels/spaces.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave {
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "case/error.hpp"
-#include "model/carriers.hpp"
+#include "model/elements/carriers.hpp"
 #include "model/host_copy.hpp"
-#include "model/stable_step.hpp"
+#include "model/time_step/stable_step.hpp"
 
 namespace railwave {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/relaxation.hpp"
+#include "kernels/statics/relaxation.hpp"
 #include "solve/plan.hpp"
 
 /// The tasks of which plans are made, by physics. Lists are empty where a scene has none of it.

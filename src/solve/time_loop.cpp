@@ -5,16 +5,16 @@
 #include <atomic>
 #include <functional>
 
-#include "model/doubts.hpp"
-#include "solve/account.hpp"
-#include "solve/force_swing.hpp"
+#include "model/checks/doubts.hpp"
+#include "solve/monitor/account.hpp"
+#include "solve/monitor/force_swing.hpp"
+#include "solve/monitor/watch.hpp"
 #include "solve/output_schedule.hpp"
 #include "solve/plan.hpp"
 #include "solve/run_summary.hpp"
 #include "solve/run_timing.hpp"
-#include "solve/static_start.hpp"
+#include "solve/statics/static_start.hpp"
 #include "solve/step_control.hpp"
-#include "solve/watch.hpp"
 
 namespace railwave {
 namespace {

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "solve/checkpoint/run_state.hpp"
 #include "solve/observer.hpp"
-#include "solve/run_state.hpp"
-#include "solve/static_state.hpp"
+#include "solve/statics/static_state.hpp"
 
 namespace railwave {
 

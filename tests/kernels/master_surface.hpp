@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "kernels/contact_search.hpp"
+#include "kernels/contact/contact_search.hpp"
+#include "model/contact/link_segments.hpp"
 #include "model/host_copy.hpp"
-#include "model/link_segments.hpp"
 
 namespace railwave {
 

@@ -2,8 +2,8 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <random>
 
-#include "kernels/beam_tangent.hpp"
-#include "kernels/team.hpp"
+#include "kernels/beams/beam_tangent.hpp"
+#include "kernels/support/team.hpp"
 
 using namespace railwave;
 using Catch::Matchers::WithinAbs;

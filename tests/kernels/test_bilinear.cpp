@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "kernels/element_force.hpp"
+#include "kernels/elements/element_force.hpp"
 #include "kernels/materials/bilinear.hpp"
 #include "tests/kernels/exact_plasticity.hpp"
 

@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <random>
 
-#include "kernels/contact_normals.hpp"
+#include "kernels/contact/contact_normals.hpp"
 #include "tests/kernels/master_surface.hpp"
 
 using namespace railwave;

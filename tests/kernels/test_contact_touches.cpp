@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/contact_track.hpp"
+#include "kernels/contact/contact_track.hpp"
 #include "tests/kernels/master_surface.hpp"
 
 using namespace railwave;

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/hourglass.hpp"
+#include "kernels/elements/hourglass.hpp"
 #include "mesh/hexahedron.hpp"
 
 using namespace railwave;

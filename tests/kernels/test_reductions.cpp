@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/reductions.hpp"
+#include "kernels/support/reductions.hpp"
 #include "model/host_copy.hpp"
 
 using namespace railwave;

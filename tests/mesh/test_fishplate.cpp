@@ -5,8 +5,8 @@
 
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/generators/rail.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

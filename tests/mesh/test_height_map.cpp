@@ -7,9 +7,9 @@
 #include <set>
 
 #include "complaint.hpp"
+#include "mesh/generators/rail.hpp"
 #include "mesh/height_map.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace railwave;

@@ -1,10 +1,10 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
+#include "mesh/generators/rail.hpp"
+#include "mesh/generators/wheel.hpp"
 #include "mesh/mirror.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
-#include "mesh/wheel.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

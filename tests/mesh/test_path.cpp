@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "complaint.hpp"
+#include "mesh/generators/rail.hpp"
+#include "mesh/generators/wheel.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
-#include "mesh/wheel.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "mesh/profiles.hpp"
+#include "mesh/sections/profiles.hpp"
 #include "source_folder.hpp"
 
 using namespace railwave;

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "complaint.hpp"
-#include "mesh/profiles.hpp"
+#include "mesh/generators/rail.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
-#include "mesh/section_properties.hpp"
+#include "mesh/sections/profiles.hpp"
+#include "mesh/sections/section_properties.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

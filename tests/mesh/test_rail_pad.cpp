@@ -7,9 +7,9 @@
 #include "case/solid_pad.hpp"
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
+#include "mesh/generators/rail.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;

@@ -7,9 +7,9 @@
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/connected_bodies.hpp"
+#include "mesh/generators/rail.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/rail.hpp"
 #include "mesh/seam.hpp"
 #include "topology.hpp"
 

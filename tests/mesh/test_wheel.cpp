@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "complaint.hpp"
-#include "mesh/profiles.hpp"
+#include "mesh/generators/wheel.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/wheel.hpp"
+#include "mesh/sections/profiles.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

@@ -5,9 +5,9 @@
 
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/profiles.hpp"
+#include "mesh/generators/wheel.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/wheel.hpp"
+#include "mesh/sections/profiles.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

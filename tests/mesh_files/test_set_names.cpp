@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/error.hpp"
-#include "mesh/set_names.hpp"
+#include "mesh/files/set_names.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "kernels/contact/laws/augmented_penalty.hpp"
-#include "model/contact_law.hpp"
+#include "model/contact/contact_law.hpp"
 #include "model/host_copy.hpp"
 
 using namespace railwave;

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "model/nearest_point.hpp"
+#include "model/contact/nearest_point.hpp"
 
 using namespace railwave;
 

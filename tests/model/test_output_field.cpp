@@ -6,7 +6,7 @@
 
 #include "model/output_field.hpp"
 #include "output/dataset_units.hpp"
-#include "output/history_values.hpp"
+#include "output/histories/history_values.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;

@@ -2,9 +2,9 @@
 #include <catch2/catch_test_macros.hpp>
 #include <numeric>
 
-#include "kernels/patches.hpp"
+#include "kernels/elements/patches.hpp"
 #include "mesh/build_mesh.hpp"
-#include "model/divide_into_patches.hpp"
+#include "model/elements/divide_into_patches.hpp"
 
 using namespace railwave;
 

@@ -5,8 +5,8 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "mesh/hexahedron.hpp"
-#include "model/history_sets.hpp"
-#include "model/place_element_sets.hpp"
+#include "model/elements/history_sets.hpp"
+#include "model/sets/place_element_sets.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;

@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "case/error.hpp"
-#include "model/place_sets.hpp"
+#include "model/sets/place_sets.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;

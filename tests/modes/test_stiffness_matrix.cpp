@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "modes/strain_energy.hpp"
-#include "solve/static_tangent.hpp"
+#include "solve/statics/static_tangent.hpp"
 #include "tests/modes/mode_models.hpp"
 #include "tests/verify/tied_blocks.hpp"
 

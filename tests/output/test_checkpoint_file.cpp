@@ -6,7 +6,7 @@
 #include <random>
 
 #include "output/checkpoint_file.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace railwave;

@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "case/error.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/results_size.hpp"
 #include "tests/output/made_up_run.hpp"
 

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "output/file_kind.hpp"
-#include "output/hdf5.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/unfinished.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "post/vectors.hpp"
+#include "post/field_vectors.hpp"
 
 namespace railwave {
 

@@ -3,7 +3,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "output/contact_section.hpp"
+#include "output/fields/contact_section.hpp"
 #include "post/facet_stress.hpp"
 #include "tests/post/hertz_contact.hpp"
 #include "tests/post/made_up_surfaces.hpp"

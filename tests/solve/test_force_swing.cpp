@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <cmath>
 
-#include "solve/force_swing.hpp"
+#include "solve/monitor/force_swing.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "case/expand_tracks.hpp"
-#include "mesh/section_properties.hpp"
+#include "mesh/sections/section_properties.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "solve/beams.hpp"
+#include "solve/tasks/beam_forces.hpp"
 #include "tests/case/temporary_case.hpp"
 #include "tests/verify/march.hpp"
 

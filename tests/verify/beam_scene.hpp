@@ -1,8 +1,8 @@
 #pragma once
 
-#include "model/beam_section.hpp"
-#include "model/beams.hpp"
-#include "solve/beams.hpp"
+#include "model/beams/beam_section.hpp"
+#include "model/beams/beams.hpp"
+#include "solve/tasks/beam_forces.hpp"
 #include "tests/verify/march.hpp"
 
 /// Scenes with beams, and what the tests measure on them.

@@ -7,7 +7,7 @@
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
-#include "solve/account.hpp"
+#include "solve/monitor/account.hpp"
 #include "solve/plan.hpp"
 #include "solve/time_loop.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "solve/settle.hpp"
+#include "solve/statics/settle.hpp"
 #include "tests/verify/block.hpp"
 
 /// Driving a model step by step, and what the tests measure on it.

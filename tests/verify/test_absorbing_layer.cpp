@@ -3,8 +3,8 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <complex>
 
-#include "model/absorbing_layer.hpp"
-#include "model/doubts.hpp"
+#include "model/boundaries/absorbing_layer.hpp"
+#include "model/checks/doubts.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 /// Absorbing layers before the ends of bars and beams, against the theory of a bar whose mass damping grows with the

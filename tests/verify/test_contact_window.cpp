@@ -1,6 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 
-#include "solve/contact_window.hpp"
+#include "solve/tasks/contact_window.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;

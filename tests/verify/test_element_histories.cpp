@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "case/read_case.hpp"
-#include "model/element_histories.hpp"
+#include "model/elements/element_histories.hpp"
 #include "post/contact_solution.hpp"
 #include "source_folder.hpp"
 #include "tests/verify/march.hpp"

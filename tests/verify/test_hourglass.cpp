@@ -1,6 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 
-#include "kernels/hourglass.hpp"
+#include "kernels/elements/hourglass.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;

@@ -1,7 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "model/materials.hpp"
+#include "model/elements/materials.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;

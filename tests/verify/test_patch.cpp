@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <random>
 
-#include "model/materials.hpp"
+#include "model/elements/materials.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;

@@ -1,8 +1,8 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "model/element_frequency.hpp"
-#include "model/global_step.hpp"
+#include "model/time_step/element_frequency.hpp"
+#include "model/time_step/global_step.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;

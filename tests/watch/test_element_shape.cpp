@@ -1,7 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 
-#include "kernels/watch_terms.hpp"
+#include "kernels/monitor/watch_terms.hpp"
 
 using namespace railwave;
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "kernels/contact/contact_arrays.hpp"
 #include "kernels/contact/laws/linear_penalty.hpp"
-#include "kernels/contact_arrays.hpp"
 
 namespace railwave {
 

@@ -4,7 +4,7 @@
 
 /// A contact law says with what a node presses on the other body and what friction can hold, from numbers alone: it
 /// knows no arrays, no search and no motion. kernels/contact/law_at_nodes.hpp brings it to the nodes. It is a struct
-/// with its parameters and these members, in a file of its own here, listed in src/model/contact_law.hpp:
+/// with its parameters and these members, in a file of its own here, listed in src/model/contact/contact_law.hpp:
 ///
 /// | member | what |
 /// |---|---|

@@ -1,0 +1,252 @@
+#pragma once
+
+#include "kernels/contact/contact_normals.hpp"
+#include "kernels/contact/contact_track.hpp"
+#include "kernels/contact/multiplier_arrays.hpp"
+
+namespace railwave {
+
+/// Where nodes go by themselves in the step from t_n: what their velocities and the forces other than a contact's do.
+struct FreeMotion {
+  NodalAcceleration acceleration;
+  double velocity_step;                        ///< s, of NodeAdvance
+  double step;                                 ///< s
+  Array<const double*> relaxation_mass;        ///< kg, of the dynamic relaxation; empty in a run
+  Array<const double* [3]> body_acceleration;  ///< m/s2, of true masses; empty in a run
+
+  /// m/N, movement in the step for a force, but for constraints.
+  KOKKOS_INLINE_FUNCTION double compliance(int n) const {
+    return step * velocity_step /
+           (relaxation_mass.extent(0) != 0 ? relaxation_mass(n) : acceleration.force.nodes.mass(n));
+  }
+
+  /// m, movement in the step.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
+    const NodeArrays& nodes = acceleration.force.nodes;
+    Vector3 force = acceleration.force(n) + nodes.mass(n) * acceleration.gravity;
+    if (body_acceleration.extent(0) != 0) force = force + nodes.mass(n) * row(body_acceleration, n);
+    return step * row(nodes.velocity, n) + acceleration.constrain(n, compliance(n) * force);
+  }
+};
+
+/// Phases of finding multipliers, over the nodes that can touch: Begin; Foresee, by each of a multiplier's nodes; Push;
+/// then for every sweep Correct and Push, in the last one Finish instead.
+struct Multiplier {
+  struct Begin {};
+  struct Foresee {};
+  struct Push {};
+  struct Correct {};
+  struct Finish {};
+};
+
+/// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991).
+/// The forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force
+/// or none; and with which a node that sticks has not moved over the master, unless that takes more than friction can
+/// give. Every multiplier moves nodes that others move too. They are found by Jacobi's iteration, projected on
+/// Coulomb's cone, from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do
+/// to its nodes, the iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the
+/// node stuck, at the next step. Forces are summed in whole quanta: a run is bitwise repeatable.
+/// @tparam Normals along which they press: see kernels/contact/contact_normals.hpp
+template <bool Friction, class Normals = FacetNormals>
+struct ContactMultiplier {
+  ContactSearch search;
+  ContactWindow window;
+  ExtraForceSum extra;
+  FreeMotion free_motion;
+  MultiplierArrays multipliers;
+  FirstTouch first_touch;
+
+  static constexpr double crowd_quantum = 1.0 / (1ull << 40);
+  /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
+  /// a hundredth of the fastest wave.
+  static constexpr double near_share = 0.01;
+
+  template <class Phase>
+  KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
+    if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Foresee& /*phase*/, const int i) const {
+    const int most = multipliers.most_nodes;
+    if (i < most * window.near_count(0)) foresee(window.entries(window.near(i / most)).slave, i % most);
+  }
+
+  /// Locate, project; the last step's force is where the iteration starts.
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near) const {
+    const ContactArrays& contact = search.contact;
+    const int s = near.slave;
+    const Vector3 slave = row(search.position, near.node);
+    const int status = contact.status(s), tracked = contact.tracked(s);
+    const bool touched = status != status_apart;
+    const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
+    Projection now = ContactTrack::where(search, slave, tracked, place, touched, near.near);
+    if (!touched) first_touch.judge(search, s, near.node, tracked, now);
+    now = Normals::turned(search, slave, now);
+    FirstTouch::count_from_entry(contact, s, now);
+    MultiplierRow& r = multipliers.rows(s);
+    if constexpr (Normals::curved)
+      if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));
+    r.normal = now.normal;
+    r.gap = now.gap;
+    if (now.segment >= 0) {
+      contact.tracked(s) = now.segment;
+      contact.place(s, 0) = now.place.xi;
+      contact.place(s, 1) = now.place.eta;
+    }
+    const Segment segment = contact.surface(now.segment);
+    r.active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
+    r.moved =
+        touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0)
+                : Vector3{{0, 0, 0}};
+    r.force = r.pending = Vector3{{0, 0, 0}};
+    r.pressing = r.compliance = 0;
+    r.slips = 1;
+    if (r.active == 0) return;
+
+    r.node[0] = near.node;
+    r.weight[0] = 1;
+    r.count = 1;
+    for (int k = 0; k < 4; ++k) {
+      const double weight = -segment_shape(k, now.place.xi, now.place.eta);
+      if (segment.node[k] >= 0) {
+        add_node(r, segment.node[k], contact.segments(now.segment, k), weight);
+        continue;
+      }
+      const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
+      double share[MouthCorner::pieces];
+      search.shares_of(mouth, share);
+      for (int piece = 0; piece < MouthCorner::pieces; ++piece)
+        add_node(r, mouth.node[piece], mouth.master[piece], share[piece] * weight);
+    }
+    r.free = Vector3{{0, 0, 0}};
+    if constexpr (Friction) {
+      // Towards where the node stuck, should it have crept from there.
+      Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
+      way = way - dot(way, now.normal) * now.normal;
+      for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
+      r.free = way;
+    }
+    r.pressing = norm(row(contact.normal_force, s));
+    if (!touched) return;
+    r.pending = r.pressing * now.normal;
+    if constexpr (Friction) {
+      Vector3 tangential = row(contact.tangential_force, s);
+      tangential = tangential - dot(tangential, now.normal) * now.normal;
+      r.pending = r.pending + tangential;
+    }
+    r.force = r.pending;
+  }
+
+  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, int master, double weight) const {
+    r.node[r.count] = node;
+    r.master[r.count] = master;
+    r.weight[r.count] = weight;
+    ++r.count;
+    Kokkos::atomic_add(&multipliers.crowd(master), crowd_share(weight));
+  }
+
+  /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its
+  /// own.
+  KOKKOS_INLINE_FUNCTION void foresee(const int s, const int k) const {
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active == 0 || k >= r.count) return;
+    r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
+    r.compliances[k] = free_motion.compliance(r.node[k]);
+    r.foreseen[k] = free_motion(r.node[k]) - movement(r, k);
+  }
+
+  /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes
+  /// what the others leave.
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near) const {
+    push(multipliers.rows(near.slave));
+  }
+
+  KOKKOS_INLINE_FUNCTION void push(const MultiplierRow& r) const {
+    if (r.active == 0) return;
+    const Vector3 quanta = extra.in_quanta(r.pending);
+    const FixedForce whole = extra.fixed(quanta);
+    FixedForce left = whole;
+    extra.add(r.row[0], whole);
+    for (int k = 1; k < r.count; ++k) {
+      const FixedForce share = k + 1 < r.count ? extra.fixed(-r.weight[k] * quanta) : left;
+      for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
+      extra.subtract(r.row[k], share);
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
+    const ContactArrays& contact = search.contact;
+    const int s = near.slave;
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active == 0) return;
+    if (r.compliance == 0) {
+      for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
+      r.compliance = r.compliances[0];
+      for (int k = 1; k < r.count; ++k)
+        r.compliance -=
+            r.weight[k] * r.compliances[k] * crowd_quantum * static_cast<double>(multipliers.crowd(r.master[k]));
+    }
+    Vector3 moves = r.free;
+    for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
+    const double opening = dot(moves, r.normal);
+    const double pressing = std::fmax(0.0, r.pressing - (r.gap + opening) / r.compliance);
+    Vector3 force = pressing * r.normal;
+    r.slips = 1;
+    if constexpr (Friction) {
+      Vector3 tangential = r.force - r.pressing * r.normal - (1 / r.compliance) * (moves - opening * r.normal);
+      const double bound = contact.friction * pressing, size = norm(tangential);
+      r.slips = size > bound ? 1 : 0;
+      if (size > bound) tangential = (bound / size) * tangential;
+      force = force + tangential;
+    }
+    r.pending = force - r.force;
+    r.force = force;
+    r.pressing = pressing;
+  }
+
+  /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work
+  /// done since the last.
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
+    const ContactArrays& contact = search.contact;
+    const int s = near.slave;
+    const MultiplierRow& r = multipliers.rows(s);
+    push(r);
+    if (r.active != 0)
+      for (int k = 1; k < r.count; ++k)
+        Kokkos::atomic_add(&multipliers.crowd(r.master[k]), std::uint64_t{0} - crowd_share(r.weight[k]));
+    if constexpr (Normals::curved) {
+      const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
+      if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
+    } else {
+      const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
+      const bool closes = is_distance(before) && is_distance(r.gap);
+      if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
+    }
+    if constexpr (Friction) {
+      const Vector3 tangential = r.force - r.pressing * r.normal;
+      contact.friction_energy(s) -= 0.5 * dot(row(contact.tangential_force, s) + tangential, r.moved);
+      for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
+    }
+    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = r.pressing * r.normal[k];
+    contact.gap(s) = r.gap;
+    contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
+  }
+
+  /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does
+  /// not tell: they bend with the nodes around them, to which multipliers hand no force.
+  KOKKOS_INLINE_FUNCTION void book_work(int s, int node, int tracked, const SegmentPlace& place,
+                                        const Vector3& force) const {
+    multipliers.impact_energy(s) -= 0.5 * dot(force, first_touch.last.relative_motion(search, node, tracked, place));
+  }
+
+  /// m, of one of a multiplier's nodes under the contact forces handed to it so far.
+  KOKKOS_INLINE_FUNCTION Vector3 movement(const MultiplierRow& r, int k) const {
+    return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * extra.contact_force(r.row[k]));
+  }
+
+  KOKKOS_INLINE_FUNCTION static std::uint64_t crowd_share(double weight) {
+    return static_cast<std::uint64_t>(-weight / crowd_quantum);
+  }
+};
+
+}  // namespace railwave

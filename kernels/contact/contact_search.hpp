@@ -1,0 +1,149 @@
+#pragma once
+
+#include "kernels/contact/contact_boxes.hpp"
+#include "kernels/contact/contact_projection.hpp"
+
+namespace railwave {
+
+/// Search for the segment that a slave node meets: the one whose nearest place is nearest, whatever segments share its
+/// nodes (thesis 2.6.1 starts from the closest master node instead, which a crack, a fold or a slender segment can
+/// deceive). Of several equally near, as at a common side, the one whose projection is least outside, then the first.
+/// The result does not depend on where the search begins.
+struct ContactSearch : ContactProjection {
+  /// How deep a projection outside a segment may be, of the segment's diagonal: no sound contact is.
+  static constexpr double outside_depth = 0.25;
+  /// Of a segment's size: places no farther apart than that are one, found on several segments.
+  static constexpr double rounding = 1e-12;
+  /// Of unit normals' mean: below, the surface folds by 60 degrees or more.
+  static constexpr double smooth_mean = 0.866;
+
+  /// @param start a segment from which the search may begin, best one that is near
+  /// @param beyond how far outside the segment the projection lay, before it was clamped to its sides; where the
+  /// surface goes on,
+  ///               nothing is outside
+  KOKKOS_INLINE_FUNCTION Projection nearest(const Vector3& slave, int start, double& beyond) const {
+    SeenSegment best = see(slave, start);
+    // Mostly it is that one, and then hardly a box is opened.
+    double limit = nearest_within(best).squared;
+    NearestPlace place{{0, 0}, 1e300, 1e300};
+    Vector3 sum{{0, 0, 0}}, weighted{{0, 0, 0}};
+    Vector3 there{{0, 0, 0}};
+    double same_place = 0;  // m
+    int alike = 0;
+    // First what is nearest. If that is at a side, then once more, for what has the same place. One loop, so that one
+    // copy does.
+    for (int turn = 0; turn < 2; ++turn) {
+      visit_boxes(contact.boxes, slave, limit, [&](int i) {
+        const SeenSegment seen = see(slave, contact.boxes.order(i));
+        const NearestPlace found = nearest_within(seen);
+        if (found.squared > limit) return true;
+        bool better = found.squared < place.squared || (found.squared == place.squared && seen.segment < best.segment);
+        if (turn == 1) {
+          const Vector3 aside = seen.point(found.place) - there;
+          if (dot(aside, aside) > same_place * same_place) return true;
+          const Vector3 n = unit_normal(seen, found.place);
+          sum = sum + n;
+          weighted = weighted + corner_angle(seen, found.place) * n;
+          ++alike;
+          const double now = std::fmax(0.0, found.outside), before = std::fmax(0.0, place.outside);
+          better = alike == 1 || now < before || (now == before && seen.segment < best.segment);
+        }
+        if (!better) return true;
+        best = seen;
+        place = found;
+        if (turn == 0) limit = found.squared;
+        return true;
+      });
+      if (turn == 0) {
+        if (!at_side(place.place)) break;
+        there = best.point(place.place);
+        same_place = rounding * (norm(best.across) + norm(best.along));
+        limit = (std::sqrt(place.squared) + same_place) * (std::sqrt(place.squared) + same_place);
+      }
+    }
+    beyond = place.outside;
+    Projection result = at(best, place.place);
+    if (alike > 1 && place.outside > 0 && goes_on(contact.surface(best.segment), nearest_place(best, {0, 0}))) {
+      towards_side(result, weighted);
+      result.at_edge = norm(sum) < smooth_mean * alike;
+      beyond = 0;
+    }
+    return result;
+  }
+
+  /// Whether any segment's box is within a distance, m.
+  KOKKOS_INLINE_FUNCTION bool comes_within(const Vector3& slave, double distance) const {
+    bool found = false;
+    visit_boxes(contact.boxes, slave, distance * distance, [&](int) {
+      found = true;
+      return false;
+    });
+    return found;
+  }
+
+  /// Where a slave is, with segment -1 where it stands beside the surface.
+  KOKKOS_INLINE_FUNCTION Projection locate(const Vector3& slave, int start) const {
+    double beyond;
+    Projection result = nearest(slave, start, beyond);
+    if (beside(result, beyond)) result.segment = -1;
+    return result;
+  }
+
+  /// Whether a projection that lay `beyond` its segment does not belong to the surface: too far outside, or outside and
+  /// as deep as what moves beside a body.
+  KOKKOS_INLINE_FUNCTION bool beside(const Projection& found, double beyond) const {
+    if (beyond <= on_segment) return false;
+    if (beyond > outside_tolerance) return true;
+    return found.gap < -outside_depth * norm(diagonal(contact.surface(found.segment)));
+  }
+
+  /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
+  /// Right at a look.
+  KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
+    bool found = false;
+    const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
+    visit_boxes(contact.boxes, slave, distance * distance, [&](int i) {
+      found = dot(row(contact.boxes.normal, i), normal) < 0.5;
+      return !found;
+    });
+    return found;
+  }
+
+ private:
+  /// Whether the surface goes on beyond each of the sides that a place lies beyond.
+  KOKKOS_INLINE_FUNCTION static bool goes_on(const Segment& segment, const SegmentPlace& p) {
+    const double beyond[4] = {-p.eta - 1, p.xi - 1, p.eta - 1, -p.xi - 1};
+    for (int side = 0; side < 4; ++side)
+      if (beyond[side] > on_segment && segment.link[side] < 0) return false;
+    return true;
+  }
+
+  KOKKOS_INLINE_FUNCTION static bool at_side(const SegmentPlace& p) { return p.outside() > -1e-9; }
+
+  KOKKOS_INLINE_FUNCTION static Vector3 unit_normal(const SeenSegment& seen, const SegmentPlace& p) {
+    const Vector3 n = cross(seen.slope_xi(p.eta), seen.slope_eta(p.xi));
+    return (1 / norm(n)) * n;
+  }
+
+  /// A segment's angle at a place: pi inside a side, that of the corner at a corner.
+  KOKKOS_INLINE_FUNCTION static double corner_angle(const SeenSegment& seen, const SegmentPlace& p) {
+    constexpr double half_turn = 3.14159265358979323846;
+    if (std::fmin(std::fabs(p.xi), std::fabs(p.eta)) < 1 - 1e-9) return half_turn;
+    const Vector3 a = seen.slope_xi(p.eta), b = seen.slope_eta(p.xi);
+    const double cosine = dot(a, b) / std::sqrt(dot(a, a) * dot(b, b));
+    return std::acos(std::fmax(-1.0, std::fmin(1.0, p.xi * p.eta > 0 ? cosine : -cosine)));
+  }
+
+  /// Over a side or corner where the slave's projection lies inside no segment, the way between it and the slave is the
+  /// normal: so it turns from that of one segment to that of the next. Which side of the surface the slave is on is
+  /// told by the mean of the normals around, weighted by angles (Baerentzen and Aanaes 2005).
+  KOKKOS_INLINE_FUNCTION static void towards_side(Projection& result, const Vector3& weighted) {
+    const double distance = norm(result.offset);
+    if (!(distance > 1e-12)) return;
+    const bool inside = dot(result.offset, weighted) > 0;
+    result.normal = ((inside ? 1 : -1) / distance) * result.offset;
+    result.gap = inside ? -distance : distance;
+  }
+};
+
+}  // namespace railwave

@@ -1,0 +1,292 @@
+#pragma once
+
+#include "kernels/elements/hourglass.hpp"
+#include "kernels/elements/patches.hpp"
+#include "kernels/materials/elastic.hpp"
+
+namespace railwave {
+
+/// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed
+/// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
+/// which the nodes add up in fixed order (nobody waits for anybody, and a run is bitwise the same on any number of
+/// threads); nodes that are the patch's alone are advanced at once where `Advance` says so.
+/// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
+template <class S, class Material, class Hourglass, bool Advance, class Nodes = NodeAdvance>
+struct PatchForce {
+  using T = Pack<S>;
+
+  Material material;
+  PatchArrays patches;
+  Array<const float*> hourglass_scale;
+  Nodes nodes;
+  double step;                      ///< s, for the dissipated hourglass energy
+  Array<PartialForce<S>*> partial;  ///< N
+  int first_partial;                ///< row of the patches' first node
+
+  using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
+
+  /// Scratch memory of a team, bytes.
+  static std::size_t scratch_size(const PatchArrays& patches) {
+    return Staged::scratch_size(patches.node_stride) + sizeof(S) * (3u * component_stride + patch_size) +
+           4 * scratch_alignment +
+           (on_device ? sizeof(std::uint16_t) * (patches.pack_stride + patches.place_stride) : 0);
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
+    const Staged staged(team, patches.node_stride);
+    S* force = scratch_values<S>(team, 3u * component_stride);
+    S* power = scratch_values<S>(team, patch_size);
+    const int elements = patches.element_count(p);
+    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes.nodes));
+    const SumLists lists = sum_lists(team, p);
+    if constexpr (on_device) {
+      // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
+      const int e = team.team_rank();
+      const BatchCorners<S> corners = corners_of_batch(p, e);
+      const T scale = hourglass_scales(p, e);
+      staged.bring(team, patches, p, nodes.nodes);
+      team.team_barrier();
+      if (e < elements) batch_force(p, e, corners, scale, constants, staged, force, power);
+      team.team_barrier();
+    } else {
+      staged.bring(team, patches, p, nodes.nodes);
+      for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
+      for (int b = 0; b * lane_count<S> < elements; ++b)
+        batch_force(p, b, corners_of_batch(p, b), hourglass_scales(p, b), constants, staged, force, power);
+    }
+    sum_corners(team, p, lists, staged, force);
+    if constexpr (!Hourglass::stores)
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, power_sums), [&](const int k) {
+        constexpr int share = patch_size / power_sums;
+        double sum = 0;
+        for (int s = k * share; s < (k + 1) * share && s < elements; ++s) sum += static_cast<double>(power[s]);
+        // Nobody else adds here; an atomic addition need not wait for what was there before.
+        Kokkos::atomic_add(&patches.hourglass_energy(p * power_sums + k), step * sum);
+      });
+  }
+
+  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (patch_size / lane_count<S>)+b; }
+
+  KOKKOS_INLINE_FUNCTION BatchCorners<S> corners_of_batch(int p, int b) const {
+    return BatchCorners<S>(patches.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
+  }
+
+  /// Where the corner forces lie that meet at each pack of nodes.
+  struct SumLists {
+    const std::uint16_t* first_place;
+    const std::uint16_t* place;
+  };
+
+  /// On a device in scratch memory: with the nodes they come in while there is time.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION SumLists sum_lists(const Member& team, const int p) const {
+    const SumLists lists{patches.first_place.data() + static_cast<long>(p) * patches.pack_stride,
+                         patches.place.data() + static_cast<long>(p) * patches.place_stride};
+    if constexpr (!on_device) return lists;
+    auto* copy = scratch_values<std::uint16_t>(team, patches.pack_stride + patches.place_stride);
+    const int first_chunks = patches.pack_stride / places_at_once, chunks = patches.place_stride / places_at_once;
+    auto* to = reinterpret_cast<Chunk*>(copy);
+    const auto* first = reinterpret_cast<const Chunk*>(lists.first_place);
+    const auto* place = reinterpret_cast<const Chunk*>(lists.place);
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first_chunks + chunks),
+                         [&](const int c) { to[c] = c < first_chunks ? first[c] : place[c - first_chunks]; });
+    return {copy, copy + patches.pack_stride};
+  }
+
+  /// @param force corner forces with their sign turned, N
+  /// @param power dissipated by hourglass control, W
+  template <class Constants>
+  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const BatchCorners<S>& corners, const T& scale,
+                                          const Constants& constants, const Staged& staged, S* force,
+                                          S* power_of_slot) const {
+    T x[3][7], B[3][6], H[3][3], cauchy[6];
+    for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
+    mean_gradient<S>(x, B);
+    const T inverse_volume = S(1) / along(x[0], B[0]);
+    [[maybe_unused]] T w[3][4];
+    for (int i = 0; i < 3; ++i) {
+      T u[7];
+      staged.modes(staged.displacement + i * staged.stride, corners, u);
+      for (int j = 0; j < 3; ++j) H[i][j] = along(u, B[j]) * inverse_volume;
+      if constexpr (Hourglass::stores)
+        for (int M = 0; M < 4; ++M) w[i][M] = hourglass_content(u, H[i], x, M);
+    }
+    {
+      T e[6];
+      almansi_strain<S>(H, e);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+      material.template stress<S>(constants, batch_number(p, b), H, e, cauchy);
+      const T to_cauchy = determinant(H);
+      for (int c = 0; c < 6; ++c) cauchy[c] *= to_cauchy;
+    }
+
+    // Row by row, so that few values are needed at a time.
+    T power = S(0);
+    constexpr int voigt[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int i = 0; i < 3; ++i) {
+      T q[4], stress[3], m[7], f[8];
+      if constexpr (Hourglass::stores) {
+        for (int M = 0; M < 4; ++M) q[M] = scale * (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]);
+      } else {
+        T v[7], L[3];
+        staged.modes(staged.velocity + i * staged.stride, corners, v);
+        for (int j = 0; j < 3; ++j) L[j] = along(v, B[j]) * inverse_volume;
+        for (int M = 0; M < 4; ++M) {
+          const T speed = hourglass_content(v, L, x, M);
+          q[M] = scale * speed;
+          power += q[M] * speed;
+        }
+      }
+      for (int j = 0; j < 3; ++j) {
+        const T moment = (q[0] * x[j][3] + q[1] * x[j][4]) + (q[2] * x[j][5] + q[3] * x[j][6]);
+        stress[j] = cauchy[voigt[i][j]] - moment * inverse_volume;
+      }
+      for (int k = 0; k < 6; ++k) m[k] = stress[0] * B[0][k] + stress[1] * B[1][k] + stress[2] * B[2][k];
+      for (int M = 0; M < 3; ++M) m[3 + M] += q[M];
+      m[6] = q[3];
+      corners_of(m, f);
+      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * patch_size + b * lane_count<S>, f[N]);
+    }
+    if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
+  }
+
+  KOKKOS_INLINE_FUNCTION T hourglass_scales(int p, int b) const {
+    const float* scales = hourglass_scale.data() + static_cast<long>(batch_number(p, b)) * lane_count<S>;
+#ifdef RAILWAVE_SIMD_LANES
+    S lanes[lane_count<S>];
+    for (int lane = 0; lane < lane_count<S>; ++lane) lanes[lane] = static_cast<S>(scales[lane]);
+    return load(lanes);
+#else
+    return static_cast<S>(*scales);
+#endif
+  }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const SumLists& lists, const Staged& staged,
+                                          const S* force) const {
+    constexpr int lanes = lane_count<S>;
+    const int count = patches.node_count(p);
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, (count + lanes - 1) / lanes), [&](const int k) {
+      const int end = lists.first_place[k + 1];
+      T sum[3] = {S(0), S(0), S(0)};
+      for (int c = lists.first_place[k]; c < end; c += lanes)
+        for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, lists.place + c);
+      S lane_sum[3][lanes];
+      for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
+      for (int lane = 0; lane < lanes && k * lanes + lane < count; ++lane)
+        hand_over(p, k * lanes + lane, staged, {{lane_sum[0][lane], lane_sum[1][lane], lane_sum[2][lane]}});
+    });
+  }
+
+  KOKKOS_INLINE_FUNCTION void hand_over(const int p, const int l, const Staged& staged, const Vector3& force) const {
+    const int place = p * patches.node_stride + l;
+    if constexpr (Advance) {
+      const int n = patches.node(place);
+      if (n < 0) {
+        staged.advance(nodes, p, n & ~advance_bit, l, force);
+        return;
+      }
+    }
+    partial(first_partial +
+            place) = {{static_cast<S>(force[0]), static_cast<S>(force[1]), static_cast<S>(force[2]), S(0)}};
+  }
+};
+
+/// Stress and energies of a patch's elements at the present instant, for outputs and the account.
+template <class S, class Material, class Hourglass>
+struct PatchState {
+  using T = Pack<S>;
+
+  Material material;
+  PatchArrays patches;
+  Array<const float*> hourglass_scale;
+  NodeArrays nodes;
+  Array<S*> stress;               ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
+  Array<double* [2]> energy;      ///< J, by patch: elastic, stored by hourglass control
+  Array<const int*> listed = {};  ///< patches to compute; empty: all. Results are in the list's order then
+
+  using Staged = StagedNodes<S, false, false>;
+
+  static std::size_t scratch_size(const PatchArrays& patches) { return Staged::scratch_size(patches.node_stride); }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
+    const int at = team.league_rank(), p = listed.extent(0) > 0 ? listed(at) : at;
+    const Staged staged(team, patches.node_stride);
+    staged.bring(team, patches, p, nodes);
+    team.team_barrier();
+    const int elements = patches.element_count(p);
+    const int batches = (elements + lane_count<S> - 1) / lane_count<S>;
+    double elastic = 0, stored = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, batches),
+        [&](const int b, double& sum) { sum += batch_state(p, at, b, elements, staged, 0); }, elastic);
+    if constexpr (Hourglass::stores)
+      Kokkos::parallel_reduce(
+          Kokkos::TeamThreadRange(team, batches),
+          [&](const int b, double& sum) { sum += batch_state(p, at, b, elements, staged, 1); }, stored);
+    Kokkos::single(Kokkos::PerTeam(team), [&]() {
+      energy(at, 0) = elastic;
+      energy(at, 1) = stored;
+    });
+  }
+
+  /// @param at where the patch's results go
+  /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
+  KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int at, const int b, const int elements,
+                                            const Staged& staged, const int which) const {
+    const int batch = p * (patch_size / lane_count<S>)+b;
+    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
+    T x[3][7], u[3][7], B[3][6], H[3][3], e[6], tau[6];
+    for (int i = 0; i < 3; ++i) {
+      staged.modes(staged.position + i * staged.stride, corners, x[i]);
+      staged.modes(staged.displacement + i * staged.stride, corners, u[i]);
+    }
+    mean_gradient<S>(x, B);
+    const T volume = along(x[0], B[0]), inverse_volume = S(1) / volume;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) H[i][j] = along(u[i], B[j]) * inverse_volume;
+    T value = S(0);
+    if (which == 1) {
+      for (int i = 0; i < 3; ++i)
+        for (int M = 0; M < 4; ++M) {
+          const T w = hourglass_content(u[i], H[i], x, M);
+          value += w * w;
+        }
+      const float* scales = hourglass_scale.data() + static_cast<long>(batch) * lane_count<S>;
+      return sum_of_elements(value, b, elements, [&](int lane) { return 0.5 * static_cast<double>(scales[lane]); });
+    }
+    almansi_strain<S>(H, e);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
+    const T to_cauchy = determinant(H);
+    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes));
+    T h[6];
+    material.template leave_elastic_part<S>(constants, batch, H, e);
+    hencky_strain(e, h);
+    kirchhoff_stress<S>(material.elastic(constants), h, tau);
+    if (stress.extent(0) != 0)
+      for (int c = 0; c < 6; ++c)
+        store(stress.data() + tiled<S>(at * (patch_size / lane_count<S>)+b, 6, c), T(tau[c] * to_cauchy));
+    value = volume * to_cauchy * elastic_energy_density<S>(h, tau);
+    return sum_of_elements(value, b, elements, [](int) { return 1.0; });
+  }
+
+  template <class Weight>
+  KOKKOS_INLINE_FUNCTION static double sum_of_elements(const T& value, int b, int elements, const Weight& weight) {
+#ifdef RAILWAVE_SIMD_LANES
+    double sum = 0;
+    for (int lane = 0; lane < lane_count<S> && b * lane_count<S> + lane < elements; ++lane)
+      sum += weight(lane) * static_cast<double>(value[lane]);
+    return sum;
+#else
+    (void)b, (void)elements;
+    return weight(0) * static_cast<double>(value);
+#endif
+  }
+};
+
+}  // namespace railwave

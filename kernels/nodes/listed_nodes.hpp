@@ -1,0 +1,30 @@
+#pragma once
+
+#include "kernels/loads/set_loads.hpp"
+
+namespace railwave {
+
+/// Step 3 of the thesis's table 2.1 for the nodes that the patches have left. Where the laws of torques and connectors
+/// have been evaluated but not yet shared out, a node works out its own loads here, beside the many that have none.
+struct ListedNodeUpdate {
+  NodalAcceleration acceleration;
+  NodeAdvance advance;
+  Array<const ListedNode*> listed;
+  RowLoads rows;
+  bool rows_here;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const ListedNode node = listed(i);
+    const int n = node.node & ~special_bit;
+    const double inverse_mass = 1.0 / advance.nodes.mass(n);
+    const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
+    const int r = node.node < 0 ? advance.nodes.extra(n) : -1;
+    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows.gather<1>(rows.extra.loaded_of_row(r));
+    Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
+    if (node.node < 0) a = acceleration.constrain(n, a);
+    advance.move(n, a, x, v);
+    if (r >= 0) acceleration.force.extra.clear_contact(r);
+  }
+};
+
+}  // namespace railwave

@@ -1,0 +1,150 @@
+#pragma once
+
+#include "kernels/nodes/extra_force_sum.hpp"
+#include "kernels/support/lanes.hpp"
+
+namespace railwave {
+
+/// State and constant data of all nodes. Forces at an instant t_n, velocities half a step before it.
+struct NodeArrays {
+  int count = 0;
+  Array<double* [3]> reference;  ///< m, undeformed
+  Array<double* [3]> position;   ///< m, at t_n
+  Array<double* [3]> velocity;   ///< m/s, at t_n - step/2
+  Array<double*> mass;           ///< kg, lumped
+  Array<int*>
+      first_partial;  ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
+  Array<int*> partial_place;  ///< rows of the partial forces: one for each patch that the node belongs to
+  Array<int*> extra;          ///< row in the extra forces (loads, connectors, contact), -1: none
+  Array<int*> constraint;     ///< row in the constraint table, -1: free
+};
+
+/// A force in a row of its own, read and written at once.
+template <class S>
+struct alignas(4 * sizeof(S)) PartialForce {
+  S x[4];
+};
+
+/// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the
+/// elements.
+struct PartialForces {
+  Array<PartialForce<double>*> wide;
+  Array<PartialForce<float>*> narrow;
+  bool single_precision = false;
+
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
+    if (single_precision) {
+      const PartialForce<float> f = narrow(place);
+      return {{f.x[0], f.x[1], f.x[2]}};
+    }
+    const PartialForce<double> f = wide(place);
+    return {{f.x[0], f.x[1], f.x[2]}};
+  }
+};
+
+/// A node that no patch advances by itself, with what is asked of it at once: most belong to two patches.
+struct alignas(16) ListedNode {
+  int node;      ///< with `special_bit` where extra forces or a constraint concern it
+  int place[2];  ///< its first partial forces, -1: none
+  int more;      ///< 1: there are others, 0: none
+};
+inline constexpr int special_bit = static_cast<int>(0x80000000u);
+
+/// Sum of the element forces on a node and of its extra forces, in fixed order, N.
+struct NodalForce {
+  NodeArrays nodes;
+  PartialForces partial;
+  ExtraForceSum extra;
+
+  KOKKOS_INLINE_FUNCTION Vector3 extra_force(int n) const {
+    const int r = nodes.extra(n);
+    return r >= 0 ? extra.force(r) : Vector3{{0, 0, 0}};
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const { return with_partials(extra_force(n), n, 0); }
+
+  /// Adds a node's partial forces from the given one on.
+  KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int n, int from) const {
+    for (int c = nodes.first_partial(n) + from; c < nodes.first_partial(n + 1); ++c)
+      force = force + partial(nodes.partial_place(c));
+    return force;
+  }
+
+  /// The same for a listed node.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(const ListedNode& listed) const {
+    const int n = listed.node & ~special_bit;
+    Vector3 force{{0, 0, 0}};
+    if (listed.node < 0) force = extra_force(n);
+    for (int k = 0; k < 2; ++k)
+      if (listed.place[k] >= 0) force = force + partial(listed.place[k]);
+    return listed.more == 0 ? force : with_partials(force, n, 2);
+  }
+};
+
+/// Central difference of the thesis's table 2.1, (i) and (j), eqs. 2.11 and 2.12, for a node whose acceleration is
+/// known.
+struct NodeAdvance {
+  NodeArrays nodes;
+  Vector3 gravity;       ///< m/s2
+  double velocity_step;  ///< s: half a step at the first one, which starts from velocities at t = 0
+  double step;           ///< s
+
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration(double inverse_mass, const Vector3& force) const {
+    Vector3 a;
+    for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, force[i], gravity[i]);
+    return a;
+  }
+
+  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a) const {
+    move(n, a, row(nodes.position, n), row(nodes.velocity, n));
+  }
+
+  /// @param x, v the node's present position and velocity, where they are at hand
+  KOKKOS_INLINE_FUNCTION void move(int n, const Vector3& a, const Vector3& x, const Vector3& v) const {
+    for (int i = 0; i < 3; ++i) {
+      const double next = multiply_add(velocity_step, a[i], v[i]);
+      nodes.velocity(n, i) = next;
+      nodes.position(n, i) = multiply_add(step, next, x[i]);
+    }
+  }
+};
+
+/// A vector without its components along held directions. Each row of the table is I - sum d d^T over directions d.
+/// @param c row; -1: nothing is held
+template <class Table>
+KOKKOS_FORCEINLINE_FUNCTION Vector3 projected(const Table& table, int c, const Vector3& a) {
+  if (c < 0) return a;
+  Vector3 free;
+  for (int i = 0; i < 3; ++i) free[i] = table(c, i, 0) * a[0] + table(c, i, 1) * a[1] + table(c, i, 2) * a[2];
+  return free;
+}
+
+/// Acceleration with displacement constraints: components along constrained directions are zero (thesis 2.7,
+/// eqs. 2.31). A constrained direction keeps the velocity it began with.
+struct NodalAcceleration {
+  NodalForce force;
+  Vector3 gravity;                          ///< m/s2
+  Array<const double* [3][3]> constraints;  ///< projections
+
+  KOKKOS_INLINE_FUNCTION Vector3 constrain(int n, const Vector3& a) const {
+    return projected(constraints, force.nodes.constraint(n), a);
+  }
+
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
+    return constrain(n, NodeAdvance{force.nodes, gravity, 0, 0}.acceleration(1.0 / force.nodes.mass(n), force(n)));
+  }
+};
+
+/// Step 3 of the thesis's table 2.1, (f) to (j): forces, acceleration, constraints, central difference. Contact
+/// forces, once used, are cleared for the next instant.
+struct NodeUpdate {
+  NodalAcceleration acceleration;
+  NodeAdvance advance;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    advance.move(n, acceleration(n));
+    if (advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
+  }
+};
+
+}  // namespace railwave

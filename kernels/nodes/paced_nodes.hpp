@@ -1,0 +1,63 @@
+#pragma once
+
+#include "kernels/nodes/nodes.hpp"
+
+/// Subcycling: elements of level l are evaluated every 2^l steps, and each evaluation gives the element's nodes the
+/// impulse of 2^l steps at once; a node moves with constant velocity from one impulse to the next (asynchronous
+/// variational integration: Lew, Marsden, Ortiz & West 2003). All nodes of an element feel the same evaluation, so
+/// linear and angular momentum are kept to rounding, and the scheme is symplectic, so that energy does not drift.
+namespace railwave {
+
+inline constexpr int most_levels = 6;
+
+/// The pace of each node: that of the finest element or extra force that concerns it.
+struct NodePaces {
+  Array<const std::uint8_t*> level;  ///< by node; empty: all nodes take every step
+  int row_end[most_levels] = {};     ///< partial forces of rows below row_end[l] come from elements of levels 0 ... l
+
+  /// Steps from one impulse to the next.
+  KOKKOS_INLINE_FUNCTION int pace(int n) const { return level.extent(0) == 0 ? 1 : 1 << level(n); }
+};
+
+/// The acceleration that, acting for a node's own step, is the impulse of an instant, m/s2.
+struct PacedAcceleration {
+  NodalAcceleration plain;
+  NodePaces paces;
+  int phase = most_levels - 1;  ///< elements of levels 0 ... phase are evaluated at this instant
+
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
+    if (paces.level.extent(0) == 0) return plain(n);
+    const NodeArrays& nodes = plain.force.nodes;
+    Vector3 force = plain.force.extra_force(n);
+    int level = paces.level(n);
+    double steps = 1;
+    for (int c = nodes.first_partial(n); c < nodes.first_partial(n + 1); ++c) {
+      const int place = nodes.partial_place(c);
+      while (place >= paces.row_end[level]) {
+        ++level;
+        steps *= 2;
+      }
+      if (level > phase) break;
+      force = force + steps * plain.force.partial(place);
+    }
+    return plain.constrain(n, NodeAdvance{nodes, plain.gravity, 0, 0}.acceleration(1.0 / nodes.mass(n), force));
+  }
+};
+
+/// NodeUpdate for the nodes whose own step begins at this instant.
+struct PacedNodeUpdate {
+  PacedAcceleration acceleration;
+  NodeAdvance advance;              ///< of the finest nodes
+  Array<const ListedNode*> listed;  ///< the nodes concerned; empty: all
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int n = listed.extent(0) == 0 ? i : listed(i).node & ~special_bit;
+    if (acceleration.paces.level(n) > acceleration.phase) return;
+    const int pace = acceleration.paces.pace(n);
+    const NodeAdvance own{advance.nodes, advance.gravity, pace * advance.velocity_step, pace * advance.step};
+    own.move(n, acceleration(n));
+    if (advance.nodes.extra(n) >= 0) acceleration.plain.force.extra.clear_contact(advance.nodes.extra(n));
+  }
+};
+
+}  // namespace railwave

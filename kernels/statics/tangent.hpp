@@ -1,0 +1,168 @@
+#pragma once
+
+#include "kernels/elements/element_modes.hpp"
+#include "kernels/elements/hourglass.hpp"
+#include "kernels/nodes/nodes.hpp"
+#include "kernels/support/batches.hpp"
+
+/// The scene as a linear operator on small motions about its present state, for estimates of its highest frequency:
+/// K + C/tau with K the stiffness of elements, hourglass control and springs, C their dashpots, and tau a time. Always
+/// in double, whatever precision the step has. Motions are in mass-weighted coordinates q = M^(1/2) u.
+namespace railwave {
+
+using NodeVector = Array<double* [3]>;
+
+struct InnerProduct {
+  static constexpr int values = 1;
+  NodeVector a, b;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += dot(row(a, n), row(b, n)); }
+};
+
+/// q -> u = M^(-1/2) q
+struct ToDisplacement {
+  NodeVector q, u;
+  Array<const double*> mass;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double scale = 1 / std::sqrt(mass(n));
+    for (int i = 0; i < 3; ++i) u(n, i) = scale * q(n, i);
+  }
+};
+
+/// Stiffness of an element (Lame's constants with the share of damping in proportion to stiffness; not that in
+/// proportion to mass): linear elastic about the present configuration, stresses' own (geometric) stiffness left out:
+/// it is of the order of stress over modulus.
+struct ElementStiffness {
+  double lambda, mu;  ///< Pa
+  double hourglass;   ///< factor of the control's scale: N/m over m (stiffness), kg/s over m2 over tau (viscous)
+  bool viscous;       ///< scale goes with V^(2/3), else V^(1/3)
+  double bulk;        ///< Pa/m: of bulk viscosity over tau, goes with V^(1/3)
+
+  /// @param x modes of the coordinates, m
+  /// @param u modes of the displacements, m
+  /// @param force by direction and corner, N
+  KOKKOS_INLINE_FUNCTION void operator()(const double (&x)[3][7], const double (&u)[3][7],
+                                         double (&force)[3][8]) const {
+    double B[3][6], L[3][3];
+    mean_gradient<double>(x, B);
+    const double volume = along(x[0], B[0]), inverse = 1 / volume, root = std::cbrt(volume);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) L[i][j] = inverse * along(u[i], B[j]);
+    const double scale = hourglass * (viscous ? root * root : root);
+    const double trace = (lambda + bulk * root) * (L[0][0] + L[1][1] + L[2][2]);
+    for (int i = 0; i < 3; ++i) {
+      double q[4], T[3], modes[7];
+      for (int M = 0; M < 4; ++M) q[M] = scale * hourglass_content(u[i], L[i], x, M);
+      for (int j = 0; j < 3; ++j) {
+        T[j] = mu * (L[i][j] + L[j][i]) + (i == j ? trace : 0.0);
+        for (int M = 0; M < 4; ++M) T[j] -= inverse * q[M] * x[j][3 + M];
+      }
+      for (int k = 0; k < 7; ++k) {
+        modes[k] = k < 3 ? 0.0 : q[k - 3];
+        if (k < 6) modes[k] += T[0] * B[0][k] + T[1] * B[1][k] + T[2] * B[2][k];
+      }
+      corners_of(modes, force[i]);
+    }
+  }
+};
+
+/// Forces K u + C u / tau of the elements of one part on their corners, element by element.
+struct ElementTangent {
+  int first;  ///< element
+  ElementStiffness stiffness;
+  Array<const int* [8]> corners;
+  Array<const double* [3]> position;
+  NodeVector displacement;
+  Array<double* [24]> force;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i_element) const {
+    const int e = first + i_element;
+    double x[3][7], u[3][7], at_corner[3][8];
+    for (int i = 0; i < 3; ++i) {
+      double place[8], moved[8];
+      for (int N = 0; N < 8; ++N) {
+        place[N] = position(corners(e, N), i);
+        moved[N] = displacement(corners(e, N), i);
+      }
+      modes_of(place, x[i]);
+      modes_of(moved, u[i]);
+    }
+    stiffness(x, u, at_corner);
+    for (int i = 0; i < 3; ++i)
+      for (int N = 0; N < 8; ++N) force(e, 3 * N + i) = at_corner[i][N];
+  }
+};
+
+/// Springs and dashpots: stretch = sum_k s_k . u_k, of nodes or of any other rows of u.
+struct TangentSprings {
+  int count = 0;
+  Array<int*> first;  ///< count + 1
+  Array<int*> node;
+  Array<double* [3]> share;   ///< s: between means of nodes along one direction, weight times that
+  Array<double*> stiffness;   ///< N/m
+  Array<double*> damping;     ///< N s/m
+  Array<double*> force;       ///< N
+  int node_count = 0;         ///< nodes with springs
+  Array<int*> with_springs;   ///< those nodes
+  Array<int*> first_of_node;  ///< node_count + 1
+  Array<int*> spring_of_node;
+  Array<double* [3]> share_of_node;
+};
+
+struct SpringForce {
+  TangentSprings springs;
+  NodeVector displacement;
+  double inverse_time;  ///< 1/tau, 1/s
+  /// One team: a spring between sets has many nodes.
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void operator()(const Member& team) const {
+    const int s = team.league_rank();
+    double stretch = 0;
+    Kokkos::parallel_reduce(
+        Kokkos::TeamThreadRange(team, springs.first(s), springs.first(s + 1)),
+        [&](int k, double& sum) { sum += dot(row(springs.share, k), row(displacement, springs.node(k))); }, stretch);
+    if (team.team_rank() == 0) springs.force(s) = (springs.stiffness(s) + inverse_time * springs.damping(s)) * stretch;
+  }
+};
+
+/// Sum of the corner forces on each node; corner c is of element c / 8, corner c % 8.
+struct GatherTangent {
+  Array<const int*> first_corner, corner;
+  Array<const double* [24]> force;
+  NodeVector sum;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    double f[3] = {0, 0, 0};
+    for (int k = first_corner(n); k < first_corner(n + 1); ++k) {
+      const int e = corner(k) / 8, N = corner(k) % 8;
+      for (int i = 0; i < 3; ++i) f[i] += force(e, 3 * N + i);
+    }
+    for (int i = 0; i < 3; ++i) sum(n, i) = f[i];
+  }
+};
+
+struct AddSprings {
+  TangentSprings springs;
+  NodeVector sum;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int n = springs.with_springs(i);
+    const Vector3 f = add_in_batches<batch_of_few_threads>(
+        row(sum, n), springs.first_of_node(i), springs.first_of_node(i + 1), [&](int k) {
+          return WeightedVector{springs.force(springs.spring_of_node(k)), row(springs.share_of_node, k)};
+        });
+    for (int c = 0; c < 3; ++c) sum(n, c) = f[c];
+  }
+};
+
+/// f -> M^(-1/2) f, constrained directions taken out.
+struct ToWeighted {
+  NodeVector f;
+  Array<const double*> mass;
+  Array<const int*> constraint;             ///< row of the table, -1: free
+  Array<const double* [3][3]> constraints;  ///< projections
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    const double scale = 1 / std::sqrt(mass(n));
+    const Vector3 a = projected(constraints, constraint(n), scale * row(f, n));
+    for (int i = 0; i < 3; ++i) f(n, i) = a[i];
+  }
+};
+
+}  // namespace railwave

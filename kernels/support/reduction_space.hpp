@@ -1,0 +1,15 @@
+#pragma once
+
+#include "kernels/support/spaces.hpp"
+
+namespace railwave {
+
+/// Where reductions leave what their blocks have found; grows to what is asked of it, so that only the first ones
+/// allocate.
+struct ReductionSpace {
+  Array<double*> blocks;  ///< of the reduction at work
+  Array<double*> left;    ///< of all that are queued
+  PinnedArray<double*> fetched;
+};
+
+}  // namespace railwave

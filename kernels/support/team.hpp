@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/support/spaces.hpp"
+
+namespace railwave {
+
+/// A team: a block of threads on a GPU, one thread on a host.
+using Team = Kokkos::TeamPolicy<ExecutionSpace>;
+using Scratch = ExecutionSpace::scratch_memory_space;
+
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+inline constexpr bool on_device = true;
+#else
+inline constexpr bool on_device = false;
+#endif
+
+/// For long sums, each by a team: SumTeams(sums, threads_of_sum).
+using SumTeams = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
+inline constexpr int threads_of_sum = on_device ? 32 : 1;
+
+inline constexpr std::size_t scratch_alignment = 16;
+
+/// The team's scratch memory for `count` values, aligned for loads of 16 bytes.
+template <class S, class Member>
+KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count) {
+  return static_cast<S*>(team.team_scratch(0).get_shmem_aligned(count * sizeof(S), scratch_alignment));
+}
+
+/// 16 bytes, copied at once.
+struct alignas(16) Chunk {
+  std::uint64_t half[2];
+};
+
+}  // namespace railwave

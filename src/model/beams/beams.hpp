@@ -1,0 +1,48 @@
+#pragma once
+
+#include "kernels/beams/beam.hpp"
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// The beams of a scene on the device, and what the host must know of them.
+struct BeamStage {
+  BeamArrays arrays;
+  Array<double*> relaxation_inertia;  ///< kg m2 by beam node, see BeamRelaxation
+  Array<double*> arm;                 ///< m by beam node: the mean length of elements there
+  std::vector<double>
+      relaxation_mass;             ///< kg by node of the model, of the beams alone; a unit of pseudo-time is stable
+  std::vector<int> number;         ///< beam node by node of the model, -1: no beam ends there
+  std::vector<int> first_of_beam;  ///< by scene.beams and one more: first element
+  std::vector<const LoadArrays*> moments;  ///< from outside, in the arrays' order
+  double step = 0;                         ///< s, the smallest element's own
+  double inertia_scale = 1;                ///< largest factor on a section's rotary inertia
+  int scaled = 0;                          ///< elements with such a factor above 1.001
+
+  int elements_of(int beam) const { return first_of_beam[beam + 1] - first_of_beam[beam]; }
+};
+
+/// Puts the chains of the scene's beams into the assembly, with nodes of their own inside. Throws InputError for ends
+/// that coincide, an orientation along the beam, more beams than a set has nodes.
+void lay_beams(const scene::Scene& scene, Assembly& assembly);
+
+/// Unit vectors along a beam, across, and along its section's height.
+std::array<Vec3, 3> beam_axes(const scene::Scene& scene, const scene::Beam& beam, const Vec3& from, const Vec3& to);
+
+/// Number among the beam nodes of the single node of a set; -1: the set has several, or no beam ends there.
+int beam_node_of(const Model& model, const std::vector<int>& nodes);
+
+/// Readies the moments from outside, which follow the loads. Their beam nodes have been found.
+void add_moments(Model& model);
+
+/// Rotations and stretches as at the start, where all else is zero.
+void reset_beams(const Model& model);
+
+/// Pretensions are kept by the stretch from here on.
+/// @param all false: only of the elements that held them while the scene settled
+void tighten_beams(const Model& model, bool all);
+
+/// A line on the beams' rotary inertia, where it had to be scaled; none otherwise.
+std::string describe_beam_inertia(const Model& model);
+
+}  // namespace railwave

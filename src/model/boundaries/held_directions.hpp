@@ -1,0 +1,28 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "kernels/support/spaces.hpp"
+#include "model/assembly.hpp"
+
+namespace railwave {
+
+/// Directions in which a node is held, orthonormal.
+using HeldDirections = std::vector<scene::Vec3>;
+
+/// Adds a direction, unless it lies in the span of those there are.
+void add_direction(HeldDirections& directions, scene::Vec3 direction);
+
+/// Adds all three.
+void hold(HeldDirections& directions);
+
+/// In which constraints and prescribed motions hold nodes.
+std::map<int, HeldDirections> held_directions(const scene::Scene& scene, const Assembly& assembly);
+
+/// A projection I - sum d d^T for each different set of directions, and which one each node has.
+/// @param row_of_node set for the nodes in `held`, left as it is for others
+Array<double* [3][3]> projections(const std::map<int, HeldDirections>& held, std::vector<int>& row_of_node);
+
+}  // namespace railwave

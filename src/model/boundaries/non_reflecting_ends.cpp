@@ -1,0 +1,126 @@
+#include "model/boundaries/non_reflecting_ends.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/boundaries/held_directions.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+using Matrix = std::array<std::array<double, 3>, 3>;
+
+const scene::Material& material_under(const Model& model, const Face& face) {
+  return model.scene.materials[model.assembly.parts[part_of_element(model.assembly, face.element)].material];
+}
+
+/// Adds a face's dashpots, rho A (C_s I + (C_d - C_s) n n^T), a quarter on each corner.
+void add_face(const Model& model, const Face& face, std::map<int, Matrix>& dashpots) {
+  const auto corner = model.assembly.face_nodes(face);
+  const auto& x = model.assembly.nodes;
+  const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
+  Vec3 n{};
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    n[i] = 0.5 / area *
+           ((x[corner[2]][j] - x[corner[0]][j]) * (x[corner[3]][k] - x[corner[1]][k]) -
+            (x[corner[2]][k] - x[corner[0]][k]) * (x[corner[3]][j] - x[corner[1]][j]));
+  }
+  const scene::Material& material = material_under(model, face);
+  const double across = material.shear_speed(), more = material.dilatational_speed() - across;
+  for (int node : corner)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        dashpots[node][i][j] += 0.25 * material.density * area * ((i == j ? across : 0.0) + more * n[i] * n[j]);
+}
+
+/// P C P with P = I - sum d d^T: a dashpot does nothing in a direction that is held.
+void take_out(Matrix& c, const std::vector<Vec3>& held) {
+  for (const Vec3& d : held)
+    for (int side = 0; side < 2; ++side)
+      for (int i = 0; i < 3; ++i) {
+        const auto entry = [&](int j) -> double& { return side == 0 ? c[j][i] : c[i][j]; };
+        const double along = d[0] * entry(0) + d[1] * entry(1) + d[2] * entry(2);
+        for (int j = 0; j < 3; ++j) entry(j) -= along * d[j];
+      }
+}
+
+[[noreturn]] void refuse(const Model& model, const scene::NonReflecting& end, int node, const std::string& why) {
+  const Vec3& x = model.assembly.nodes[node];
+  throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at ({:.6g}, {:.6g}, {:.6g}) m {}",
+                               model.scene.path, end.line, end.name, x[0], x[1], x[2], why));
+}
+
+void check_nodes(const Model& model, const scene::NonReflecting& end, const std::vector<Face>& surface) {
+  std::set<int> own;
+  for (int n : surface_nodes(model.assembly, surface)) own.insert(n);
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
+    for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
+      if (own.count(n) != 0)
+        refuse(model, end, n,
+               fmt::format("moves as [prescribed_motion.{}] says; leave it out of one of the two", motion.name));
+  for (const ContactPair& pair : model.contacts)
+    for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
+      for (int n : *nodes)
+        if (!pair.has_springs() && own.count(n) != 0)
+          refuse(
+              model, end, n,
+              fmt::format(
+                  "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee dashpots; set algorithm = "
+                  "\"penalty\", or end that surface before the end",
+                  pair.contact->name));
+}
+
+}  // namespace
+
+void build_non_reflecting(Model& model) {
+  NonReflectingEnds& ends = model.ends;
+  ends = {};
+  if (model.scene.non_reflecting.empty()) return;
+  std::map<int, Matrix> dashpots;
+  std::map<std::array<int, 2>, const scene::NonReflecting*> taken;
+  for (const scene::NonReflecting& end : model.scene.non_reflecting) {
+    const auto& surface = find_surface(model.scene, model.assembly, end, "target", end.target);
+    check_nodes(model, end, surface);
+    for (const Face& face : surface) {
+      const auto [known, first] = taken.try_emplace({face.element, face.side}, &end);
+      if (!first)
+        refuse(model, end, model.assembly.face_nodes(face)[0],
+               fmt::format("is of a face that [non_reflecting.{}] has already; name surfaces without common faces",
+                           known->second->name));
+      add_face(model, face, dashpots);
+    }
+  }
+  const auto held = held_directions(model.scene, model.assembly);
+  std::vector<std::array<double, 6>> rows;
+  for (auto& [node, c] : dashpots) {
+    const auto directions = held.find(node);
+    if (directions != held.end()) take_out(c, directions->second);
+    ends.nodes.push_back(node);
+    rows.push_back({c[0][0], c[1][1], c[2][2], c[1][2], c[2][0], c[0][1]});
+  }
+  NonReflectingArrays& arrays = ends.arrays;
+  arrays.count = static_cast<int>(rows.size());
+  arrays.nodes = to_device("nodes of ends", ends.nodes);
+  arrays.dashpot = to_device("dashpots of ends", rows);
+  arrays.support = Array<double* [3]>("supports of ends", rows.size());
+  arrays.start = Array<double* [3]>("start of ends", rows.size());
+  arrays.force = Array<double* [3]>("dashpot forces of ends", rows.size());
+  arrays.dissipated = Array<double*>("dissipated by ends", rows.size());
+}
+
+void hold_ends(Model& model, const Array<double* [3]>& unbalanced) {
+  if (model.ends.arrays.count > 0)
+    Kokkos::parallel_for("hold_ends", Range(0, model.ends.arrays.count),
+                         HoldEnds{model.ends.arrays, model.nodes.position, unbalanced});
+}
+
+}  // namespace railwave

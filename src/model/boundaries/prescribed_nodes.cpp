@@ -1,0 +1,107 @@
+#include "model/boundaries/prescribed_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "case/error.hpp"
+#include "model/build_steps.hpp"
+#include "model/checks/centre_of_mass.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Rodrigues' formula for a turn about a fixed axis; @param angle the rotation vector, rad
+void turn_by(const Vec3& angle, double (&turn)[3][3]) {
+  const double size = std::sqrt(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]);
+  const double half = std::sin(size / 2);
+  // sin(a)/a and (1 - cos(a))/a^2, also for no turn at all
+  const double first = size > 0 ? std::sin(size) / size : 1, second = size > 0 ? 2 * half * half / (size * size) : 0.5;
+  const double across[3][3] = {{0, -angle[2], angle[1]}, {angle[2], 0, -angle[0]}, {-angle[1], angle[0], 0}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double square = 0;
+      for (int k = 0; k < 3; ++k) square += across[i][k] * across[k][j];
+      turn[i][j] = (i == j ? 1 : 0) + first * across[i][j] + second * square;
+    }
+}
+
+/// Its sum of d d^T; exactly the unit matrix for all three directions.
+void hold_directions(const scene::PrescribedMotion& motion, double (&held)[3][3]) {
+  const bool all = motion.directions[0] && motion.directions[1] && motion.directions[2];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      held[i][j] = all && i == j ? 1 : 0;
+      for (int a = 0; a < 3 && !all; ++a)
+        if (motion.directions[a]) held[i][j] += motion.axes[a][i] * motion.axes[a][j];
+    }
+}
+
+/// The set would jump in the first step.
+void refuse_jump(const Model& model, const scene::PrescribedMotion& motion, const scene::Curve* curve) {
+  if (curve == nullptr || curve_value(curve, 0) == 0) return;
+  throw InputError(fmt::format(
+      "{}:{}: [prescribed_motion.{}] displacement_curve: '{}' is {:g} at t = 0, so that '{}' would jump there; let it "
+      "begin with 0",
+      model.scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
+}
+
+}  // namespace
+
+void build_prescribed_motions(Model& model) {
+  const auto undeformed = [&](int n, int i) { return model.assembly.nodes[n][i]; };
+  std::vector<char> taken(model.assembly.nodes.size(), 0);
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
+    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+    for (int n : nodes) {
+      if (taken[n] != 0)
+        throw InputError(
+            fmt::format("{}:{}: [prescribed_motion.{}]: a node of '{}' has a prescribed motion already; name sets "
+                        "without common nodes",
+                        model.scene.path, motion.line, motion.name, motion.target));
+      taken[n] = 1;
+    }
+    PrescribedSet set;
+    set.motion = &motion;
+    set.curve = curve_of(model.scene, motion.curve);
+    set.displacement_curve = curve_of(model.scene, motion.displacement_curve);
+    refuse_jump(model, motion, set.displacement_curve);
+    hold_directions(motion, set.held);
+    set.centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, undeformed);
+    set.nodes = to_device("nodes of prescribed motion", nodes);
+    set.work = Array<double*>("work of prescribed motion", nodes.size());
+    model.prescribed.push_back(set);
+  }
+}
+
+RigidPlace place_at(const PrescribedSet& set, double time) {
+  const double lasted = curve_integral(set.curve, time);
+  const double moved = set.displacement_curve != nullptr ? curve_value(set.displacement_curve, time) : 0;
+  RigidPlace place{};
+  Vec3 angle{};
+  for (int i = 0; i < 3; ++i) {
+    place.centre[i] = set.centre[i];
+    place.place[i] = set.centre[i] + lasted * set.motion->velocity[i] + moved * set.motion->displacement[i];
+    angle[i] = lasted * set.motion->angular_velocity[i];
+  }
+  turn_by(angle, place.turn);
+  return place;
+}
+
+PrescribedMotion prescribed_motion(const Model& model, const PrescribedSet& set, double step) {
+  const NodalAcceleration acceleration = model.acceleration();
+  PrescribedMotion motion{acceleration.force,
+                          acceleration.gravity,
+                          set.nodes,
+                          set.work,
+                          place_at(set, model.time + step),
+                          model.velocity_lag,
+                          step,
+                          {}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) motion.held[i][j] = set.held[i][j];
+  return motion;
+}
+
+}  // namespace railwave

@@ -1,0 +1,198 @@
+#include "model/checks/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/vectors.hpp"
+#include "model/boundaries/absorbing_layer.hpp"
+#include "model/checks/centre_of_mass.hpp"
+#include "model/checks/outside.hpp"
+#include "model/checks/overlapping_parts.hpp"
+#include "model/checks/round_part.hpp"
+#include "model/contact/contact_paths.hpp"
+#include "model/contact/initial_overlap.hpp"
+#include "model/contact/rolling.hpp"
+
+namespace railwave {
+namespace {
+
+using Doubts = std::vector<std::string>;
+
+/// By a contact or a tie.
+bool joined(const scene::Scene& scene, const std::string& a, const std::string& b) {
+  const auto joins = [&](const auto& pair) {
+    const std::string slave = part_of_name(pair.slave);
+    const scene::SurfaceNames masters(pair.master);
+    return std::any_of(masters.begin(), masters.end(), [&](const std::string& name) {
+      const std::string master = part_of_name(name);
+      return (slave == a && master == b) || (slave == b && master == a);
+    });
+  };
+  return std::any_of(scene.contacts.begin(), scene.contacts.end(), joins) ||
+         std::any_of(scene.ties.begin(), scene.ties.end(), joins);
+}
+
+void overlapping_parts(const Model& model, Doubts& doubts) {
+  // Of the smaller part's nodes; surfaces that are joined may cut into each other a little, as a leaning pad into the
+  // sleeper under it.
+  constexpr double least = 0.005, least_joined = 0.1;
+  for (const PartOverlap& overlap : part_overlaps(model.assembly)) {
+    const scene::Part &first = model.scene.parts[overlap.first], &second = model.scene.parts[overlap.second];
+    if (overlap.inside < (joined(model.scene, first.name, second.name) ? least_joined : least) * overlap.nodes)
+      continue;
+    doubts.push_back(
+        fmt::format("[parts.{}] (line {}) and [parts.{}] (line {}) overlap: {} nodes of one lie inside elements of the "
+                    "other, the first at ({:.6g}, {:.6g}, {:.6g}) m; see "
+                    "their positions",
+                    first.name, first.line, second.name, second.line, overlap.inside, overlap.place[0],
+                    overlap.place[1], overlap.place[2]));
+  }
+}
+
+/// Whose forces constraints and prescribed motions take up before they move anything.
+void loads_on_held_nodes(const Model& model, Doubts& doubts) {
+  const auto held = held_directions(model.scene, model.assembly);
+  if (held.empty()) return;
+  for (const scene::Load& load : model.scene.loads) {
+    const bool surface = load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction;
+    const std::vector<int> nodes =
+        surface ? surface_nodes(model.assembly, find_surface(model.scene, model.assembly, load, "target", load.target))
+                : find_node_set(model.scene, model.assembly, load, "target", load.target);
+    const Vec3 force = load.type == scene::LoadType::nodal_force ? load.force : load.traction;
+    const bool directed = load.type == scene::LoadType::nodal_force || load.type == scene::LoadType::traction;
+    // Of a beam's end constraints know the rotations too: its torque is no matter of nodes.
+    if (load.type == scene::LoadType::torque && nodes.size() < 2) continue;
+    if (directed && length(force) == 0) continue;
+    const auto stays = [&](int n) { return directed ? force_is_held(held, n, force) : wholly_held(held, n); };
+    const auto count = std::count_if(nodes.begin(), nodes.end(), stays);
+    if (count == 0 || (count < static_cast<long>(nodes.size()) && load.type != scene::LoadType::nodal_force)) continue;
+    const bool all = count == static_cast<long>(nodes.size());
+    doubts.push_back(
+        fmt::format("[loads.{}] (line {}) acts on '{}', of whose {} nodes {} {} held where it pushes by constraints or "
+                    "prescribed motions, which take {} up{}; load or hold other "
+                    "nodes",
+                    load.name, load.line, load.target, nodes.size(), all ? "all" : std::to_string(count),
+                    count == 1 && !all ? "is" : "are", all ? "it" : "their share",
+                    all ? ": it moves nothing and does no work" : ""));
+  }
+}
+
+/// Where a body begins with one velocity and its driven nodes with another.
+void unlike_starts(const Model& model, Doubts& doubts) {
+  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
+    const std::string part = part_of_name(motion.target);
+    const auto own =
+        std::find_if(model.scene.initial_motions.begin(), model.scene.initial_motions.end(), [&](const auto& initial) {
+          return std::find(initial.parts.begin(), initial.parts.end(), part) != initial.parts.end();
+        });
+    if (own == model.scene.initial_motions.end()) continue;
+    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+    const Vec3 centre = motion.centre
+                            ? *motion.centre
+                            : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+    const double factor = curve_value(curve_of(model.scene, motion.curve), 0);
+    double most = 0, fastest = 0, prescribed_speed = 0, initial_speed = 0;
+    for (int n : nodes) {
+      const Vec3 turning = cross(motion.angular_velocity, difference(model.assembly.nodes[n], centre)),
+                 initial = initial_velocity(model, part, model.assembly.nodes[n]);
+      Vec3 prescribed, jump{0, 0, 0};
+      for (int i = 0; i < 3; ++i) prescribed[i] = factor * (motion.velocity[i] + turning[i]);
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; motion.directions[a] && i < 3; ++i)
+          jump[i] += dot(difference(prescribed, initial), motion.axes[a]) * motion.axes[a][i];
+      fastest = std::max({fastest, length(prescribed), length(initial)});
+      if (length(jump) <= most) continue;
+      most = length(jump);
+      prescribed_speed = length(prescribed);
+      initial_speed = length(initial);
+    }
+    if (!(most > 0.01 * fastest)) continue;
+    doubts.push_back(fmt::format(
+        "[prescribed_motion.{}] (line {}) moves '{}' at {:.4g} m/s when the run begins, where [initial_motion.{}] "
+        "(line {}) gives it {:.4g} m/s: the nodes jump by {:.4g} m/s "
+        "in the first step; give both the same velocities and centre",
+        motion.name, motion.line, motion.target, prescribed_speed, own->name, own->line, initial_speed, most));
+  }
+}
+
+/// Ends that are held, springs between held nodes: they do nothing.
+void entries_without_effect(const Model& model, Doubts& doubts) {
+  const auto held = held_directions(model.scene, model.assembly);
+  if (held.empty()) return;
+  const auto all_held = [&](const std::vector<int>& nodes) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return wholly_held(held, n); });
+  };
+  for (const scene::NonReflecting& end : model.scene.non_reflecting)
+    if (all_held(surface_nodes(model.assembly, find_surface(model.scene, model.assembly, end, "target", end.target))))
+      doubts.push_back(
+          fmt::format("[non_reflecting.{}] (line {}): constraints hold all nodes of '{}', so that it reflects as a "
+                      "fixed end; leave one of the two out",
+                      end.name, end.line, end.target));
+  for (const scene::Connector& connector : model.scene.connectors) {
+    const auto stays = [&](const char* key, const std::string& name) {
+      return name == "ground" || all_held(find_node_set(model.scene, model.assembly, connector, key, name));
+    };
+    const bool driven = !model.scene.prescribed_motions.empty();  // held nodes may move then
+    if (!driven && stays("from", connector.from) && stays("to", connector.to))
+      doubts.push_back(
+          fmt::format("[connectors.{}] (line {}): '{}' and '{}' are held, so that it is never stretched; leave it out, "
+                      "or let one of its ends go",
+                      connector.name, connector.line, connector.from, connector.to));
+  }
+}
+
+/// Pressure between two elements, and ties to faces inside a body, are computed as they are written.
+void inner_faces(const Model& model, Doubts& doubts) {
+  if (model.scene.loads.empty() && model.scene.ties.empty()) return;
+  const OutsideFaces outside(model.assembly);
+  const auto look = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name) {
+    const auto& surface = find_surface(model.scene, model.assembly, entry, key, name);
+    const auto inside =
+        std::count_if(surface.begin(), surface.end(), [&](const Face& face) { return !outside.has(face); });
+    if (inside > 0)
+      doubts.push_back(
+          fmt::format("[{}.{}] (line {}) {}: {} of the {} faces of '{}' lie inside the body, between two elements; see "
+                      "whether a surface on the outside is meant",
+                      section, entry.name, entry.line, key, inside, surface.size(), name));
+  };
+  for (const scene::Load& load : model.scene.loads)
+    if (load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction)
+      look("loads", load, "target", load.target);
+  for (const scene::Tie& tie : model.scene.ties) {
+    look("ties", tie, "slave", tie.slave);
+    look("ties", tie, "master", tie.master);
+  }
+}
+
+void overlapping_contacts(const Model& model, Doubts& doubts) {
+  for (const InitialOverlap& overlap : initial_overlaps(model))
+    if (overlap.deep) doubts.push_back(describe(model, overlap));
+}
+
+}  // namespace
+
+std::vector<std::string> mesh_doubts(const Model& model) {
+  Doubts doubts;
+  overlapping_parts(model, doubts);
+  overlapping_contacts(model, doubts);
+  inner_faces(model, doubts);
+  entries_without_effect(model, doubts);
+  return doubts;
+}
+
+std::vector<std::string> scene_doubts(const Model& model) {
+  Doubts doubts = rolling_doubts(model);
+  unlike_starts(model, doubts);
+  overlapping_parts(model, doubts);
+  overlapping_contacts(model, doubts);
+  loads_on_held_nodes(model, doubts);
+  inner_faces(model, doubts);
+  entries_without_effect(model, doubts);
+  for (std::string& path : path_doubts(model)) doubts.push_back(std::move(path));
+  for (std::string& doubt : absorbing_doubts(model)) doubts.push_back(std::move(doubt));
+  return doubts;
+}
+
+}  // namespace railwave

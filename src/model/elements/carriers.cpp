@@ -1,0 +1,180 @@
+#include "model/elements/carriers.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/support/flush_denormals.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Steps whose carriers are worked out in one launch.
+constexpr int steps_of_block = 64;
+
+using Rows = Array<double* [3]>::HostMirror;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Vector3d row_of(const Rows& rows, int n) { return {rows(n, 0), rows(n, 1), rows(n, 2)}; }
+
+/// Linear and angular momentum give the motion. A body without extent in two directions does not turn.
+CarrierMotion best_motion(const std::vector<double>& mass, const Rows& position, const Rows& velocity,
+                          const CarriedNodes::Range& range) {
+  Vector3d centre = Vector3d::Zero(), mean = Vector3d::Zero();
+  double total = 0;
+  for (int n = range.first; n < range.first + range.count; ++n) {
+    total += mass[n];
+    centre += mass[n] * row_of(position, n);
+    mean += mass[n] * row_of(velocity, n);
+  }
+  centre /= total;
+  mean /= total;
+  Matrix3d inertia = Matrix3d::Zero();
+  Vector3d momentum = Vector3d::Zero();
+  for (int n = range.first; n < range.first + range.count; ++n) {
+    const Vector3d arm = row_of(position, n) - centre;
+    inertia += mass[n] * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
+    momentum += mass[n] * arm.cross(row_of(velocity, n) - mean);
+  }
+  CarrierMotion motion;
+  for (int i = 0; i < 3; ++i) {
+    motion.centre[i] = centre[i];
+    motion.velocity[i] = mean[i];
+  }
+  if (!(inertia.determinant() > 1e-12 * std::pow(inertia.trace(), 3))) return motion;
+  const Vector3d turning = inertia.ldlt().solve(momentum);
+  motion.speed = turning.norm();
+  if (motion.speed > 0)
+    for (int i = 0; i < 3; ++i) motion.axis[i] = turning[i] / motion.speed;
+  return motion;
+}
+
+CarriedArm arm_of(const Model& model, int node, int carrier) {
+  const Vec3& X = model.assembly.nodes[node];
+  CarriedArm arm;
+  for (int i = 0; i < 3; ++i) arm.x[i] = static_cast<float>(X[i] - model.carried.host_motion[carrier].centre[i]);
+  arm.carrier = carrier;
+  return arm;
+}
+
+int carrier_of(const CarriedNodes& carried, int node) {
+  const auto after = std::upper_bound(carried.range.begin(), carried.range.end(), node,
+                                      [](int n, const CarriedNodes::Range& range) { return n < range.first; });
+  return static_cast<int>(after - carried.range.begin()) - 1;
+}
+
+/// Arms of patches and of listed nodes from the carriers' centres.
+void set_arms(Model& model) {
+  for (const ElementGroup& group : model.elements) {
+    const auto arm = Kokkos::create_mirror_view(group.carried.arm);
+    for (int p = 0; p < group.patches.count; ++p) {
+      const int node = model.assembly.elements[group.first_element[p]][0];
+      arm(p) = arm_of(model, node, carrier_of(model.carried, node));
+    }
+    Kokkos::deep_copy(group.carried.arm, arm);
+  }
+  const auto listed = to_host(model.listed_nodes);
+  const auto arm = Kokkos::create_mirror_view(model.carried.listed_arm);
+  for (std::size_t i = 0; i < listed.extent(0); ++i) {
+    const int node = listed(i).node & ~special_bit;
+    arm(i) = arm_of(model, node, carrier_of(model.carried, node));
+  }
+  Kokkos::deep_copy(model.carried.listed_arm, arm);
+}
+
+/// Reference places of a group's nodes told from each patch's point, the first corner of its first element.
+Array<float*> local_places(const Model& model, const ElementGroup& group) {
+  const PatchArrays& patches = group.patches;
+  const auto number = to_host(patches.node);
+  std::vector<float> local(3 * number.extent(0));
+  for (int p = 0; p < patches.count; ++p) {
+    const Vec3& point = model.assembly.nodes[model.assembly.elements[group.first_element[p]][0]];
+    for (int l = 0; l < patches.node_stride; ++l) {
+      const int n = number(static_cast<std::size_t>(p) * patches.node_stride + l) & ~advance_bit;
+      for (int i = 0; i < 3; ++i)
+        local[(3 * static_cast<std::size_t>(p) + i) * patches.node_stride + l] =
+            static_cast<float>(model.assembly.nodes[n][i] - point[i]);
+    }
+  }
+  return to_device("local places", local);
+}
+
+}  // namespace
+
+void build_carried_nodes(Model& model) {
+  if (model.scene.solver.precision != scene::Precision::single_precision) return;
+  CarriedNodes& carried = model.carried;
+  for (const auto& part : model.assembly.parts) carried.range.push_back({part.first_node, part.node_count});
+  for (int n : model.assembly.point_nodes) carried.range.push_back({n, 1});
+  for (const auto& [first, count] : model.assembly.beam_nodes)
+    if (count > 0) carried.range.push_back({first, count});
+  carried.node = unset_array<CarriedNode*>("carried nodes", model.nodes.count);
+  carried.listed_arm = unset_array<CarriedArm*>("arms of listed nodes", model.listed_nodes.extent(0));
+  carried.motion = unset_array<CarrierMotion*>("carriers", carried.range.size());
+  carried.steps = unset_array<CarrierStep*>("steps of carriers", steps_of_block * carried.range.size());
+  std::vector<int> of_slave;
+  for (const TiedPlace& tied : model.ties.places) of_slave.push_back(carrier_of(carried, tied.slave));
+  model.ties.carrier = to_device("carriers of tied nodes", of_slave);
+  for (ElementGroup& group : model.elements) {
+    group.carried.local = local_places(model, group);
+    group.carried.arm = unset_array<CarriedArm*>("arms of patches", group.patches.count);
+  }
+}
+
+void take_nodes_over(Model& model) {
+  flush_denormals();
+  CarriedNodes& carried = model.carried;
+  const Rows position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
+  carried.host_motion.clear();
+  for (const CarriedNodes::Range& range : carried.range)
+    carried.host_motion.push_back(best_motion(model.mass, position, velocity, range));
+  const auto motion = Kokkos::create_mirror_view(carried.motion);
+  for (std::size_t c = 0; c < carried.range.size(); ++c) motion(c) = carried.host_motion[c];
+  Kokkos::deep_copy(carried.motion, motion);
+  set_arms(model);
+  for (std::size_t c = 0; c < carried.range.size(); ++c)
+    Kokkos::parallel_for(
+        "take_nodes", Range(0, carried.range[c].count),
+        TakeNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], 0, 2 * model.velocity_lag),
+                  carried.range[c].first});
+  carried.begun = true;
+  carried.block_step = model.step;
+  carried.block_time = carried.block_size = 0;
+}
+
+void lay_carrier_steps(Model& model, double step) {
+  CarriedNodes& carried = model.carried;
+  if (carried.block_size == step && model.step < carried.block_step + steps_of_block) return;
+  carried.block_time = carried.time_of(model.step);
+  carried.block_step = model.step;
+  carried.block_size = step;
+  const int carriers = static_cast<int>(carried.range.size());
+  Kokkos::parallel_for(
+      "carrier_steps", Range(0, steps_of_block * carriers),
+      LayCarrierSteps{carried.motion, carried.steps, carriers, carried.block_time, 2 * model.velocity_lag, step});
+}
+
+void give_nodes_back(const Model& model) {
+  const CarriedNodes& carried = model.carried;
+  const double time = carried.time_of(model.step);
+  for (std::size_t c = 0; c < carried.range.size(); ++c)
+    Kokkos::parallel_for(
+        "give_nodes", Range(0, carried.range[c].count),
+        GiveNodes{model.nodes, carried.node, carrier_at(carried.host_motion[c], time, 2 * model.velocity_lag),
+                  carried.range[c].first});
+}
+
+CarriedAdvance carried_advance(const Model& model, const CarriedPatches& patches, double step) {
+  const CarriedNodes& carried = model.carried;
+  const Vec3& g = model.scene.gravity;
+  const int first = static_cast<int>(model.step - carried.block_step) * static_cast<int>(carried.range.size());
+  return {{carried.node, patches.local, patches.arm, carried.steps, first},
+          {static_cast<float>(g[0]), static_cast<float>(g[1]), static_cast<float>(g[2])},
+          static_cast<float>(model.velocity_lag + 0.5 * step),
+          static_cast<float>(step)};
+}
+
+}  // namespace railwave

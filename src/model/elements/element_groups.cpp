@@ -1,0 +1,350 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+
+#include "case/error.hpp"
+#include "mesh/hexahedron.hpp"
+#include "model/build_steps.hpp"
+#include "model/elements/hourglass_scale.hpp"
+#include "model/elements/materials.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
+/// (the inner nodes of MacNeal & Harder's patch have one), and `railwave check` reports it.
+void check_element(const Model& model, const Assembly::PartRange& part, int element, const HexahedronCorners& corners) {
+  const double g = 1 / std::sqrt(3.0);
+  for (const auto& s : hexahedron_corner_signs) {
+    if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
+    throw InputError(fmt::format(
+        "{}: part '{}': element {} (counted from 0 in its mesh) near ({:.6g}, {:.6g}, {:.6g}) m is inverted or flat; "
+        "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the "
+        "same way",
+        model.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
+  }
+}
+
+/// What elements of a group have in common beside hourglass control and level.
+struct GroupKind {
+  int material;  ///< its number among Materials
+  bool damped;
+  bool operator==(const GroupKind& other) const { return material == other.material && damped == other.damped; }
+};
+
+int group_of(Model& model, std::vector<GroupKind>& kinds, const scene::Part& part, const GroupKind& kind, int level) {
+  for (std::size_t g = 0; g < model.elements.size(); ++g)
+    if (model.elements[g].hourglass == part.hourglass && kinds[g] == kind && model.elements[g].level == level) {
+      model.elements[g].parts += ", " + part.name;
+      return static_cast<int>(g);
+    }
+  model.elements.emplace_back();
+  model.elements.back().hourglass = part.hourglass;
+  model.elements.back().level = level;
+  model.elements.back().parts = part.name;
+  kinds.push_back(kind);
+  return static_cast<int>(model.elements.size()) - 1;
+}
+
+/// Masses and lengths of a part's elements, and their hourglass scales by element.
+void element_values(Model& model, const Assembly::PartRange& range, const scene::Part& part, std::vector<float>& scale,
+                    std::vector<float>& settling) {
+  const Assembly& assembly = model.assembly;
+  const scene::Material& material = model.scene.materials[range.material];
+  const double own = part.hourglass_coefficient;
+  const double while_settling = settling_hourglass_coefficient(part);
+  for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
+    const HexahedronCorners x = corners_of(assembly.nodes, assembly.elements[e]);
+    const auto integrals = hexahedron_shape_integrals(x);
+    double volume = 0;
+    for (double part_of_it : integrals) volume += part_of_it;
+    scale[e] = static_cast<float>(hourglass_scale(part.hourglass, own, material, volume));
+    settling[e] =
+        static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material, volume));
+    model.element_length[e] = hexahedron_length(x);
+    // Lumped mass by row sums (thesis 2.2.2).
+    for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
+  }
+}
+
+/// The host side of a group's patches.
+struct PatchLists {
+  std::vector<int> element_count, material;
+  std::vector<std::vector<int>> node;                          ///< by patch
+  std::vector<std::vector<std::uint16_t>> first_place, place;  ///< by patch
+  std::vector<std::array<int, 3>> frame_node;
+  std::vector<std::uint8_t> corner;
+  std::vector<float> scale, settling;
+};
+
+double squared_distance(const Vec3& a, const Vec3& b) {
+  return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+}
+
+/// Three of the patch's nodes far from each other and from one line.
+std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int>& nodes) {
+  const int a = nodes[0];
+  int b = a, c = a;
+  double farthest = -1, widest = -1;
+  for (int n : nodes)
+    if (squared_distance(x[n], x[a]) > farthest) {
+      farthest = squared_distance(x[n], x[a]);
+      b = n;
+    }
+  for (int n : nodes) {
+    Vec3 u{}, w{};
+    for (int i = 0; i < 3; ++i) {
+      u[i] = x[b][i] - x[a][i];
+      w[i] = x[n][i] - x[a][i];
+    }
+    const Vec3 area{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+    const double wide = area[0] * area[0] + area[1] * area[1] + area[2] * area[2];
+    if (wide > widest) {
+      widest = wide;
+      c = n;
+    }
+  }
+  return {a, b, c};
+}
+
+/// A patch's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and
+/// in the mesh's own order among those, which lies well in memory.
+std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, int first, int end,
+                             std::vector<int>& corners) {
+  std::vector<int> all;
+  for (int e = first; e < end; ++e) all.insert(all.end(), assembly.elements[e].begin(), assembly.elements[e].end());
+  std::sort(all.begin(), all.end());
+  std::vector<std::array<int, 3>> nodes;  // corners, number in the mesh, number
+  for (std::size_t k = 0; k < all.size();) {
+    std::size_t same = k;
+    while (same < all.size() && all[same] == all[k]) ++same;
+    nodes.push_back({static_cast<int>(same - k), order.mesh_number[all[k]], all[k]});
+    k = same;
+  }
+  std::sort(nodes.begin(), nodes.end());
+  std::vector<int> result;
+  for (const auto& node : nodes) {
+    corners.push_back(node[0]);
+    result.push_back(node[2]);
+  }
+  return result;
+}
+
+/// The sums over corners, a pack of nodes at a time.
+void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lanes, PatchLists& lists) {
+  std::vector<std::uint16_t> first{0}, all;
+  for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
+    const std::size_t end = std::min(places.size(), begin + lanes);
+    std::size_t longest = 0;
+    for (std::size_t l = begin; l < end; ++l) longest = std::max(longest, places[l].size());
+    for (std::size_t c = 0; c < longest; ++c)
+      for (std::size_t l = begin; l < begin + lanes; ++l)
+        all.push_back(l < end && c < places[l].size() ? places[l][c] : static_cast<std::uint16_t>(zero_place));
+    first.push_back(static_cast<std::uint16_t>(all.size()));
+  }
+  lists.first_place.push_back(std::move(first));
+  lists.place.push_back(std::move(all));
+}
+
+/// Appends the patch of elements [first, end).
+void append_patch(const Assembly& assembly, const PatchOrder& order, int first, int end, int lanes, PatchLists& lists) {
+  const int count = end - first;
+  std::vector<int> corners;
+  const std::vector<int> nodes = local_nodes(assembly, order, first, end, corners);
+  std::unordered_map<int, int> local;
+  for (std::size_t l = 0; l < nodes.size(); ++l) local[nodes[l]] = static_cast<int>(l);
+  std::vector<std::vector<std::uint16_t>> places(nodes.size());
+  const std::size_t base = lists.corner.size();
+  lists.corner.resize(base + 8u * patch_size);
+  for (int slot = 0; slot < patch_size; ++slot)
+    for (int N = 0; N < 8; ++N) {
+      const int l = local[assembly.elements[first + std::min(slot, count - 1)][N]];
+      lists.corner[base + (static_cast<std::size_t>(slot / lanes) * 8 + N) * lanes + slot % lanes] =
+          static_cast<std::uint8_t>(l);
+      if (slot < count) places[l].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
+    }
+  append_packs(places, lanes, lists);
+  lists.element_count.push_back(count);
+  lists.frame_node.push_back(frame_nodes(assembly.nodes, nodes));
+  lists.node.push_back(nodes);
+}
+
+/// Rows of equal length, a multiple of `multiple`, filled up with each row's first value.
+template <class T>
+Array<T*> even_rows(const char* label, const std::vector<std::vector<T>>& rows, int multiple, int& stride) {
+  std::size_t longest = 0;
+  for (const auto& row : rows) longest = std::max(longest, row.size());
+  stride = static_cast<int>((longest + multiple - 1) / multiple * multiple);
+  std::vector<T> all;
+  all.reserve(rows.size() * stride);
+  for (const auto& row : rows) {
+    all.insert(all.end(), row.begin(), row.end());
+    all.resize(all.size() + stride - row.size(), row.front());
+  }
+  return to_device(label, all);
+}
+
+PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
+  PatchArrays patches;
+  patches.count = static_cast<int>(lists.element_count.size());
+  std::vector<int> node_count;
+  for (const auto& nodes : lists.node) node_count.push_back(static_cast<int>(nodes.size()));
+  patches.element_count = to_device("patch element count", lists.element_count);
+  patches.node_count = to_device("patch node count", node_count);
+  patches.material = to_device("patch material", lists.material);
+  patches.node = even_rows("patch nodes", lists.node, 16, patches.node_stride);
+  patches.frame_node = to_device("patch frame nodes", lists.frame_node);
+  if (single_precision) patches.frame = Array<double * [PatchFrame::values]>("patch frames", patches.count);
+  patches.corner = to_device("patch corners", lists.corner);
+  patches.first_place = even_rows("first corner places", lists.first_place, places_at_once, patches.pack_stride);
+  patches.place = even_rows("corner places", lists.place, places_at_once, patches.place_stride);
+  patches.hourglass_scale = to_device("hourglass scale", lists.scale);
+  patches.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
+  patches.hourglass_energy = Array<double*>("hourglass energy", static_cast<std::size_t>(patches.count) * power_sums);
+  return patches;
+}
+
+/// m3, of a group's elements in the reference, by slot; zero in slots that only fill up.
+std::vector<double> reference_volumes(const Model& model, const ElementGroup& group) {
+  std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
+  for (std::size_t p = 0; p < group.first_element.size(); ++p)
+    for (int slot = 0; slot < group.element_count[p]; ++slot)
+      volume[p * patch_size + slot] =
+          hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]));
+  return volume;
+}
+
+/// Constants of damped parts, and the drag of their patches' nodes.
+DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
+                             const std::vector<const scene::Part*>& parts,
+                             const std::vector<const scene::Material*>& materials) {
+  std::vector<DampingConstants> constants;
+  for (std::size_t r = 0; r < parts.size(); ++r) {
+    const scene::Part& part = *parts[r];
+    const ElasticConstants elastic = elastic_constants(*materials[r]);
+    const double density = materials[r]->density;
+    constants.push_back({part.stiffness_damping * elastic.lambda, part.stiffness_damping * elastic.mu,
+                         part.linear_bulk_viscosity * density * materials[r]->dilatational_speed(),
+                         part.quadratic_bulk_viscosity * density});
+  }
+  const auto row = to_host(group.patches.material);
+  std::vector<double> mass(static_cast<std::size_t>(group.patches.count) * group.patches.node_stride, 0.0);
+  for (int p = 0; p < group.patches.count; ++p) {
+    std::unordered_map<int, std::size_t> place;
+    for (std::size_t l = 0; l < nodes[p].size(); ++l)
+      place[nodes[p][l]] = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+    for (int e = group.first_element[p]; e < group.first_element[p] + group.element_count[p]; ++e) {
+      const auto& corners = model.assembly.elements[e];
+      const auto integrals = hexahedron_shape_integrals(corners_of(model.assembly.nodes, corners));
+      for (int N = 0; N < 8; ++N) mass[place[corners[N]]] += materials[row(p)]->density * integrals[N];
+    }
+  }
+  std::vector<double> drag(mass.size(), 0.0);
+  const auto& layers = model.absorbing.rate;
+  for (int p = 0; p < group.patches.count; ++p)
+    for (std::size_t l = 0; l < nodes[p].size(); ++l) {
+      const std::size_t at = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+      drag[at] = (parts[row(p)]->mass_damping + (layers.empty() ? 0.0 : layers[nodes[p][l]])) * mass[at];
+    }
+  return {to_device("damping constants", constants), to_device("drag of patches' nodes", drag),
+          Array<double*>("damping energy", group.patches.count),
+          group.first_partial + group.patches.count * group.patches.node_stride};
+}
+
+/// Whether elements [first, end) have a node that an absorbing layer damps.
+bool in_absorbing_layer(const Model& model, int first, int end) {
+  const auto& rate = model.absorbing.rate;
+  if (rate.empty()) return false;
+  return std::any_of(model.assembly.elements.begin() + first, model.assembly.elements.begin() + end,
+                     [&](const auto& corners) {
+                       return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; });
+                     });
+}
+
+/// The patches' numbers, level by level, so that groups ascend by it.
+std::vector<int> patches_by_level(const PatchOrder& order) {
+  std::vector<int> numbers(order.level.size());
+  for (std::size_t p = 0; p < numbers.size(); ++p) numbers[p] = static_cast<int>(p);
+  std::stable_sort(numbers.begin(), numbers.end(), [&](int a, int b) { return order.level[a] < order.level[b]; });
+  return numbers;
+}
+
+}  // namespace
+
+void check_elements(const Model& model) {
+  for (const auto& part : model.assembly.parts)
+    for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
+      check_element(model, part, e, corners_of(model.assembly.nodes, model.assembly.elements[e]));
+}
+
+void build_elements(Model& model) {
+  const Assembly& assembly = model.assembly;
+  model.mass.assign(assembly.nodes.size(), 0);
+  model.element_length.resize(assembly.elements.size());
+  std::vector<float> scale(assembly.elements.size()), settling(scale.size());
+  for (std::size_t p = 0; p < assembly.parts.size(); ++p)
+    element_values(model, assembly.parts[p], model.scene.parts[p], scale, settling);
+  for (std::size_t i = 0; i < model.scene.points.size(); ++i)
+    model.mass[assembly.point_nodes[i]] = model.scene.points[i].mass;
+
+  const bool single = model.scene.solver.elements_in_single();
+  const int lanes = single ? lane_count<float> : lane_count<double>;
+  std::vector<PatchLists> lists;
+  std::vector<std::vector<const scene::Material*>> materials;
+  std::vector<std::vector<const scene::Part*>> parts;
+  std::vector<GroupKind> kinds;
+  std::size_t part = 0;
+  std::map<std::array<int, 3>, std::array<int, 2>>
+      rows_of;  // by level, part and damping: group, and row of constants in it
+  for (const int p : patches_by_level(model.order)) {
+    const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
+    part = 0;
+    while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
+    const auto& range = assembly.parts[part];
+    const scene::Part& of_scene = model.scene.parts[part];
+    const bool damped = of_scene.damped() || in_absorbing_layer(model, first, end);
+    const auto [found, is_new] = rows_of.try_emplace({model.order.level[p], static_cast<int>(part), damped ? 1 : 0});
+    int& group = found->second[0];
+    if (is_new) {
+      const scene::Material& material = model.scene.materials[range.material];
+      group = group_of(model, kinds, of_scene, {material_number(material), damped}, model.order.level[p]);
+      lists.resize(model.elements.size());
+      materials.resize(model.elements.size());
+      parts.resize(model.elements.size());
+      materials[group].push_back(&material);
+      parts[group].push_back(&of_scene);
+      found->second[1] = static_cast<int>(materials[group].size()) - 1;
+    }
+    append_patch(assembly, model.order, first, end, lanes, lists[group]);
+    lists[group].material.push_back(found->second[1]);
+    for (int slot = 0; slot < patch_size; ++slot) {
+      // Slots that only fill up must not dissipate.
+      lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);
+      lists[group].settling.push_back(slot < end - first ? settling[first + slot] : 0.0f);
+    }
+    model.elements[group].first_element.push_back(first);
+    model.elements[group].element_count.push_back(end - first);
+  }
+  int rows = 0;
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    ElementGroup& elements = model.elements[g];
+    elements.patches = arrays_of(lists[g], single);
+    elements.patch_energy = unset_array<double* [2]>("patch energy", elements.patches.count);
+    elements.patch_energy_fetched = PinnedArray<double* [2]>("patch energy fetched", elements.patches.count);
+    elements.material = material_arrays(kinds[g].material, materials[g], reference_volumes(model, elements));
+    elements.first_partial = rows;
+    if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
+    rows = elements.rows_end();
+  }
+  model.partial.single_precision = single;
+  if (single)
+    model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);
+  else
+    model.partial.wide = Array<PartialForce<double>*>("partial forces", rows);
+}
+
+}  // namespace railwave

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/support/reductions.hpp"
+#include "model/elements/history_sets.hpp"
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// Elements of one group whose histories are written. Patches that hold some of them are evaluated, no others.
+struct ListedElements {
+  Array<int*> patches;     ///< of the group, ascending
+  Array<int* [3]> places;  ///< of each element: number in the list, slot among the listed patches, slot in the group
+  Array<double*> stress_wide;   ///< Pa, tiled, of the listed patches, where elements are in double precision
+  Array<float*> stress_narrow;  ///< the same in single precision
+  Array<double* [2]> energy;    ///< J, by listed patch; nobody reads it
+};
+
+/// Sets of scene.output.history_sets whose stress or strain is written.
+struct ElementHistories {
+  std::vector<int> first_of_set;       ///< in `item`, one more than sets
+  Array<int*> item;                    ///< number in the list of elements, set after set
+  Array<double*> weight;               ///< of each item
+  std::vector<ListedElements> listed;  ///< by group of the model's elements
+  Array<int* [8]> corner;              ///< model node numbers, by element of the list
+  Array<double* [6]> stress;           ///< Pa, by element of the list, at the instant looked at last
+  Array<double* [6]> strain;
+  Array<double*> plastic_strain;
+  bool wants_stress = false, wants_strain = false, wants_plastic_strain = false;
+};
+
+/// Queues the means at the present instant of each of these sets: one for each set that resolve_history_sets() gives
+/// elements to. Quantities that no set asks for stay zero.
+void queue_element_means(const Model& model, std::vector<ElementMeans>& means, Reductions& sums);
+
+}  // namespace railwave

@@ -1,0 +1,121 @@
+#include "model/elements/divide_into_patches.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/elements/patches.hpp"
+
+namespace railwave {
+namespace {
+
+/// Splits a part's elements into compact patches by halving: across the direction in which the group counts most
+/// elements, between two layers of elements where that leaves both halves room in their patches.
+class Divider {
+ public:
+  Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
+      : assembly_(assembly),
+        centre_(assembly.elements.size()),
+        extent_(assembly.elements.size()),
+        seen_(assembly.nodes.size(), -1) {
+    for (int k = begin; k < end; ++k) {
+      const int e = elements[k];
+      Vec3 low = assembly.nodes[assembly.elements[e][0]], high = low;
+      Vec3 sum{0, 0, 0};
+      for (int n : assembly.elements[e])
+        for (int i = 0; i < 3; ++i) {
+          low[i] = std::min(low[i], assembly.nodes[n][i]);
+          high[i] = std::max(high[i], assembly.nodes[n][i]);
+          sum[i] += 0.125 * assembly.nodes[n][i];
+        }
+      centre_[e] = sum;
+      for (int i = 0; i < 3; ++i) extent_[e][i] = high[i] - low[i];
+    }
+  }
+
+  /// Orders elements[begin, end) and appends the first place of each patch.
+  void divide(std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+    const int count = end - begin;
+    if (count <= patch_size && node_count(elements, begin, end) <= patch_nodes) {
+      std::sort(elements.begin() + begin, elements.begin() + end);
+      first.push_back(begin);
+      return;
+    }
+    const int middle = split(elements, begin, end);
+    divide(elements, begin, middle, first);
+    divide(elements, middle, end, first);
+  }
+
+ private:
+  int node_count(const std::vector<int>& elements, int begin, int end) {
+    ++stamp_;
+    int count = 0;
+    for (int k = begin; k < end; ++k)
+      for (int n : assembly_.elements[elements[k]])
+        if (seen_[n] != stamp_) {
+          seen_[n] = stamp_;
+          ++count;
+        }
+    return count;
+  }
+
+  int split(std::vector<int>& elements, int begin, int end) const {
+    const int count = end - begin;
+    Vec3 low = centre_[elements[begin]], high = low, size{0, 0, 0};
+    for (int k = begin; k < end; ++k)
+      for (int i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], centre_[elements[k]][i]);
+        high[i] = std::max(high[i], centre_[elements[k]][i]);
+        size[i] += extent_[elements[k]][i] / count;
+      }
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+      if ((high[i] - low[i]) * size[axis] > (high[axis] - low[axis]) * size[i]) axis = i;
+
+    // A little room to spare lets large groups be cut between layers.
+    const int patches = std::max(2, static_cast<int>(std::ceil((count > 1500 ? 1.04 : 1.0) * count / patch_size)));
+    const int left_patches = patches / 2;
+    const int target = static_cast<int>(static_cast<long>(count) * left_patches / patches);
+    const int layers = std::clamp(static_cast<int>((high[axis] - low[axis]) / size[axis] + 1.5), 2, 4096);
+    const double thickness = (high[axis] - low[axis]) / (layers - 1);
+    const auto layer_of = [&](int e) { return static_cast<int>((centre_[e][axis] - low[axis]) / thickness + 0.5); };
+    std::vector<int> in_layer(layers + 1, 0);
+    for (int k = begin; k < end; ++k) ++in_layer[std::min(layer_of(elements[k]), layers)];
+    int below = 0, best = -1, best_layer = 0;
+    for (int layer = 0; layer < layers; ++layer) {
+      below += in_layer[layer];
+      const bool fits = below <= left_patches * patch_size && count - below <= (patches - left_patches) * patch_size;
+      if (below == 0 || below == count || !fits) continue;
+      if (best < 0 || std::abs(below - target) < std::abs(best - target)) {
+        best = below;
+        best_layer = layer;
+      }
+    }
+    const auto from = elements.begin() + begin, to = elements.begin() + end;
+    if (best > 0) {
+      std::stable_partition(from, to, [&](int e) { return layer_of(e) <= best_layer; });
+      return begin + best;
+    }
+    std::nth_element(from, from + target, to, [&](int a, int b) {
+      for (int i = 0; i < 3; ++i) {
+        const double x = centre_[a][(axis + i) % 3], y = centre_[b][(axis + i) % 3];
+        if (x != y) return x < y;
+      }
+      return a < b;
+    });
+    return begin + target;
+  }
+
+  const Assembly& assembly_;
+  std::vector<Vec3> centre_, extent_;
+  std::vector<int> seen_;
+  int stamp_ = 0;
+};
+
+}  // namespace
+
+void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                        std::vector<int>& first) {
+  if (end > begin) Divider(assembly, elements, begin, end).divide(elements, begin, end, first);
+}
+
+}  // namespace railwave

@@ -1,0 +1,216 @@
+#include "model/time_step/global_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "kernels/support/reductions.hpp"
+#include "kernels/ties/tie.hpp"
+#include "model/elements/hourglass_scale.hpp"
+#include "model/host_copy.hpp"
+#include "model/time_step/lanczos.hpp"
+#include "model/time_step/stable_step.hpp"
+#include "model/time_step/tangent_springs.hpp"
+
+namespace railwave {
+namespace {
+
+/// Iterations between looks at the Ritz value.
+constexpr int iterations_between_looks = 10;
+/// Iterations before which a low Ritz value is not believed.
+constexpr int least_iterations = 30;
+
+/// Between -1 and 1, without order in the numbers: the start has a part in every mode, wherever that is.
+KOKKOS_INLINE_FUNCTION double scattered(std::uint64_t number) {
+  number = (number + 0x9e3779b97f4a7c15u) * 0xbf58476d1ce4e5b9u;
+  number = (number ^ (number >> 31)) * 0x94d049bb133111ebu;
+  number ^= number >> 29;
+  return static_cast<double>(number >> 11) / 4503599627370496.0 - 1.0;
+}
+
+/// M^(1/2) times scattered numbers, so that ToWeighted leaves the start vector of unit mass.
+struct StartVector {
+  NodeVector f;
+  Array<const double*> mass;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(3 * static_cast<std::uint64_t>(n) + i);
+  }
+};
+
+/// w - alpha q - beta p
+struct Recur {
+  NodeVector w, q, p;
+  double alpha, beta;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) w(n, i) -= alpha * q(n, i) + beta * p(n, i);
+  }
+};
+
+struct Scale {
+  NodeVector w;
+  double factor;
+  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+    for (int i = 0; i < 3; ++i) w(n, i) *= factor;
+  }
+};
+
+double inner(const Model& model, const NodeVector& a, const NodeVector& b) {
+  double sum = 0;
+  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, *model.reduction_space);
+  return sum;
+}
+
+}  // namespace
+
+GlobalEstimate::GlobalEstimate(const Model& model) : tangent_(model.assembly) {
+  const std::size_t nodes = model.assembly.nodes.size();
+  now_ = unset_array<double* [3]>("tangent vector", nodes);
+  before_ = unset_array<double* [3]>("tangent vector before", nodes);
+  image_ = unset_array<double* [3]>("tangent image", nodes);
+  displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
+}
+
+std::size_t GlobalEstimate::bytes() const { return tangent_.bytes() + 4 * now_.span() * sizeof(double); }
+
+void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep& result) {
+  SpringCollector collector(model);
+  collector.add_connectors();
+  for (const ContactPair& pair : model.contacts) {
+    if (!pair.has_springs()) {
+      result.seen.emplace_back(pair.slave_nodes.size(), 1);
+      continue;
+    }
+    const auto springs = possible_contact_springs(model, pair, horizon);
+    collector.add_contact(springs, pair.arrays.friction > 0);
+    result.springs += static_cast<long>(springs.size());
+    auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
+    for (const ContactSpring& spring : springs) seen[spring.slave] = 1;
+  }
+  tangent_.set_springs(collector.on_device());
+}
+
+void GlobalEstimate::apply(const Model& model, double inverse_time) {
+  const int nodes = static_cast<int>(model.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
+  const TieArrays& ties = model.ties.arrays;
+  if (ties.active())
+    Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count),
+                         TieMotion{ties, model.nodes.position, displacement_});
+  const double speed = largest_initial_speed(model.scene);
+  std::vector<ElementStiffness> stiffness;
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const scene::Part& part = model.scene.parts[p];
+    const scene::Material& material = model.scene.materials[model.assembly.parts[p].material];
+    const bool viscous = part.hourglass == scene::HourglassType::viscous;
+    const double factor =
+        hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
+    const double mu = material.shear_modulus(), damped = 1 + part.stiffness_damping * inverse_time;
+    const double bulk =
+        (part.linear_bulk_viscosity * material.dilatational_speed() + part.quadratic_bulk_viscosity * speed) *
+        material.density * inverse_time;
+    stiffness.push_back({damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk});
+  }
+  tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
+  if (ties.active()) {
+    Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count),
+                         TieMotionForce{ties, model.nodes.position, image_});
+    Kokkos::parallel_for("tangent_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
+                         TieGather{ties, ties.master_nodes, image_});
+  }
+  Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
+                       ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});
+}
+
+double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough,
+                                          GlobalStep& result) {
+  const int nodes = static_cast<int>(model.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
+  Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
+                       ToWeighted{now_, model.nodes.mass, model.nodes.constraint, model.constraints});
+  const double size = std::sqrt(inner(model, now_, now_));
+  if (!(size > 0)) return 0;  // everything is held
+  Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
+  Kokkos::deep_copy(before_, 0.0);
+
+  std::vector<double> diagonal, beside;
+  RitzValue ritz;
+  while (true) {
+    apply(model, inverse_time);
+    ++result.applications;
+    diagonal.push_back(inner(model, now_, image_));
+    Kokkos::parallel_for("tangent_recur", Range(0, nodes),
+                         Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
+    beside.push_back(std::sqrt(inner(model, image_, image_)));
+    const int iterations = static_cast<int>(diagonal.size());
+    const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
+    if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {
+      ritz = largest_ritz_value(diagonal, beside);
+      const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= enough;
+      if (exhausted || low_enough || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;
+    }
+    Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, 1 / beside.back()});
+    const NodeVector spent = before_;
+    before_ = now_;
+    now_ = image_;
+    image_ = spent;
+  }
+  return ritz.value + ritz.residual;
+}
+
+GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double guess) {
+  GlobalStep result;
+  set_springs(model, horizon, result);
+  return solve(model, guess, false, std::move(result));
+}
+
+GlobalStep GlobalEstimate::of_elements(const Model& model, double longest) {
+  SpringCollector collector(model);
+  const ContactOnNodes contact = contact_on_nodes(model);
+  for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
+    if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
+  tangent_.set_springs(collector.on_device());
+  return solve(model, longest, true, {});
+}
+
+GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_guess, GlobalStep result) {
+  result.step = guess;
+  bool damped = false;
+  double mass_rate = 0;  // counted as if all nodes had the largest
+  for (const scene::Part& part : model.scene.parts) {
+    damped =
+        damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
+    mass_rate = std::fmax(mass_rate, part.mass_damping);
+  }
+  for (const AbsorbingLayers::Zone& zone : model.absorbing.zones) {
+    damped = true;
+    mass_rate = std::fmax(mass_rate, zone.rate);
+  }
+  for (const scene::Connector& connector : model.scene.connectors)
+    damped = damped || connector.damping != Vec3{0, 0, 0};
+  for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
+  const double enough = at_most_guess ? 4 / (guess * guess) : 0;
+  if (!damped) {
+    const double eigenvalue = largest_eigenvalue(model, 0, tolerance, enough, result);
+    if (eigenvalue > enough) result.step = 2 / std::sqrt(eigenvalue);
+    return result;
+  }
+  // The operator holds the step itself. Too short a step makes dashpots too strong, so that the pass is short of the
+  // answer and yet nearer to it than the step was; too long a one the other way round. The last pass counts from the
+  // short side.
+  constexpr int most_passes = 8;
+  double step = guess;
+  for (int k = 0; k < most_passes; ++k) {
+    const bool first = k == 0;
+    const double eigenvalue =
+        mass_rate * 2 / step + largest_eigenvalue(model, 2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
+                                                  first ? enough - mass_rate * 2 / step : 0, result);
+    if (!(eigenvalue > 0) || (first && eigenvalue <= enough)) break;
+    result.step = 2 / std::sqrt(eigenvalue);
+    if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;
+    step = result.step >= step ? result.step : result.step - 0.6 * (step - result.step);
+  }
+  if (at_most_guess) result.step = std::fmin(result.step, guess);
+  return result;
+}
+
+}  // namespace railwave

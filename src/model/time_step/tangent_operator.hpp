@@ -1,0 +1,37 @@
+#pragma once
+
+#include "kernels/statics/tangent.hpp"
+#include "model/assembly.hpp"
+
+namespace railwave {
+
+/// Forces of small motions u about the present places: of elements, by corners that are stored and gathered, and of
+/// springs.
+class TangentOperator {
+ public:
+  /// @param more_rows of the vectors, behind the nodes', for springs alone
+  explicit TangentOperator(const Assembly& assembly, int more_rows = 0);
+
+  void set_springs(TangentSprings springs) { springs_ = springs; }
+
+  /// f = K u, replacing what f held.
+  /// @param stiffness of each part, in order
+  /// @param inverse_time 1/s, what the springs' dashpots count with
+  void apply(const Assembly& assembly, const std::vector<ElementStiffness>& stiffness,
+             const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
+             const NodeVector& f) const;
+
+  const Array<int* [8]>& corners() const { return corners_; } const Array<int*>& first_corner() const {
+    return first_corner_;
+  }
+  const Array<int*>& corner() const { return corner_; }
+  std::size_t bytes() const;
+
+ private:
+  Array<int* [8]> corners_;
+  Array<int*> first_corner_, corner_;  ///< see GatherTangent
+  Array<double* [24]> corner_force_;
+  TangentSprings springs_;
+};
+
+}  // namespace railwave

@@ -1,0 +1,105 @@
+#include "output/fields/contact_section.hpp"
+
+#include <stdexcept>
+
+namespace railwave {
+namespace {
+
+constexpr hdf5::Storage each_time{1, true};
+constexpr hdf5::Storage times_in_block{1024, false};
+
+void append(hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t expected) {
+  if (values.size() != expected) throw std::logic_error("a contact state has arrays of another length than its nodes");
+  dataset.append(values.data(), 1);
+}
+
+}  // namespace
+
+std::vector<double> nodal_pressure(const ContactSide& side) {
+  std::vector<double> pressure(side.area.size(), 0.0);
+  for (std::size_t i = 0; i < pressure.size(); ++i) {
+    double outward = 0;
+    for (int c = 0; c < 3; ++c) outward += side.normal_force[3 * i + c] * side.normal[3 * i + c];
+    if (side.area[i] > 0 && outward != 0) pressure[i] = -outward / side.area[i];
+  }
+  return pressure;
+}
+
+std::vector<double> nodal_shear(const ContactSide& side) {
+  std::vector<double> shear(3 * side.area.size(), 0.0);
+  for (std::size_t i = 0; i < shear.size(); ++i)
+    if (side.area[i / 3] > 0) shear[i] = side.tangential_force[i] / side.area[i / 3];
+  return shear;
+}
+
+ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source)
+    : nodes(first.nodes), facet_count(first.facets.size()) {
+  const hsize_t count = nodes.size();
+  group.write("nodes", nodes, {count});
+  std::vector<int> corners;
+  for (const auto& facet : first.facets) corners.insert(corners.end(), facet.begin(), facet.end());
+  group.write("facets", corners, {first.facets.size(), 4});
+  std::vector<double> coordinates = first.position;
+  const std::vector<double> moved = source.field(field_named("displacement"), nodes).values;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] -= moved.at(i);
+  group.write("coordinates", coordinates, {count, 3});
+  area = group.create_growing<double>("area", {count}, each_time);
+  pressure = group.create_growing<double>("pressure", {count}, each_time);
+  for (auto [name, dataset] : {std::pair{"displacement", &displacement},
+                               {"position", &position},
+                               {"velocity", &velocity},
+                               {"normal", &normal},
+                               {"normal_force", &normal_force},
+                               {"tangential_force", &tangential_force},
+                               {"shear", &shear}})
+    *dataset = group.create_growing<double>(name, {count, 3}, each_time);
+}
+
+void ContactSection::Side::add(const ContactSide& state, const FieldSource& source) {
+  if (state.nodes != nodes) throw std::logic_error("the nodes of a contact surface changed during the run");
+  const std::size_t count = nodes.size();
+  append(area, state.area, count);
+  append(displacement, source.field(field_named("displacement"), nodes).values, 3 * count);
+  append(position, state.position, 3 * count);
+  append(velocity, state.velocity, 3 * count);
+  append(normal, state.normal, 3 * count);
+  append(normal_force, state.normal_force, 3 * count);
+  append(tangential_force, state.tangential_force, 3 * count);
+  append(pressure, nodal_pressure(state), count);
+  append(shear, nodal_shear(state), 3 * count);
+}
+
+ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact)
+    : contact_(contact) {
+  const ContactState first = source.contact(contact);
+  falling_friction_ = !first.friction_now.empty();
+  const hdf5::Group group = contacts_group.create_group(first.name);
+  group.set_attribute("friction", first.friction);
+  const hdf5::Group slave_group = group.create_group("slave");
+  slave_ = Side(slave_group, first.slave, source);
+  master_ = Side(group.create_group("master"), first.master, source);
+  const hsize_t count = first.slave.nodes.size();
+  gap_ = slave_group.create_growing<double>("gap", {count}, each_time);
+  slip_velocity_ = slave_group.create_growing<double>("slip_velocity", {count, 3}, each_time);
+  if (falling_friction_) friction_ = slave_group.create_growing<double>("friction", {count}, each_time);
+  slipping_ = slave_group.create_growing<signed char>("slipping", {count}, each_time);
+  times_ = group.create_growing<double>("time", {}, times_in_block);
+  steps_ = group.create_growing<long>("step", {}, times_in_block);
+}
+
+void ContactSection::add_values(const FieldSource& source, long step) {
+  const ContactState state = source.contact(contact_);
+  const std::size_t count = slave_.nodes.size();
+  if (state.slipping.size() != count)
+    throw std::logic_error("a contact state has arrays of another length than its nodes");
+  slave_.add(state.slave, source);
+  master_.add(state.master, source);
+  append(gap_, state.gap, count);
+  append(slip_velocity_, state.slip_velocity, 3 * count);
+  if (falling_friction_) append(friction_, state.friction_now, count);
+  const std::vector<signed char> slipping(state.slipping.begin(), state.slipping.end());
+  slipping_.append(slipping.data(), 1);
+  steps_.append(&step, 1);
+}
+
+}  // namespace railwave

@@ -1,0 +1,70 @@
+#include "output/fields/field_section.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace railwave {
+namespace {
+
+constexpr hdf5::Storage each_time{1, true};
+constexpr hdf5::Storage times_in_block{1024, false};
+
+void append(hdf5::Dataset& dataset, const HostField& field, std::size_t entries, int components,
+            const std::string& name) {
+  if (field.components != components || field.values.size() != entries * components)
+    throw std::logic_error("the fields of " + name + " have not the length of the set");
+  dataset.append(field.values.data(), 1);
+}
+
+}  // namespace
+
+FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set,
+                           const std::vector<std::string>& fields)
+    : set_(set) {
+  const hdf5::Group group = fields_group.create_group(set.name);
+  const hsize_t nodes = set.nodes.size(), elements = set.elements.size();
+  group.set_attribute("kind", set.is_beam() ? "beam" : set.is_surface() ? "surface" : "volume");
+  group.write("nodes", set.nodes, {nodes});
+  group.write("elements", set.elements, {elements});
+  group.write("connectivity", set.corners, {elements, static_cast<hsize_t>(set.corner_count)});
+  group.write("coordinates", set.coordinates, {nodes, 3});
+  times_ = group.create_growing<double>("time", {}, times_in_block);
+  steps_ = group.create_growing<long>("step", {}, times_in_block);
+  if (set.is_beam()) {
+    forces_ = group.create_growing<double>("force", {elements, 3}, each_time);
+    moments_ = group.create_growing<double>("moment", {elements, 3}, each_time);
+  }
+  for (const std::string& name : fields) {
+    const FieldRow& row = field_named(name);
+    if (!set.has(row)) continue;
+    hdf5::Shape shape{set.numbers(row).size()};
+    if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
+    columns_.push_back({&row, group.create_growing<double>(name, shape, each_time)});
+  }
+  std::stable_partition(columns_.begin(), columns_.end(), [](const Column& one) { return one.field->of_nodes(); });
+}
+
+void FieldSection::add_values(const FieldSource& source, long step) {
+  for (Column& column : columns_) {
+    const std::vector<int>& numbers = set_.numbers(*column.field);
+    append(column.dataset, source.field(*column.field, numbers), numbers.size(), column.field->components, set_.name);
+  }
+  if (set_.is_beam()) add_section_forces(source);
+  steps_.append(&step, 1);
+}
+
+void FieldSection::add_section_forces(const FieldSource& source) {
+  const HostField all = source.beams();
+  std::vector<double> force, moment;
+  for (const int element : set_.elements) {
+    if (all.values.size() < 6u * (element + 1))
+      throw std::logic_error("the section forces of " + set_.name + " are missing");
+    const auto own = all.values.begin() + 6 * element;
+    force.insert(force.end(), own, own + 3);
+    moment.insert(moment.end(), own + 3, own + 6);
+  }
+  forces_.append(force.data(), 1);
+  moments_.append(moment.data(), 1);
+}
+
+}  // namespace railwave

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output/fields/field_source.hpp"
+#include "output/hdf5/hdf5.hpp"
+#include "output/output_sets.hpp"
+
+namespace railwave {
+
+/// Group /fields/NAME or /beams/NAME of a results file: one output set, its mesh once and its fields at each output
+/// time.
+class FieldSection {
+ public:
+  /// `fields`: names of case/field_table.hpp. Beams have section forces and moments whatever is asked.
+  FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
+
+  /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
+  void add_values(const FieldSource& source, long step);
+  void add_time(double time) { times_.append(&time, 1); }
+
+ private:
+  struct Column {
+    const FieldRow* field;
+    hdf5::Dataset dataset;
+  };
+  void add_section_forces(const FieldSource& source);
+
+  OutputSet set_;
+  hdf5::Dataset times_, steps_, forces_, moments_;
+  std::vector<Column> columns_;  ///< those of nodes first
+};
+
+}  // namespace railwave

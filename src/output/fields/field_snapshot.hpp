@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "output/fields/field_source.hpp"
+#include "output/output_sets.hpp"
+
+namespace railwave {
+
+/// Which fields a results file takes from a FieldSource at each output, and of which nodes and elements: those of all
+/// output sets and contact surfaces together, each once, so that every field is fetched once.
+struct FieldSelection {
+  std::vector<int> nodes, elements;                  ///< model numbers, ascending
+  std::vector<int> place_of_node, place_of_element;  ///< by model number up to the largest: position in those, or -1
+  std::vector<const FieldRow*> fields;
+  bool beams = false;
+  int contact_count = 0;
+
+  const std::vector<int>& numbers(const FieldRow& row) const { return row.of_nodes() ? nodes : elements; }
+  /// Of the fields of nodes and elements in a snapshot.
+  std::size_t bytes() const;
+};
+
+/// `fields`: names of case/field_table.hpp. The contacts' nodes are taken from `source`.
+FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
+                             int contact_count, const FieldSource& source);
+
+/// The selected fields of one instant, fetched once and kept as plain data: it outlives the instant, and any thread may
+/// read it.
+class FieldSnapshot : public FieldSource {
+ public:
+  FieldSnapshot(const FieldSource& source, std::shared_ptr<const FieldSelection> selection);
+
+  /// Throws std::logic_error for what was not selected.
+  HostField field(const FieldRow& row, const std::vector<int>& numbers) const override;
+  ContactState contact(int number) const override { return contacts_.at(number); }
+  HostField beams() const override { return beams_; }
+
+ private:
+  std::shared_ptr<const FieldSelection> selection_;
+  std::vector<HostField> fields_;  ///< one for each of selection_->fields
+  HostField beams_;                ///< without components where not selected
+  std::vector<ContactState> contacts_;
+};
+
+}  // namespace railwave

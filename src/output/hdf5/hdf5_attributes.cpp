@@ -1,0 +1,97 @@
+#include <stdexcept>
+
+#include "output/call_limit.hpp"
+#include "output/hdf5/hdf5_parts.hpp"
+#include "output/room.hpp"
+
+namespace railwave::hdf5 {
+namespace {
+
+constexpr std::size_t copies_of_text = 4;  ///< that HDF5 makes of a text on its way
+
+}  // namespace
+
+Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) const {
+  const std::string what = "writing attribute " + name + " of " + name_;
+  if (check(H5Aexists(id_.get(), name.c_str()), what) > 0) {
+    Handle there(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
+    const Handle its_type(check(H5Aget_type(there.get()), what), H5Tclose),
+        its_space(check(H5Aget_space(there.get()), what), H5Sclose);
+    // In its place, so that a kill in the middle of a flush does not find it taken away and not yet put back.
+    if (H5Tequal(its_type.get(), type) > 0 && H5Sextent_equal(its_space.get(), space) > 0) return there;
+    there.close();
+    check(H5Adelete(id_.get(), name.c_str()), what);
+  }
+  return {check(H5Acreate2(id_.get(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), what), H5Aclose};
+}
+
+void Group::set_attribute(const std::string& name, double value) const {
+  expect_room();
+  const Handle space = space_of({});
+  const Handle attribute = new_attribute(name, H5T_NATIVE_DOUBLE, space.get());
+  check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value), "writing attribute " + name);
+}
+
+void Group::set_attribute(const std::string& name, long value) const {
+  expect_room();
+  const Handle space = space_of({});
+  const Handle attribute = new_attribute(name, H5T_NATIVE_LONG, space.get());
+  check(H5Awrite(attribute.get(), H5T_NATIVE_LONG, &value), "writing attribute " + name);
+}
+
+void Group::set_attribute(const std::string& name, const std::string& value) const {
+  expect_room(copies_of_text * value.size());
+  const Handle space = space_of({}), type = text_type();
+  const Handle attribute = new_attribute(name, type.get(), space.get());
+  const char* text = value.c_str();
+  check(H5Awrite(attribute.get(), type.get(), &text), "writing attribute " + name);
+}
+
+void Group::set_attribute(const std::string& name, const std::vector<std::string>& values) const {
+  std::size_t length = 0;
+  for (const std::string& value : values) length += value.size() + sizeof(value);
+  expect_room(copies_of_text * length);
+  const Handle space = space_of({values.size()}), type = text_type();
+  const Handle attribute = new_attribute(name, type.get(), space.get());
+  if (values.empty()) return;
+  std::vector<const char*> texts;
+  for (const auto& value : values) texts.push_back(value.c_str());
+  check(H5Awrite(attribute.get(), type.get(), texts.data()), "writing attribute " + name);
+}
+
+bool Group::has_attribute(const std::string& name) const {
+  expect_room();
+  const LimitedCall limited;
+  return check(H5Aexists(id_.get(), name.c_str()), "looking for attribute " + name) > 0;
+}
+
+double Group::number_attribute(const std::string& name) const {
+  expect_room();
+  const LimitedCall limited;
+  const std::string what = "reading attribute " + name + " of " + name_;
+  const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
+  const Handle space(check(H5Aget_space(attribute.get()), what), H5Sclose);
+  if (H5Sget_simple_extent_npoints(space.get()) != 1) throw std::runtime_error(what + ": it is not one number");
+  double value = 0;
+  check(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value), what);
+  return value;
+}
+
+std::string Group::text_attribute(const std::string& name) const {
+  expect_room();
+  const LimitedCall limited;
+  const std::string what = "reading attribute " + name + " of " + name_;
+  const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
+  const Handle stored(check(H5Aget_type(attribute.get()), what), H5Tclose);
+  const Handle space(check(H5Aget_space(attribute.get()), what), H5Sclose);
+  if (H5Tis_variable_str(stored.get()) <= 0 || H5Sget_simple_extent_npoints(space.get()) != 1)
+    throw std::runtime_error(what + ": it is not a text");
+  const Handle type = text_type();
+  char* text = nullptr;
+  check(H5Aread(attribute.get(), type.get(), &text), what);
+  const std::string value = text ? text : "";
+  H5free_memory(text);
+  return value;
+}
+
+}  // namespace railwave::hdf5

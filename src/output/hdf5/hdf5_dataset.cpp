@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "case/memory.hpp"
+#include "output/call_limit.hpp"
+#include "output/hdf5/hdf5_parts.hpp"
+#include "output/room.hpp"
+
+namespace railwave::hdf5 {
+namespace {
+
+/// A damaged file may claim anything.
+void expect_claimed_memory(const Shape& shape, std::size_t size, const std::string& name) {
+  double values = 1;
+  for (const hsize_t extent : shape) values *= static_cast<double>(extent);
+  expect_memory(values * static_cast<double>(size), fmt::format("{}: has {:.0f} values, which need", name, values),
+                "see whether the file is whole");
+}
+
+}  // namespace
+
+Shape Dataset::shape() const {
+  expect_room();
+  return extent();
+}
+
+Shape Dataset::extent() const {
+  const Handle space = file_space(id_.get(), name_);
+  Shape result(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_));
+  if (!result.empty())
+    check(H5Sget_simple_extent_dims(space.get(), result.data(), nullptr), "asking for the shape of " + name_);
+  return result;
+}
+
+template <class T>
+void Dataset::append(const T* rows, hsize_t count) {
+  if (count == 0) return;
+  expect_room();
+  Shape whole = extent(), start(whole.size(), 0), block = whole;
+  start[0] = whole[0];
+  block[0] = count;
+  whole[0] += count;
+  check(H5Dset_extent(id_.get(), whole.data()), "extending " + name_);
+  if (count_of(block) == 0) return;  // a set without entries still counts its times
+  const Handle space = file_space(id_.get(), name_);
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+        "extending " + name_);
+  const Handle memory = space_of(block);
+  check(H5Dwrite(id_.get(), native_type<T>(), memory.get(), space.get(), H5P_DEFAULT, rows), "writing " + name_);
+}
+
+template <class T>
+std::vector<T> Dataset::read() const {
+  const LimitedCall limited;
+  const Shape extent = shape();
+  expect_claimed_memory(extent, sizeof(T), name_);
+  std::vector<T> values(count_of(extent));
+  if (values.empty()) return values;
+  expect_room();
+  check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
+  return values;
+}
+
+template <class T>
+std::vector<T> Dataset::read_row(hsize_t row) const {
+  const LimitedCall limited;
+  Shape block = shape();
+  if (block.empty() || row >= block[0])
+    throw std::runtime_error("reading " + name_ + ": it has no entry " + std::to_string(row));
+  Shape start(block.size(), 0);
+  start[0] = row;
+  block[0] = 1;
+  expect_claimed_memory(block, sizeof(T), name_);
+  std::vector<T> values(count_of(block));
+  if (values.empty()) return values;
+  expect_room();
+  const Handle space = file_space(id_.get(), name_);
+  check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
+        "reading " + name_);
+  const Handle memory = space_of(block);
+  check(H5Dread(id_.get(), native_type<T>(), memory.get(), space.get(), H5P_DEFAULT, values.data()),
+        "reading " + name_);
+  return values;
+}
+
+#define RAILWAVE_FOR_TYPE(T)                           \
+  template void Dataset::append<T>(const T*, hsize_t); \
+  template std::vector<T> Dataset::read<T>() const;    \
+  template std::vector<T> Dataset::read_row<T>(hsize_t) const;
+
+RAILWAVE_FOR_TYPE(double)
+RAILWAVE_FOR_TYPE(int)
+RAILWAVE_FOR_TYPE(long)
+RAILWAVE_FOR_TYPE(signed char)
+
+}  // namespace railwave::hdf5

@@ -1,0 +1,79 @@
+#include "solve/checkpoint/run_state.hpp"
+
+#include "kernels/support/flush_denormals.hpp"
+#include "solve/checkpoint/state_arrays.hpp"
+
+namespace railwave {
+
+void refuse_state(const std::string& name, const std::string& what) {
+  throw std::runtime_error(fmt::format("it does not fit this model: {} {}", name, what));
+}
+
+std::string back_end_name() {
+  return fmt::format("{} of {} numbers in a pack", ExecutionSpace::name(), lane_count<double>);
+}
+
+namespace {
+
+/// Host values that arrays alone don't tell.
+template <class Archive>
+void archive(Archive& archive, const std::string& of, ContactPair& pair) {
+  archive.value(of + "window_count", pair.window.count);
+  archive.value(of + "next_look", pair.next_look);
+  archive.value(of + "next_near_look", pair.next_near_look);
+  archive.value(of + "layouts", pair.layouts);
+  archive.value(of + "looks", pair.looks);
+}
+
+template <class Archive>
+void archive(Archive& archive, CarriedNodes& carried) {
+  archive.values("carrier_host_motion", carried.host_motion);
+  archive.value("carried_begun", carried.begun);
+  archive.value("carrier_block_step", carried.block_step);
+  archive.value("carrier_block_time", carried.block_time);
+  archive.value("carrier_block_size", carried.block_size);
+}
+
+template <class Archive>
+void archive(Archive& archive_, StableStep& stable) {
+  archive_.value("stable_global", stable.global);
+  archive_.value("stable_limit", stable.limit);
+  archive_.value("stable_springs", stable.springs);
+  for (std::size_t p = 0; p < stable.seen.size(); ++p)
+    archive_.values(fmt::format("stable_seen_{}", p), stable.seen[p]);
+}
+
+/// The forces of an instant are computed anew from what is here, except where work is counted by the trapezoidal rule:
+/// that needs the forces of the instant before.
+template <class Archive>
+void archive(Archive& archive_, Model& model) {
+  archive_.value("step", model.step);
+  archive_.value("step_count", model.step_count);
+  archive_.value("step_size", model.step_size);
+  archive_.value("time", model.time);
+  archive_.value("velocity_lag", model.velocity_lag);
+  archive(archive_, model.stable_step);
+  if (model.carried.active()) archive(archive_, model.carried);
+  for (std::size_t p = 0; p < model.contacts.size(); ++p)
+    archive(archive_, fmt::format("contact_{}_", p), model.contacts[p]);
+  StateArrays<Archive> arrays(archive_, model, false);
+  visit_model_arrays(arrays, model);
+}
+
+}  // namespace
+
+void take_model_state(Model& model, RunState& state) {
+  StateTaker taker(state);
+  archive(taker, model);
+  state.step = model.step;
+  state.time = model.time;
+  state.back_end = back_end_name();
+}
+
+void lay_model_state(Model& model, const RunState& state) {
+  StateLayer layer(state);
+  archive(layer, model);
+  if (model.carried.begun) flush_denormals();
+}
+
+}  // namespace railwave

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kernels/contact/contact_ends.hpp"
+#include "model/contact/surface_ends.hpp"
+#include "solve/checkpoint/run_state.hpp"
+
+namespace railwave {
+
+/// What a contact is doing at the ends of its surfaces.
+struct EndSighting {
+  bool closed = false;  ///< some node touches
+  double at_end =
+      0;  ///< largest nodal force where a surface ends though the contact would go on, over the contact's largest
+  double outside_zone = 0;            ///< the same of nodes outside the fine zone of a part
+  bool lost = false;                  ///< it was closed at the glance before, and has lost its last nodes over an end
+  int end_node = -1, zone_node = -1;  ///< of the model, for the place
+  std::string end, zone;              ///< which end, which zone: for messages
+};
+
+/// Where the contacts of a run are on their surfaces, seen at glances: reductions over the slave nodes, after the
+/// forces of a step, some dozens of steps apart. That is far oftener than looks at the whole model are, as what comes
+/// to an end at 30 m/s has fallen off within a millisecond.
+///
+/// A patch is at an end of its master where the way over the master's facets from a touching slave node to one beside
+/// it on the slave leads out. Not every such end is told, as a wide block on a narrow one touches all of its ends: of
+/// the ends at which the body ends, those count that have no like opposite, and those that the slave has slid over by a
+/// quarter of its nodes' distance where its own end is opposite. Where a surface is a set and the body's skin goes on
+/// beyond it, any counts. Strips whose sides are flush have no node beyond.
+class EndWatch {
+ public:
+  explicit EndWatch(const Model& model);
+
+  /// Steps between glances.
+  static constexpr long steps_between = 256;
+
+  /// Looks at all contacts of the scene.
+  /// @param thorough whether ends that were found to be no matter are looked at again
+  void look(const Model& model, bool thorough);
+
+  /// Some sample, not only a glance, had nodes in contact.
+  void note_closed(std::size_t contact) { ever_closed_[contact] = 1; }
+
+  /// By contact of the scene, of the last glance.
+  const std::vector<EndSighting>& sightings() const { return sightings_; }
+
+  /// A line for each contact that neither a glance nor a sample of the histories has seen closed.
+  std::vector<std::string> never_closed(const Model& model) const;
+
+  void archive(StateTaker& state);
+  void archive(StateLayer& state);
+
+ private:
+  struct Memory {
+    int closed = 0, ever_closed = 0;
+    int ever_clear = 0;  ///< it was closed, and at no end
+    int at_end = 0;      ///< at the last glance
+    int harmless = 0;    ///< the ends that it touches are no matter
+    int lost = 0;        ///< it fell off an end, and has not closed since
+    double out[3] = {};  ///< unit, to where the master ends there
+    int end_node = -1, facet = -1, side = -1, of_set = 0;
+  };
+  struct Pair {
+    std::array<SurfaceEnds, 2> ends;  ///< slave, master
+    ContactEndArrays arrays;
+    double way_start[3] = {};  ///< m, mean place of the slave's part less that of the master's, undeformed
+    std::array<int, 2> part{-1, -1};
+    Memory memory;
+    EndSighting now;
+  };
+  struct Crossing;
+
+  void judge(const Model& model, std::size_t number);
+  bool has_moved_out(const Model& model, std::size_t number) const;
+  void place_outside_zone(const Model& model, std::size_t number, int slave);
+  std::string told_end(const ContactPair& pair, const Memory& memory) const;
+  template <class Archive>
+  void archive_memory(Archive& archive);
+
+  std::vector<Pair> pairs_;
+  std::vector<EndSighting> sightings_;
+  std::vector<char> ever_closed_;  ///< by contact of the scene
+};
+
+}  // namespace railwave

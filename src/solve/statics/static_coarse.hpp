@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <map>
+#include <memory>
+
+#include "solve/statics/static_tangent.hpp"
+
+namespace railwave {
+
+/// Rigid motions of aggregates of nodes, in which the slow modes that a diagonal can't reach are solved exactly: E =
+/// Z^T K Z, sparse, factored on the host. An aggregate is the nodes of a compact group of elements of one part; nodes
+/// of no element and rotations are aggregates of their own. Slaves of ties go with their masters' aggregates.
+class StaticCoarse {
+ public:
+  StaticCoarse(const Model& model, const StaticTangent& tangent);
+
+  /// Adds the springs to the elements' part of E and factors it. Throws std::runtime_error when E is not positive.
+  void factor(const SpringCollector& springs);
+
+  /// z = B^-1 r + Z E^-1 Z^T r
+  void precondition(const NodeVector& r, const NodeVector& z) const;
+
+  int aggregates() const { return count_; }
+
+ private:
+  static constexpr int modes = CoarseModes::of_aggregate;
+  using Block = Eigen::Matrix<double, modes, modes>;
+  using Blocks = std::map<std::pair<int, int>, Block>;  ///< row aggregate >= column aggregate
+
+  void divide_nodes(const Model& model);
+  void divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
+              int begin, int end, int largest);
+  void lay_modes();
+  void lay_slaves();
+  void add_elements(const Model& model);
+  void add_springs(const SpringCollector& springs, Blocks& blocks) const;
+
+  /// What an aggregate's rigid motions are at a row: mode m along i is entry 3 m + i.
+  using RowModes = std::array<double, 3 * modes>;
+  struct Motion {
+    int aggregate;
+    const RowModes* mode;
+  };
+  template <class Visit>
+  void each_motion(int row, const Visit& visit) const;
+
+  const StaticTangent& tangent_;
+  const StaticUnknowns& unknowns_;
+  int count_ = 0;
+  std::vector<int> aggregate_;                     ///< by row
+  std::vector<RowModes> mode_;                     ///< by row; zero along held directions
+  std::map<int, std::map<int, RowModes>> slaves_;  ///< by row and aggregate
+  std::vector<double> unused_;                     ///< by coarse coordinate: 1 where the aggregate has no such motion
+  Blocks of_elements_;
+  CoarseModes on_device_;
+  Array<double*> coarse_;
+  std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> factors_;
+};
+
+}  // namespace railwave

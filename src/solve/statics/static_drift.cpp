@@ -1,0 +1,72 @@
+#include "solve/statics/static_drift.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numeric>
+
+#include "case/error.hpp"
+#include "model/beams/beams.hpp"
+#include "model/host_copy.hpp"
+#include "model/time_step/tangent_springs.hpp"
+
+namespace railwave {
+
+void refuse_drifting_points(const Model& model, const NodeVector& unbalanced, double applied) {
+  const auto residual = to_host(unbalanced);
+  SpringCollector springs(model);
+  springs.add_connectors();
+  for (std::size_t k = 0; k < model.assembly.point_nodes.size(); ++k) {
+    const int n = model.assembly.point_nodes[k];
+    if (model.beams && model.beams->number[n] >= 0) continue;
+    Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
+    for (std::size_t s = 0; s < springs.count(); ++s)
+      for (int j = springs.first()[s]; j < springs.first()[s + 1]; ++j)
+        if (springs.node()[j] == n) {
+          const Eigen::Vector3d d(springs.share()[j].data());
+          held += springs.stiffness()[s] * d * d.transpose();
+        }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held);
+    for (int m = 0; m < 3; ++m) {
+      const Eigen::Vector3d direction = eigen.eigenvectors().col(m);
+      const double force = direction.dot(Eigen::Vector3d(residual(n, 0), residual(n, 1), residual(n, 2)));
+      if (eigen.eigenvalues()[m] > 1e-9 * eigen.eigenvalues()[2]) continue;
+      if (std::fabs(force) <= model.scene.settle.tolerance * applied) continue;
+      const scene::PointMass& point = model.scene.points[k];
+      throw InputError(fmt::format(
+          "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), "
+          "where no "
+          "connector is stiff; give one a stiffness there, preload it by that force, or constrain the point",
+          model.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
+    }
+  }
+}
+
+std::string what_drifts(const Model& model, const NodeVector& unbalanced, double applied) {
+  const auto residual = to_host(unbalanced);
+  std::string worst;
+  double largest = model.scene.settle.tolerance * applied;
+  const auto look = [&](const std::string& what, const std::vector<int>& nodes) {
+    Vec3 sum{};
+    for (int n : nodes)
+      for (int i = 0; i < 3; ++i) sum[i] += residual(n, i);
+    const double size = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    if (!(size > largest)) return;
+    largest = size;
+    worst = fmt::format(
+        "{} is left with a force of ({:.4g}, {:.4g}, {:.4g}) N: nothing holds it along that, or it has not met "
+        "what will",
+        what, sum[0], sum[1], sum[2]);
+  };
+  for (const auto& part : model.assembly.parts) {
+    std::vector<int> nodes(part.node_count);
+    std::iota(nodes.begin(), nodes.end(), part.first_node);
+    look("part '" + part.name + "'", nodes);
+  }
+  for (const Assembly::BeamChain& chain : model.assembly.beam_chains)
+    look("a beam of '" + model.scene.beams[chain.beam].name + "'", chain.nodes);
+  return worst;
+}
+
+}  // namespace railwave

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "model/model.hpp"
+#include "solve/checkpoint/run_state.hpp"
+
+namespace railwave {
+
+/// Everything of a settled scene that its run starts from, as plain data; velocities are zero.
+struct StaticState {
+  bool settled = false;
+  double unbalance = 0;
+  int steps = 0, iterations = 0;  ///< it took, see SettleReport
+  RunState arrays;                ///< those that visit_model_arrays() calls settled_state
+};
+
+StaticState take_static_state(Model& model);
+
+/// Puts a scene at the start of its run from there: whatever the arrays held before.
+/// @return false when the state is not of this model; nothing is changed then
+bool lay_static_state(Model& model, const StaticState& state);
+
+/// Where settled states are kept from one run to the next.
+class SettledStates {
+ public:
+  virtual ~SettledStates() = default;
+
+  struct Found {
+    std::optional<StaticState> state;
+    std::string file;     ///< it was in; empty: there is none
+    std::string trouble;  ///< why a file that is there is of no use
+  };
+  virtual Found find(const Model& model) = 0;
+
+  /// @return why it could not be kept; empty: it is
+  virtual std::string keep(const Model& model, const StaticState& state) = 0;
+};
+
+}  // namespace railwave

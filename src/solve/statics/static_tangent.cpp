@@ -1,0 +1,104 @@
+#include "solve/statics/static_tangent.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "model/host_copy.hpp"
+#include "model/time_step/settling_stiffness.hpp"
+
+namespace railwave {
+namespace {
+
+Eigen::Matrix3d whole(const std::array<double, 6>& b) {
+  Eigen::Matrix3d m;
+  m << b[0], b[3], b[5], b[3], b[1], b[4], b[5], b[4], b[2];
+  return m;
+}
+
+std::array<double, 6> distinct(const Eigen::Matrix3d& m) {
+  return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(2, 0)};
+}
+
+}  // namespace
+
+StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
+    : model_(model), unknowns_(unknowns), tangent_(model.assembly, unknowns.rotations()) {
+  const auto& elements = model.assembly.elements;
+  const std::size_t nodes = model.assembly.nodes.size();
+  part_of_element_.assign(elements.size(), 0);
+  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
+    const auto& range = model.assembly.parts[p];
+    stiffness_.push_back(settling_stiffness(model.scene.parts[p], model.scene.materials[range.material]));
+    std::fill_n(part_of_element_.begin() + range.first_element, range.element_count, static_cast<int>(p));
+  }
+
+  const NodeBlocks blocks = unset_array<double* [6]>("element blocks", nodes);
+  Kokkos::parallel_for(
+      "element_blocks", Range(0, static_cast<int>(nodes)),
+      ElementBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
+                    to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
+  const auto host = to_host(blocks);
+  // Slaves' blocks are felt by their masters: what one slave has to do with another is left out.
+  std::vector<Eigen::Matrix3d> sum(unknowns.rows(), Eigen::Matrix3d::Zero());
+  for (std::size_t n = 0; n < nodes; ++n) {
+    std::array<double, 6> own;
+    for (int c = 0; c < 6; ++c) own[c] = host(n, c);
+    if (!unknowns.follows(static_cast<int>(n))) {
+      sum[n] += whole(own);
+      continue;
+    }
+    unknowns.each_lead(static_cast<int>(n), [&](const StaticUnknowns::Lead& lead) {
+      sum[lead.row] += lead.share.transpose() * whole(own) * lead.share;
+    });
+  }
+  element_blocks_.resize(sum.size());
+  for (std::size_t n = 0; n < sum.size(); ++n) element_blocks_[n] = distinct(sum[n]);
+}
+
+void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
+  shift_ = shift;
+  tangent_.set_springs(springs.on_device());
+  auto blocks = element_blocks_;
+  for (std::size_t s = 0; s < springs.count(); ++s)
+    for (int k = springs.first()[s]; k < springs.first()[s + 1]; ++k) {
+      const Eigen::Vector3d own(springs.share()[k].data());
+      unknowns_.each_lead(springs.node()[k], [&](const StaticUnknowns::Lead& lead) {
+        const Eigen::Vector3d d = lead.share.transpose() * own;
+        const auto more = distinct(springs.stiffness()[s] * d * d.transpose());
+        for (int c = 0; c < 6; ++c) blocks[lead.row][c] += more[c];
+      });
+    }
+  double least = 1e300;
+  diagonal_.resize(blocks.size());
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    diagonal_[n] = (blocks[n][0] + blocks[n][1] + blocks[n][2]) / 3;
+    if (diagonal_[n] > 0) least = std::min(least, diagonal_[n]);
+  }
+  for (std::size_t n = 0; n < blocks.size(); ++n) {
+    // A point mass that no spring holds, or a slave.
+    if (!(diagonal_[n] > 0)) diagonal_[n] = least;
+    Eigen::Matrix3d block = whole(blocks[n]) + shift * diagonal_[n] * Eigen::Matrix3d::Identity();
+    const double* p = unknowns_.projection(static_cast<int>(n));
+    Eigen::Matrix3d inverse;
+    if (p == nullptr) {
+      inverse = block.inverse();
+    } else {
+      const Eigen::Matrix3d P = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(p);
+      block = P * block * P + diagonal_[n] * (Eigen::Matrix3d::Identity() - P);
+      inverse = P * block.inverse() * P;
+    }
+    blocks[n] = distinct(inverse);
+  }
+  inverse_ = to_device("inverse blocks", blocks);
+  device_diagonal_ = to_device("tangent diagonal", diagonal_);
+}
+
+void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {
+  unknowns_.lead_slaves(u);
+  tangent_.apply(model_.assembly, stiffness_, model_.nodes.position, u, 0, f);
+  unknowns_.pass_on(f);
+  Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()),
+                       ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});
+}
+
+}  // namespace railwave

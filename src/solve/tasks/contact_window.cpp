@@ -1,0 +1,292 @@
+#include "solve/tasks/contact_window.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "kernels/contact/contact_look.hpp"
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// The window reaches this many of the largest segment's diagonals beyond a segment.
+constexpr double margin_in_segments = 3;
+/// Most steps between two measurements of how far the surfaces have moved since the window was laid out.
+constexpr long most_steps_between_looks = 512;
+/// A layout is made early rather than followed by another look so soon.
+constexpr long least_steps_between_looks = 16;
+/// Steps between two choices of the nodes that can touch.
+constexpr long steps_between_near_looks = 64, steps_between_near_looks_settling = 16;
+
+/// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
+/// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
+constexpr double sudden_share = 0.005;
+
+struct GatherRows {
+  Array<const double* [3]> values;
+  Array<const int*> rows;
+  Array<double* [3]> result;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    for (int k = 0; k < 3; ++k) result(i, k) = values(rows(i), k);
+  }
+};
+
+Array<double* [3]> rows_of(const Array<double* [3]>& values, const Array<int*>& rows) {
+  const auto result = unset_array<double* [3]>("rows", rows.extent(0));
+  Kokkos::parallel_for("gather_rows", Range(0, rows.extent(0)), GatherRows{values, rows, result});
+  return result;
+}
+
+using Rows = Array<double* [3]>::HostMirror;
+
+/// Points in cubic cells as wide as the reach, for finding those within it of a place.
+class CellGrid {
+ public:
+  CellGrid(const Rows& points, double reach) : points_(points), cell_(reach) {
+    for (int i = 0; i < static_cast<int>(points.extent(0)); ++i) {
+      cells_[key(index(i, 0), index(i, 1), index(i, 2))].push_back(i);
+      for (int k = 0; k < 3; ++k) {
+        low_[k] = std::fmin(low_[k], points(i, k) - reach);
+        high_[k] = std::fmax(high_[k], points(i, k) + reach);
+      }
+    }
+  }
+
+  /// The nearest point within the reach, of several the first, or -1; where `any` does, the first that comes.
+  int near(const double (&x)[3], bool any) const {
+    long c[3];
+    for (int k = 0; k < 3; ++k) {
+      if (!(x[k] >= low_[k] && x[k] <= high_[k])) return -1;
+      c[k] = static_cast<long>(std::floor(x[k] / cell_));
+    }
+    int nearest = -1;
+    double least = cell_ * cell_;
+    constexpr int outwards[3] = {0, -1, 1};
+    for (int i : outwards)
+      for (int j : outwards)
+        for (int k : outwards) {
+          const auto cell = cells_.find(key(c[0] + i, c[1] + j, c[2] + k));
+          if (cell == cells_.end()) continue;
+          for (int p : cell->second) {
+            const double dx = points_(p, 0) - x[0], dy = points_(p, 1) - x[1], dz = points_(p, 2) - x[2];
+            const double squared = dx * dx + dy * dy + dz * dz;
+            if (squared > least || (squared == least && nearest >= 0 && nearest < p)) continue;
+            least = squared;
+            nearest = p;
+            if (any) return p;
+          }
+        }
+    return nearest;
+  }
+
+ private:
+  long index(int i, int k) const { return static_cast<long>(std::floor(points_(i, k) / cell_)); }
+  /// 21 bits an index: different cells never share a key, so that no point is found twice.
+  static long key(long i, long j, long k) {
+    constexpr long mask = (1L << 21) - 1;
+    return (i & mask) | (j & mask) << 21 | (k & mask) << 42;
+  }
+
+  Rows points_;
+  double cell_;
+  double low_[3] = {1e300, 1e300, 1e300}, high_[3] = {-1e300, -1e300, -1e300};
+  std::unordered_map<long, std::vector<int>> cells_;
+};
+
+/// Largest squared distance of a surface's nodes from where they were, and largest squared speed, in blocks.
+struct SurfaceMotion {
+  static constexpr int block = 16;
+  Array<const double*[3]> position, velocity;
+  Array<const int*> nodes;
+  Array<const double* [3]> before;
+  Array<double* [2]> largest;
+  int first_block;
+
+  /// A NaN counts as far: kept as NaN it would be lost at the next comparison.
+  KOKKOS_INLINE_FUNCTION static void raise(double& value, double other) {
+    if (!(other <= value)) value = other < 1e300 ? other : 1e300;
+  }
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int b) const {
+    double moved = 0, speed = 0;
+    const int count = static_cast<int>(nodes.extent(0)), end = (b + 1) * block < count ? (b + 1) * block : count;
+    for (int i = b * block; i < end; ++i) {
+      const Vector3 way = row(position, nodes(i)) - row(before, i), v = row(velocity, nodes(i));
+      raise(moved, dot(way, way));
+      raise(speed, dot(v, v));
+    }
+    largest(first_block + b, 0) = moved;
+    largest(first_block + b, 1) = speed;
+  }
+};
+
+struct Motion {
+  double moved = 0;  ///< m, at most of the slave's nodes and of the master's, added
+  double speed = 0;  ///< m/s, the same
+};
+
+/// The only place where the host waits for the device.
+Motion measure(const Model& model, const ContactPair& pair) {
+  const auto blocks = [](const Array<int*>& nodes) {
+    return static_cast<int>((nodes.extent(0) + SurfaceMotion::block - 1) / SurfaceMotion::block);
+  };
+  const ContactArrays& contact = pair.arrays;
+  const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
+  const auto largest = unset_array<double* [2]>("largest motion", slave_blocks + master_blocks);
+  const NodeArrays& nodes = model.nodes;
+  Kokkos::parallel_for(
+      "slave_motion", Range(0, slave_blocks),
+      SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
+  Kokkos::parallel_for("master_motion", Range(0, master_blocks),
+                       SurfaceMotion{nodes.position, nodes.velocity, contact.master_nodes, pair.masters_at_layout,
+                                     largest, slave_blocks});
+  const auto host = to_host(largest);
+  Motion motion;
+  for (const auto& [begin, end] : {std::pair{0, slave_blocks}, std::pair{slave_blocks, slave_blocks + master_blocks}}) {
+    double moved = 0, speed = 0;
+    for (int b = begin; b < end; ++b) {
+      moved = std::max(moved, host(b, 0));
+      speed = std::max(speed, host(b, 1));
+    }
+    motion.moved += std::sqrt(moved);
+    motion.speed += std::sqrt(speed);
+  }
+  return motion;
+}
+
+/// A node that leaves the window is apart, and its arrays must say so; one that enters needs a place to begin at.
+struct EnterOrLeave {
+  ContactArrays contact;
+  Array<const int*> inside, nearest;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    if (inside(s) != 0) {
+      if (contact.tracked(s) < 0) {
+        contact.tracked(s) = contact.segment_of_node(contact.first_segment(nearest(s)));
+        contact.place(s, 0) = contact.place(s, 1) = 0;
+      }
+      return;
+    }
+    contact.tracked(s) = -1;
+    contact.status(s) = status_apart;
+    contact.gap(s) = beside_surface;
+    contact.entry_depth(s) = 0;
+    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = contact.tangential_force(s, k) = 0;
+  }
+};
+
+void lay_out_window(Model& model, ContactPair& pair, double margin) {
+  const ContactArrays& contact = pair.arrays;
+  pair.slaves_at_layout = rows_of(model.nodes.position, contact.slave_nodes);
+  pair.masters_at_layout = rows_of(model.nodes.position, contact.master_nodes);
+  const Rows slaves = to_host(pair.slaves_at_layout), masters = to_host(pair.masters_at_layout);
+
+  // A slave's projection lies on a segment whose corners are at most a diagonal away from it.
+  const double reach = pair.segment_size + 2 * margin;
+  const CellGrid grid(masters, reach);
+
+  std::vector<WindowEntry> entries;
+  std::vector<int> near(contact.slave_count, 1);
+  const auto before = to_host(pair.window.entries);
+  for (int i = 0; i < pair.window.count; ++i) near[before(i).slave] = before(i).near;
+  const auto tracked = to_host(contact.tracked);
+  std::vector<int> nearest(contact.slave_count, 0), inside(contact.slave_count, 0);
+  for (int s = 0; s < contact.slave_count; ++s) {
+    if (pair.on_both[s] != 0) continue;
+    // A node that is tracked already needs no place to begin at.
+    const int found = grid.near({slaves(s, 0), slaves(s, 1), slaves(s, 2)}, tracked(s) >= 0);
+    if (found < 0) continue;
+    entries.push_back({s, pair.slave_nodes[s], near[s], 0});
+    nearest[s] = found;
+    inside[s] = 1;
+  }
+  pair.window.count = static_cast<int>(entries.size());
+  pair.window.entries = to_device("window", entries);
+  pair.window.near = unset_array<int*>("near nodes", entries.size());
+  pair.window.near_count = Array<int*>("number of near nodes", 1);
+  Kokkos::parallel_for("enter_or_leave", Range(0, contact.slave_count),
+                       EnterOrLeave{contact, to_device("inside window", inside), to_device("nearest", nearest)});
+}
+
+/// Whether the window was laid out anew.
+bool renew_window(Model& model, ContactPair& pair, double step, double sudden) {
+  // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
+  // more than two margins from touching.
+  const double margin = margin_in_segments * pair.segment_size;
+  ++pair.looks;
+  const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
+  if (!laid_out) lay_out_window(model, pair, margin);
+  Motion motion = measure(model, pair);
+  const auto steps_left = [&] { return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden); };
+  bool anew = !laid_out;
+  if (laid_out && steps_left() < least_steps_between_looks && motion.moved < 1e100) {
+    lay_out_window(model, pair, margin);
+    motion.moved = 0;
+    anew = true;
+  }
+  if (anew) ++pair.layouts;
+  pair.next_look = model.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_looks)));
+  return anew;
+}
+
+/// m in a step.
+double sudden_motion(const Model& model, const ContactPair& pair, double step, StepKind kind) {
+  // Settling scales masses such that a wave travels a share of each element in a step.
+  if (kind == StepKind::settling) return sudden_share * pair.segment_size;
+  double fastest = 0;
+  for (const scene::Material& material : model.scene.materials)
+    fastest = std::max(fastest, material.dilatational_speed());
+  return sudden_share * fastest * step;
+}
+
+}  // namespace
+
+void keep_window(Model& model, ContactPair& pair, double step, StepKind kind) {
+  const bool settling = kind == StepKind::settling;
+  const bool look = model.step >= pair.next_look;
+  const bool near_look = look || model.step >= pair.next_near_look;
+  if (!near_look && pair.boxed) return;
+  const double sudden = sudden_motion(model, pair, step, kind);
+  const long steps = settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
+  const bool first = pair.layouts == 0 || settling;
+  const bool laid_out = look && renew_window(model, pair, step, sudden);
+  const ContactSearch search{{pair.arrays, model.nodes.position}};
+  lay_boxes(search, model.nodes.velocity, interval, sudden_until_then);
+  pair.boxed = true;
+  // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
+  if (!near_look) return;
+  pair.next_near_look = model.step + steps;
+  Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
+  apart_parallel_for("contact_look", pair.window.count,
+                     ContactLook{search, pair.window, model.nodes.velocity, interval, sudden_until_then, first,
+                                 first || laid_out, pair.missed});
+}
+
+FirstTouch first_touch(const Model& model, double elapsed) {
+  return {{model.nodes.velocity, elapsed}, static_cast<double>(1L << (model.subcycling.levels - 1))};
+}
+
+std::vector<std::string> late_contacts(const Model& model) {
+  std::vector<std::string> lines;
+  for (const ContactPair& pair : model.contacts) {
+    const auto gaps = to_vector(pair.arrays.gap);
+    if (const auto inside = std::count(gaps.begin(), gaps.end(), turned_away); inside > 0)
+      lines.push_back(fmt::format(
+          "contact {}: {} nodes of {} are inside the other body at the end and do not touch, for they came in "
+          "beside its surface {}, not through it; name the faces that they came through in the contact too, "
+          "as a list of masters",
+          pair.contact->name, inside, pair.reversed ? pair.contact->master.text() : pair.contact->slave,
+          pair.reversed ? pair.contact->slave : pair.contact->master.text()));
+    if (const int late = to_host(pair.missed)(0); late > 0)
+      lines.push_back(fmt::format(
+          "contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
+          "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
+          pair.contact->name, late, steps_between_near_looks));
+  }
+  return lines;
+}
+
+}  // namespace railwave

@@ -1,0 +1,108 @@
+#include "kernels/nodes/listed_nodes.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
+#include "model/elements/carriers.hpp"
+#include "model/elements/patch_launch.hpp"
+#include "solve/tasks.hpp"
+#include "solve/tasks/beam_forces.hpp"
+#include "solve/tasks/contributions.hpp"
+#include "solve/tasks/element_forces.hpp"
+
+namespace railwave {
+
+NodeAdvance node_advance(const Model& model, double step) {
+  const Vec3& g = model.scene.gravity;
+  return {model.nodes, {{g[0], g[1], g[2]}}, model.velocity_lag + 0.5 * step, step};
+}
+
+namespace {
+
+/// With subcycling: the nodes whose own step begins now.
+Task paced_task(const Model& model, bool listed) {
+  return {"nodes in phase", "f to j", [&model, listed](const Instant& instant) {
+            const int phase = model.subcycling.phase(model.step);
+            PacedNodeUpdate update{model.paced_acceleration(), node_advance(model, instant.step), {}};
+            update.acceleration.phase = phase;
+            if (listed) update.listed = model.listed_nodes;
+            const int count = listed ? model.subcycling.listed_end[phase] : model.nodes.count;
+            if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
+          }};
+}
+
+/// Nodes in single precision that belong to one patch alone.
+Task carried_patches_task(const Model& model) {
+  return {"inner nodes of the elements' patches", "f to j", [&model](const Instant& instant) {
+            for (const ElementGroup& group : model.elements)
+              launch_patches(group.patches,
+                             CarriedPatchUpdate{group.patches, carried_advance(model, group.carried, instant.step),
+                                                model.partial.narrow, group.first_partial});
+          }};
+}
+
+/// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
+Task carried_listed_task(const Model& model, bool rows_are_due) {
+  return {"nodes that patches share", "f to j", [&model, rows_are_due](const Instant& instant) {
+            Kokkos::parallel_for(
+                "listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
+                CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.listed_nodes,
+                                    model.carried.listed_arm, row_loads(model, instant.elapsed), rows_are_due});
+          }};
+}
+
+Task listed_task(const Model& model, bool rows_are_due) {
+  return {"nodes that patches share", "f to j", [&model, rows_are_due](const Instant& instant) {
+            Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
+                                 ListedNodeUpdate{model.acceleration(), node_advance(model, instant.step),
+                                                  model.listed_nodes, row_loads(model, instant.elapsed), rows_are_due});
+          }};
+}
+
+Task node_task(const Model& model) {
+  return {"nodes", "f to j", [&model](const Instant& instant) {
+            Kokkos::parallel_for("node_update", Range(0, model.nodes.count),
+                                 NodeUpdate{model.acceleration(), node_advance(model, instant.step)});
+          }};
+}
+
+Task prescribed_task(const Model& model, const PrescribedSet& set) {
+  return {"prescribed motion of " + set.motion->target, "g", [&model, &set](const Instant& instant) {
+            Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))),
+                                 prescribed_motion(model, set, instant.step));
+          }};
+}
+
+}  // namespace
+
+Task tied_nodes_task(Model& model, StepKind kind) {
+  const bool carried = model.carried.active() && kind != StepKind::settling;
+  return {"tied nodes", "g", [&model, carried](const Instant& instant) {
+            const TieFollow follow{model.ties.arrays, model.nodes, instant.step};
+            const SpreadRange slaves(0, model.ties.arrays.slave_count);
+            if (carried)
+              Kokkos::parallel_for(
+                  "ties", slaves,
+                  CarriedTieFollow{follow, carried_advance(model, {}, instant.step).nodes, model.ties.carrier});
+            else
+              Kokkos::parallel_for("ties", slaves, follow);
+          }};
+}
+
+std::vector<Task> motion_tasks(Model& model, StepKind kind) {
+  const bool inner_have_moved = kind == StepKind::advancing, rows_are_due = sets_go_along(model, kind);
+  std::vector<Task> tasks;
+  for (const PrescribedSet& set : model.prescribed) tasks.push_back(prescribed_task(model, set));
+  if (model.beams)
+    tasks.push_back(
+        {"rotations of beams", "f to j", [&model](const Instant& instant) { advance_rotations(model, instant.step); }});
+  if (model.subcycling.levels > 1) {
+    tasks.push_back(paced_task(model, inner_have_moved));
+  } else if (model.carried.active()) {
+    if (!inner_have_moved) tasks.push_back(carried_patches_task(model));
+    tasks.push_back(carried_listed_task(model, rows_are_due));
+  } else {
+    tasks.push_back(inner_have_moved ? listed_task(model, rows_are_due) : node_task(model));
+  }
+  if (model.ties.arrays.active()) tasks.push_back(tied_nodes_task(model, kind));
+  return tasks;
+}
+
+}  // namespace railwave

@@ -148,7 +148,7 @@ struct ContactForce {
     Vector3 trial = held - stiffness * moved;
     // The force carried over lies in last step's tangent plane; what has turned out of the present one is dropped.
     trial = trial - dot(trial, now.normal) * now.normal;
-    const double size = norm(trial), bound = law.friction(search, s, moved) * pressing;
+    const double size = norm(trial), bound = law.friction(search, s, moved) * std::fmax(0.0, pressing);
     status = size > bound ? status_slips : status_sticks;
     if (size > bound) trial = (bound / size) * trial;
     contact.friction_energy(s) -=

@@ -15,8 +15,11 @@ enum class ArrayUse {
   constant,       ///< made with the model
   run_state,      ///< what the rest of a run depends on: zero at the start, kept by checkpoints
   settled_state,  ///< of that, what a settled scene is told by: kept with it besides
-  scratch         ///< made anew before it is read
+  trial_state,  ///< of that, what each evaluation of forces changes: a trial of settling that is not taken is put back
+  scratch       ///< made anew before it is read
 };
+
+inline bool is_settled_state(ArrayUse use) { return use == ArrayUse::settled_state || use == ArrayUse::trial_state; }
 
 /// How it lies.
 struct ArrayShape {
@@ -75,7 +78,7 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
 
   MaterialArrays& material = group.material;
   visit(ArrayUse::constant, "material_constants", material.constants);
-  visit(ArrayUse::settled_state, "material_history", material.history, {material.history_values});
+  visit(ArrayUse::trial_state, "material_history", material.history, {material.history_values});
   visit(ArrayUse::constant, "reference_volume", material.volume);
 
   visit(ArrayUse::constant, "damping_constants", group.damping.constants);
@@ -223,17 +226,17 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::scratch, "box_leaf", contact.boxes.leaf);
   visit(ArrayUse::scratch, "box_branch", contact.boxes.branch);
   visit(ArrayUse::scratch, "box_normal", contact.boxes.normal);
-  visit(ArrayUse::settled_state, "tracked", contact.tracked);
-  visit(ArrayUse::settled_state, "place", contact.place);
-  visit(ArrayUse::settled_state, "status", contact.status);
-  visit(ArrayUse::settled_state, "gap", contact.gap);
+  visit(ArrayUse::trial_state, "tracked", contact.tracked);
+  visit(ArrayUse::trial_state, "place", contact.place);
+  visit(ArrayUse::trial_state, "status", contact.status);
+  visit(ArrayUse::trial_state, "gap", contact.gap);
   visit(ArrayUse::run_state, "entry_depth", contact.entry_depth);
-  visit(ArrayUse::settled_state, "normal_force", contact.normal_force);
-  visit(ArrayUse::settled_state, "tangential_force", contact.tangential_force);
+  visit(ArrayUse::trial_state, "normal_force", contact.normal_force);
+  visit(ArrayUse::trial_state, "tangential_force", contact.tangential_force);
   visit(ArrayUse::run_state, "friction_energy", contact.friction_energy);
 
   visit(ArrayUse::constant, "penalty_growth", pair.law.growth);
-  visit(ArrayUse::run_state, "law_state", pair.law.state);
+  visit(ArrayUse::trial_state, "law_state", pair.law.state);
 
   visit(ArrayUse::run_state, "multiplier_rows", pair.multipliers.rows);
   visit(ArrayUse::run_state, "multiplier_crowd", pair.multipliers.crowd);

@@ -102,7 +102,7 @@ class StateArrays {
 
   template <class View>
   void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape shape) {
-    if (use != ArrayUse::settled_state && (settled_only_ || use != ArrayUse::run_state)) return;
+    if (!is_settled_state(use) && (settled_only_ || use != ArrayUse::run_state)) return;
     if (settled_only_ && view.size() == 0) return;
     if constexpr (View::rank > 2 || std::is_const_v<typename View::value_type>) {
       throw std::logic_error(name + " is no array of a kind that states hold");

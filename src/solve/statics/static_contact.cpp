@@ -7,6 +7,7 @@
 #include "kernels/contact/laws/augmented_penalty.hpp"
 #include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
+#include "model/visit_arrays.hpp"
 #include "solve/tasks.hpp"
 #include "solve/tasks/contact_window.hpp"
 #include "solve/tasks/contributions.hpp"
@@ -21,43 +22,31 @@ constexpr double stiffening = 4;
 /// friction alone.
 constexpr double slipping_share = 0.1;
 
-template <class View>
-void copy(const View& to, const View& from) {
-  if (from.span() > 0) Kokkos::deep_copy(to, from);
-}
+/// Copies what trials change, array by array, to a place of its own or back from it.
+class CopyTrialState {
+ public:
+  CopyTrialState(std::vector<Array<unsigned char*>>& kept, bool back) : kept_(kept), back_(back) {}
 
-template <class View>
-View like(const View& view) {
-  View copied = Kokkos::create_mirror(MemorySpace(), view);
-  return copied;
-}
+  template <class View>
+  void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape /*shape*/) {
+    if (use != ArrayUse::trial_state || view.span() == 0) return;
+    using Bytes = Kokkos::View<unsigned char*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+    using Value = std::remove_const_t<typename View::value_type>;
+    const Bytes bytes(reinterpret_cast<unsigned char*>(const_cast<Value*>(view.data())), view.span() * sizeof(Value));
+    if (visited_ == kept_.size()) kept_.emplace_back("kept " + name, bytes.size());
+    const Bytes own(kept_[visited_].data(), kept_[visited_].size());
+    ++visited_;
+    if (back_)
+      Kokkos::deep_copy(bytes, own);
+    else
+      Kokkos::deep_copy(own, bytes);
+  }
 
-ContactArrays state_like(const ContactArrays& contact) {
-  ContactArrays result;
-  result.tracked = like(contact.tracked);
-  result.place = like(contact.place);
-  result.status = like(contact.status);
-  result.gap = like(contact.gap);
-  result.normal_force = like(contact.normal_force);
-  result.tangential_force = like(contact.tangential_force);
-  return result;
-}
-
-void copy_state(const ContactArrays& to, const ContactArrays& from) {
-  copy(to.tracked, from.tracked);
-  copy(to.place, from.place);
-  copy(to.status, from.status);
-  copy(to.gap, from.gap);
-  copy(to.normal_force, from.normal_force);
-  copy(to.tangential_force, from.tangential_force);
-}
-
-/// What trials make flow, group by group.
-std::vector<Array<double*>> plastic_state(const Model& model) {
-  std::vector<Array<double*>> state;
-  for (const ElementGroup& group : model.elements) state.push_back(group.material.history);
-  return state;
-}
+ private:
+  std::vector<Array<unsigned char*>>& kept_;
+  bool back_;
+  std::size_t visited_ = 0;
+};
 
 /// N, of each slave node.
 std::vector<double> pressing_forces(const ContactPair& pair) {
@@ -158,10 +147,10 @@ void press_pair(const Model& model, const ContactPair& pair, const Array<double*
 
 StaticContact::StaticContact(Model& model) : model_(model) {
   for (const ContactPair& pair : model.contacts) {
-    Kept& kept = kept_.emplace_back(Kept{state_like(pair.arrays), like(pair.law.state), {}});
+    Array<double*>& multiplier = multiplier_.emplace_back();
     if (!pair.has_springs()) {
       augmented_ = true;
-      kept.multiplier = to_device("multipliers", pressing_forces(pair));
+      multiplier = to_device("multipliers", pressing_forces(pair));
     }
     for (const auto& segment : pair.master_segments)
       for (int k : {0, 1}) {
@@ -170,39 +159,31 @@ StaticContact::StaticContact(Model& model) : model_(model) {
         smallest_segment_ = std::min(smallest_segment_, length(difference(a, b)));
       }
   }
-  for (const Array<double*>& flowed : plastic_state(model)) plastic_.push_back(like(flowed));
 }
 
 void StaticContact::keep() {
-  for (std::size_t p = 0; p < kept_.size(); ++p) {
-    copy_state(kept_[p].contact, model_.contacts[p].arrays);
-    copy(kept_[p].law_state, model_.contacts[p].law.state);
-  }
-  const auto plastic = plastic_state(model_);
-  for (std::size_t i = 0; i < plastic_.size(); ++i) copy(plastic_[i], plastic[i]);
+  CopyTrialState copy(kept_, false);
+  visit_model_arrays(copy, model_);
 }
 
 void StaticContact::restore() {
-  for (std::size_t p = 0; p < kept_.size(); ++p) {
-    ContactPair& pair = model_.contacts[p];
-    copy_state(pair.arrays, kept_[p].contact);
-    copy(pair.law.state, kept_[p].law_state);
+  CopyTrialState copy(kept_, true);
+  visit_model_arrays(copy, model_);
+  for (ContactPair& pair : model_.contacts) {
     pair.next_look = pair.next_near_look = -1;
     pair.slaves_at_layout = {};
   }
-  const auto plastic = plastic_state(model_);
-  for (std::size_t i = 0; i < plastic_.size(); ++i) copy(plastic[i], plastic_[i]);
 }
 
 void StaticContact::press() {
-  for (std::size_t p = 0; p < kept_.size(); ++p) {
+  for (std::size_t p = 0; p < multiplier_.size(); ++p) {
     ContactPair& pair = model_.contacts[p];
     if (pair.has_springs()) continue;
     keep_window(model_, pair, 1, StepKind::settling);
     if (pair.contact->normals == scene::ContactNormals::smooth)
-      press_pair<SmoothNormalsOfMultipliers>(model_, pair, kept_[p].multiplier);
+      press_pair<SmoothNormalsOfMultipliers>(model_, pair, multiplier_[p]);
     else
-      press_pair<FacetNormals>(model_, pair, kept_[p].multiplier);
+      press_pair<FacetNormals>(model_, pair, multiplier_[p]);
   }
 }
 
@@ -255,14 +236,14 @@ void StaticContact::add_springs(SpringCollector& springs) const {
 
 double StaticContact::renew_multipliers() {
   double change = 0, largest = 0;
-  for (std::size_t p = 0; p < kept_.size(); ++p) {
+  for (std::size_t p = 0; p < multiplier_.size(); ++p) {
     if (model_.contacts[p].has_springs()) continue;
-    const auto before = to_vector(kept_[p].multiplier), now = pressing_forces(model_.contacts[p]);
+    const auto before = to_vector(multiplier_[p]), now = pressing_forces(model_.contacts[p]);
     for (std::size_t s = 0; s < now.size(); ++s) {
       change = std::max(change, std::fabs(now[s] - before[s]));
       largest = std::max(largest, now[s]);
     }
-    kept_[p].multiplier = to_device("multipliers", now);
+    multiplier_[p] = to_device("multipliers", now);
   }
   return largest > 0 ? change / largest : 0;
 }

@@ -32,16 +32,11 @@ class StaticContact {
   double renew_multipliers();
 
  private:
-  struct Kept {
-    ContactArrays contact;
-    Array<double*> law_state, multiplier;
-  };
-
   Model& model_;
   bool augmented_ = false;
   double smallest_segment_ = 1e300;
-  std::vector<Kept> kept_;               ///< by pair
-  std::vector<Array<double*>> plastic_;  ///< see plastic_state
+  std::vector<Array<unsigned char*>> kept_;  ///< what trials change
+  std::vector<Array<double*>> multiplier_;   ///< N, by pair and slave node; empty with springs
 };
 
 }  // namespace railwave

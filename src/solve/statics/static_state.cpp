@@ -13,7 +13,7 @@ class Suits {
 
   template <class View>
   void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape /*shape*/) {
-    if (use != ArrayUse::settled_state || view.size() == 0) return;
+    if (!is_settled_state(use) || view.size() == 0) return;
     ++visited_;
     suits_ = suits_ && state_.has(name) && state_.of(name).size() == view.size() * sizeof(typename View::value_type);
   }

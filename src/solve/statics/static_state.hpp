@@ -13,7 +13,7 @@ struct StaticState {
   bool settled = false;
   double unbalance = 0;
   int steps = 0, iterations = 0;  ///< it took, see SettleReport
-  RunState arrays;                ///< those that visit_model_arrays() calls settled_state
+  RunState arrays;                ///< those for which is_settled_state()
 };
 
 StaticState take_static_state(Model& model);

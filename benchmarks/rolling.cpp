@@ -159,7 +159,7 @@ int main(int argc, char** argv) {
         app.add_option("--precision", options.precision, "double, mixed or float");
         app.add_option("--overlap", options.overlap, "m by which the wheel is pressed into the rail at the start");
         app.add_option("--settle-steps", options.settle_steps,
-                       "steps of relaxation after that, so that the patch is about as large as under the load");
+                       "steps of relaxation after that, so that the block is about as large as under the load");
         app.add_flag("--settle", options.settle, "settle wholly, as the case does, instead");
         app.add_flag("!--no-block", options.block, "leave out the block of as many elements");
         app.add_option("--set", options.overrides, "section.key=value in place of what the case says; may be repeated")

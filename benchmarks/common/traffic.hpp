@@ -10,8 +10,8 @@ double bytes_of(const View& view) {
 }
 
 /// Bytes that one step of the model's element and node kernels must move between memory and processor when every array
-/// that a kernel reads comes in once and every array it writes goes out once: node data that several patches read
-/// count once a kernel (an ideal cache), what a write fetches first does not count. Patches advance the nodes that are
+/// that a kernel reads comes in once and every array it writes goes out once: node data that several blocks read
+/// count once a kernel (an ideal cache), what a write fetches first does not count. Blocks advance the nodes that are
 /// theirs alone; the others' partial forces go out and come in again. Loads and contact are left out.
 inline double step_traffic(const Model& model) {
   const NodeArrays& n = model.nodes;
@@ -19,7 +19,7 @@ inline double step_traffic(const Model& model) {
   double bytes = carried ? bytes_of(model.carried.node) : bytes_of(n.position) + bytes_of(n.reference);
   bool velocities = false;
   for (const ElementGroup& group : model.elements) {
-    const PatchArrays& p = group.patches;
+    const ElementBlocks& p = group.blocks;
     bytes += bytes_of(p.element_count) + bytes_of(p.node_count) + bytes_of(p.material) + bytes_of(p.node) +
              bytes_of(p.frame) + bytes_of(p.corner) + bytes_of(p.first_place) + bytes_of(p.place) +
              bytes_of(p.hourglass_scale);
@@ -30,16 +30,16 @@ inline double step_traffic(const Model& model) {
     }
   }
   if (velocities && !carried) bytes += bytes_of(n.velocity);
-  const double nodes = n.count, listed = static_cast<double>(model.listed_nodes.extent(0)), alone = nodes - listed;
+  const double nodes = n.count, listed = static_cast<double>(model.shared_nodes.extent(0)), alone = nodes - listed;
   const double rows = static_cast<double>(n.partial_place.extent(0)), listed_rows = rows - alone;
-  const double row_bytes = (bytes_of(model.partial.wide) + bytes_of(model.partial.narrow)) / rows;
+  const double row_bytes = (bytes_of(model.partial.in_double) + bytes_of(model.partial.in_single)) / rows;
   const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;
   bytes += listed_rows * 2 * row_bytes;  // partial forces out and in
   if (carried)
     return bytes + alone * sizeof(CarriedNode) +
-           listed * (2 * sizeof(CarriedNode) + sizeof(ListedNode) + sizeof(CarriedArm));
+           listed * (2 * sizeof(CarriedNode) + sizeof(SharedNode) + sizeof(CarriedArm));
   bytes += alone * (state + mass);  // velocities and positions are written, the mass read
-  bytes += listed * (2 * state + mass + sizeof(ListedNode));
+  bytes += listed * (2 * state + mass + sizeof(SharedNode));
   return bytes;
 }
 

@@ -56,7 +56,7 @@ struct CurvedReaction : MasterReaction {
   }
 };
 
-/// Step (d) of the thesis's table 2.1 for one slave node: locate, project, penetrate, push, rub.
+/// Step (d) of the thesis's table 2.1 for one slave node: locate, project, penetration, normal force, friction.
 /// Normal: penalty f = -l k n (eq. 2.26). Tangential: Coulomb with the stick trial f* = f_T - k de (eqs. 2.28), de the
 /// movement of the contact point over the master since the last step. Without friction the tangential part is absent.
 /// The force goes to the slave's node and, by the shape functions, to the segment's (eq. 2.27); of curved segments by
@@ -108,15 +108,16 @@ struct ContactForce {
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
     if constexpr (Friction) {
-      const Vector3 tangential = rub(s, entry.node, slave, previous, place, now, stiffness, pressing, status);
+      const Vector3 tangential =
+          friction_force(s, entry.node, slave, previous, place, now, stiffness, pressing, status);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
       force = force + tangential;
     }
     contact.status(s) = status;
     if constexpr (Normals::curved)
-      push_curved(entry.node, now, force);
+      scatter_curved(entry.node, now, force);
     else
-      push(entry.node, contact.surface(now.segment), now, force);
+      scatter(entry.node, contact.surface(now.segment), now, force);
   }
 
   /// What the spring still held is lost, but for what it has worked in the step that ends in no contact.
@@ -136,8 +137,9 @@ struct ContactForce {
     }
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 rub(int s, int node, const Vector3& slave, int previous, const SegmentPlace& place,
-                                     const Projection& now, double stiffness, double pressing, int& status) const {
+  KOKKOS_INLINE_FUNCTION Vector3 friction_force(int s, int node, const Vector3& slave, int previous,
+                                                const SegmentPlace& place, const Projection& now, double stiffness,
+                                                double pressing, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
@@ -158,8 +160,8 @@ struct ContactForce {
 
   /// Equal and opposite to the last bit: the last corner takes what the others leave. The rows are fetched before the
   /// first addition, for no load moves past an atomic operation and each would wait for memory by itself.
-  KOKKOS_INLINE_FUNCTION void push(int node, const Segment& segment, const Projection& now,
-                                   const Vector3& force) const {
+  KOKKOS_INLINE_FUNCTION void scatter(int node, const Segment& segment, const Projection& now,
+                                      const Vector3& force) const {
     const int slave_row = extra_row(node);
     int master_row[4];
     bool at_mouth = false;
@@ -183,7 +185,7 @@ struct ContactForce {
   }
 
   /// The same on a curved master, where nodes around the segment feel the force too.
-  KOKKOS_INLINE_FUNCTION void push_curved(int node, const Projection& now, const Vector3& force) const {
+  KOKKOS_INLINE_FUNCTION void scatter_curved(int node, const Projection& now, const Vector3& force) const {
     const Segment segment = search.contact.surface(now.segment);
     extra.add(extra_row(node), extra.fixed(extra.in_quanta(force)));
     Normals::reaction(search, now.segment, now.place, force,

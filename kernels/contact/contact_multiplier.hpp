@@ -29,12 +29,12 @@ struct FreeMotion {
   }
 };
 
-/// Phases of finding multipliers, over the nodes that can touch: Begin; Foresee, by each of a multiplier's nodes; Push;
-/// then for every sweep Correct and Push, in the last one Finish instead.
+/// Phases of finding multipliers, over the nodes that can touch: Begin; Predict, by each of a multiplier's nodes;
+/// Scatter; then for every sweep Correct and Scatter, in the last one Finish instead.
 struct Multiplier {
   struct Begin {};
-  struct Foresee {};
-  struct Push {};
+  struct Predict {};
+  struct Scatter {};
   struct Correct {};
   struct Finish {};
 };
@@ -56,7 +56,7 @@ struct ContactMultiplier {
   MultiplierArrays multipliers;
   FirstTouch first_touch;
 
-  static constexpr double crowd_quantum = 1.0 / (1ull << 40);
+  static constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
   /// a hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
@@ -66,9 +66,9 @@ struct ContactMultiplier {
     if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Foresee& /*phase*/, const int i) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Predict& /*phase*/, const int i) const {
     const int most = multipliers.most_nodes;
-    if (i < most * window.near_count(0)) foresee(window.entries(window.near(i / most)).slave, i % most);
+    if (i < most * window.near_count(0)) predict(window.entries(window.near(i / most)).slave, i % most);
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
@@ -142,26 +142,26 @@ struct ContactMultiplier {
     r.master[r.count] = master;
     r.weight[r.count] = weight;
     ++r.count;
-    Kokkos::atomic_add(&multipliers.crowd(master), crowd_share(weight));
+    Kokkos::atomic_add(&multipliers.multiplicity(master), multiplicity_share(weight));
   }
 
   /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its
   /// own.
-  KOKKOS_INLINE_FUNCTION void foresee(const int s, const int k) const {
+  KOKKOS_INLINE_FUNCTION void predict(const int s, const int k) const {
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0 || k >= r.count) return;
     r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
     r.compliances[k] = free_motion.compliance(r.node[k]);
-    r.foreseen[k] = free_motion(r.node[k]) - movement(r, k);
+    r.predicted[k] = free_motion(r.node[k]) - movement(r, k);
   }
 
   /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes
   /// what the others leave.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near) const {
-    push(multipliers.rows(near.slave));
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Scatter& /*phase*/, const WindowEntry& near) const {
+    scatter(multipliers.rows(near.slave));
   }
 
-  KOKKOS_INLINE_FUNCTION void push(const MultiplierRow& r) const {
+  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r) const {
     if (r.active == 0) return;
     const Vector3 quanta = extra.in_quanta(r.pending);
     const FixedForce whole = extra.fixed(quanta);
@@ -180,11 +180,11 @@ struct ContactMultiplier {
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0) return;
     if (r.compliance == 0) {
-      for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.foreseen[k];
+      for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.predicted[k];
       r.compliance = r.compliances[0];
       for (int k = 1; k < r.count; ++k)
-        r.compliance -=
-            r.weight[k] * r.compliances[k] * crowd_quantum * static_cast<double>(multipliers.crowd(r.master[k]));
+        r.compliance -= r.weight[k] * r.compliances[k] * multiplicity_quantum *
+                        static_cast<double>(multipliers.multiplicity(r.master[k]));
     }
     Vector3 moves = r.free;
     for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
@@ -210,10 +210,10 @@ struct ContactMultiplier {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const MultiplierRow& r = multipliers.rows(s);
-    push(r);
+    scatter(r);
     if (r.active != 0)
       for (int k = 1; k < r.count; ++k)
-        Kokkos::atomic_add(&multipliers.crowd(r.master[k]), std::uint64_t{0} - crowd_share(r.weight[k]));
+        Kokkos::atomic_add(&multipliers.multiplicity(r.master[k]), std::uint64_t{0} - multiplicity_share(r.weight[k]));
     if constexpr (Normals::curved) {
       const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
       if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
@@ -244,8 +244,8 @@ struct ContactMultiplier {
     return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * extra.contact_force(r.row[k]));
   }
 
-  KOKKOS_INLINE_FUNCTION static std::uint64_t crowd_share(double weight) {
-    return static_cast<std::uint64_t>(-weight / crowd_quantum);
+  KOKKOS_INLINE_FUNCTION static std::uint64_t multiplicity_share(double weight) {
+    return static_cast<std::uint64_t>(-weight / multiplicity_quantum);
   }
 };
 

@@ -14,12 +14,12 @@ inline constexpr int most_nodes_of_multiplier = 1 + 4 * 3;  ///< where all corne
 struct alignas(16) MultiplierRow {
   Vector3 normal;
   Vector3 free;  ///< m, movement of the slave over the master's material in the step without this contact's forces
-  Vector3 foreseen[most_nodes_of_multiplier];  ///< m, movements of the single nodes
-  Vector3 force;                               ///< N on the slave, so far
-  Vector3 pending;                             ///< N, what has still to be handed to the nodes
-  Vector3 moved;                               ///< m, over the master's material since the step before
-  double pressing;                             ///< N, normal part of `force`
-  double gap;                                  ///< m
+  Vector3 predicted[most_nodes_of_multiplier];  ///< m, movements of the single nodes
+  Vector3 force;                                ///< N on the slave, so far
+  Vector3 pending;                              ///< N, what has still to be handed to the nodes
+  Vector3 moved;                                ///< m, over the master's material since the step before
+  double pressing;                              ///< N, normal part of `force`
+  double gap;                                   ///< m
   double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master; 0: not
                       ///< known yet
   int count;          ///< of nodes
@@ -34,8 +34,9 @@ struct alignas(16) MultiplierRow {
 
 /// What a contact pair has besides where its forces are multipliers; empty otherwise.
 struct MultiplierArrays {
-  Array<MultiplierRow*> rows;   ///< by slave
-  Array<std::uint64_t*> crowd;  ///< by master: shape functions of the active slaves, in quanta; zero between steps
+  Array<MultiplierRow*> rows;  ///< by slave
+  Array<std::uint64_t*>
+      multiplicity;  ///< by master: shape functions of the active slaves, in quanta; zero between steps
   Array<double* [3]> way_since_stuck;    ///< m, by slave
   int most_nodes = nodes_of_multiplier;  ///< of a row
   Array<double*> impact_energy;          ///< J, by slave: what normal forces have taken out of the bodies so far

@@ -13,11 +13,11 @@ struct DampingConstants {
 
 /// What groups of damped elements have besides; empty for others.
 struct DampingArrays {
-  Array<DampingConstants*> constants;  ///< by the patches' material row
-  Array<double*> node_drag;  ///< kg/s, by place in the patches' lists: mass damping and absorbing layers there, times
-                             ///< the mass that the patch's elements give the node
-  Array<double*> energy;     ///< J dissipated so far, by patch
-  int first_partial = 0;     ///< row of the damping forces on the first patch's first node in the partial forces
+  Array<DampingConstants*> constants;  ///< by the blocks' material row
+  Array<double*> node_drag;  ///< kg/s, by place in the blocks' lists: mass damping and absorbing layers there, times
+                             ///< the mass that the block's elements give the node
+  Array<double*> energy;     ///< J dissipated so far, by block
+  int first_partial = 0;     ///< row of the damping forces on the first block's first node in the partial forces
   bool active() const { return energy.extent(0) > 0; }
 };
 

@@ -4,7 +4,7 @@
 
 #include "kernels/elements/damping_arrays.hpp"
 #include "kernels/elements/element_modes.hpp"
-#include "kernels/nodes/carried_patches.hpp"
+#include "kernels/nodes/carried_blocks.hpp"
 #include "kernels/support/lane_choice.hpp"
 
 namespace railwave {
@@ -15,7 +15,7 @@ KOKKOS_FORCEINLINE_FUNCTION T cube_root(const T& value) {
   return T(cbrt(value));
 }
 
-/// Velocity of a node half a step back, m/s; n is its number, l its place in patch p.
+/// Velocity of a node half a step back, m/s; n is its number, l its place in block p.
 template <class Staged>
 KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& /*staged*/, const NodeArrays& nodes, int /*p*/, int n,
                                                 int /*l*/) {
@@ -37,7 +37,7 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const Carr
   return v;
 }
 
-/// Damping forces of one patch's elements, with the velocities half a step back:
+/// Damping forces of one block's elements, with the velocities half a step back:
 ///   sigma = beta (lambda tr(d) I + 2 mu d) - q I,  d the rate of strain,
 ///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (von Neumann & Richtmyer 1950; Landshoff
 ///   1955),
@@ -46,35 +46,35 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const Carr
 /// stresses, so that damped elements are computed by the same kernels as others. What is dissipated is the forces' work
 /// by the trapezoidal rule, from what the rows still hold of the instant before.
 template <class S, class Nodes>
-struct PatchDamping {
+struct BlockDamping {
   using T = Pack<S>;
   using Staged = StagedNodes<S, true, false, Nodes>;
 
   DampingArrays damping;
-  PatchArrays patches;
+  ElementBlocks blocks;
   Nodes nodes;
   double elapsed;                   ///< s since the forces in the rows; 0: there are none yet
   double share_before;              ///< of the rows' forces to book now: 1, or 0 where BookDamping has done it
   Array<PartialForce<S>*> partial;  ///< N
 
-  static std::size_t scratch_size(const PatchArrays& patches) {
-    return Staged::scratch_size(patches.node_stride) + sizeof(S) * 3u * component_stride + 2 * scratch_alignment;
+  static std::size_t scratch_size(const ElementBlocks& blocks) {
+    return Staged::scratch_size(blocks.node_stride) + sizeof(S) * 3u * component_stride + 2 * scratch_alignment;
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
     const int p = team.league_rank();
-    const Staged staged(team, patches.node_stride);
+    const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
-    staged.bring(team, patches, p, nodes.nodes);
+    staged.bring(team, blocks, p, nodes.nodes);
     if constexpr (!on_device)
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
     team.team_barrier();
-    const DampingConstants constants = damping.constants(patches.material(p));
-    const int batches = (patches.element_count(p) + lane_count<S> - 1) / lane_count<S>;
+    const DampingConstants constants = damping.constants(blocks.material(p));
+    const int batches = (blocks.element_count(p) + lane_count<S> - 1) / lane_count<S>;
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, batches),
                          [&](const int b) { batch_force(p, b, constants, staged, force); });
     team.team_barrier();
-    const int packs = (patches.node_count(p) + lane_count<S> - 1) / lane_count<S>;
+    const int packs = (blocks.node_count(p) + lane_count<S> - 1) / lane_count<S>;
     double dissipated = 0;
     Kokkos::parallel_reduce(
         Kokkos::TeamThreadRange(team, packs), [&](const int k, double& sum) { sum += hand_over(p, k, staged, force); },
@@ -85,8 +85,8 @@ struct PatchDamping {
   /// @param force corner forces with their sign turned, N
   KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const DampingConstants& constants,
                                           const Staged& staged, S* force) const {
-    const BatchCorners<S> corners(patches.corner.data() +
-                                  static_cast<long>(p * (patch_size / lane_count<S>)+b) * 8 * lane_count<S>);
+    const BatchCorners<S> corners(blocks.corner.data() +
+                                  static_cast<long>(p * (elements_of_block / lane_count<S>)+b) * 8 * lane_count<S>);
     T x[3][7], B[3][6], L[3][3];
     for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
     mean_gradient<S>(x, B);
@@ -109,24 +109,24 @@ struct PatchDamping {
       for (int k = 0; k < 6; ++k) m[k] = stress[0] * B[0][k] + stress[1] * B[1][k] + stress[2] * B[2][k];
       m[6] = S(0);
       corners_of(m, f);
-      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * patch_size + b * lane_count<S>, f[N]);
+      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * elements_of_block + b * lane_count<S>, f[N]);
     }
   }
 
   /// Sums the corners at a pack of nodes; returns what they have dissipated since the instant before, J.
   KOKKOS_INLINE_FUNCTION double hand_over(const int p, const int k, const Staged& staged, const S* force) const {
     constexpr int lanes = lane_count<S>;
-    const std::uint16_t* first_place = patches.first_place.data() + static_cast<long>(p) * patches.pack_stride;
-    const std::uint16_t* place = patches.place.data() + static_cast<long>(p) * patches.place_stride;
+    const std::uint16_t* first_place = blocks.first_place.data() + static_cast<long>(p) * blocks.pack_stride;
+    const std::uint16_t* place = blocks.place.data() + static_cast<long>(p) * blocks.place_stride;
     T sum[3] = {S(0), S(0), S(0)};
     for (int c = first_place[k]; c < first_place[k + 1]; c += lanes)
       for (int i = 0; i < 3; ++i) sum[i] -= gather(force + i * component_stride, place + c);
     S lane_sum[3][lanes];
     for (int i = 0; i < 3; ++i) store(lane_sum[i], sum[i]);
     double dissipated = 0;
-    for (int lane = 0; lane < lanes && k * lanes + lane < patches.node_count(p); ++lane) {
-      const int l = k * lanes + lane, at = p * patches.node_stride + l;
-      const Vector3 v = velocity_of(staged, nodes.nodes, p, patches.node(at) & ~advance_bit, l);
+    for (int lane = 0; lane < lanes && k * lanes + lane < blocks.node_count(p); ++lane) {
+      const int l = k * lanes + lane, at = p * blocks.node_stride + l;
+      const Vector3 v = velocity_of(staged, nodes.nodes, p, blocks.node(at) & ~advance_bit, l);
       const double drag = damping.node_drag(at);
       const PartialForce<S> before = partial(damping.first_partial + at);
       PartialForce<S> now{};
@@ -146,17 +146,17 @@ struct PatchDamping {
 template <class S>
 struct BookDamping {
   DampingArrays damping;
-  PatchArrays patches;
+  ElementBlocks blocks;
   Array<const double* [3]> velocity;
   double half_time;                       ///< s, half of what the forces act for
   Array<const PartialForce<S>*> partial;  ///< N
 
   KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
     double work = 0;
-    for (int l = 0; l < patches.node_count(p); ++l) {
-      const int at = p * patches.node_stride + l;
+    for (int l = 0; l < blocks.node_count(p); ++l) {
+      const int at = p * blocks.node_stride + l;
       const PartialForce<S> f = partial(damping.first_partial + at);
-      const Vector3 v = row(velocity, patches.node(at) & ~advance_bit);
+      const Vector3 v = row(velocity, blocks.node(at) & ~advance_bit);
       for (int i = 0; i < 3; ++i) work += static_cast<double>(f.x[i]) * v[i];
     }
     damping.energy(p) -= half_time * work;

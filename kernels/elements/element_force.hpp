@@ -1,58 +1,57 @@
 #pragma once
 
+#include "kernels/elements/element_blocks.hpp"
 #include "kernels/elements/hourglass.hpp"
-#include "kernels/elements/patches.hpp"
 #include "kernels/materials/elastic.hpp"
 
 namespace railwave {
 
-/// Step 1 of the thesis's table 2.1, (b) and (c), for one patch: internal and hourglass forces of its elements, summed
+/// Step 1 of the thesis's table 2.1, (b) and (c), for one block: internal and hourglass forces of its elements, summed
 /// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
 /// which the nodes add up in fixed order (nobody waits for anybody, and a run is bitwise the same on any number of
-/// threads); nodes that are the patch's alone are advanced at once where `Advance` says so.
+/// threads); nodes that are the block's alone are advanced at once where `Advance` says so.
 /// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
 template <class S, class Material, class Hourglass, bool Advance, class Nodes = NodeAdvance>
-struct PatchForce {
+struct ElementForce {
   using T = Pack<S>;
 
   Material material;
-  PatchArrays patches;
+  ElementBlocks blocks;
   Array<const float*> hourglass_scale;
   Nodes nodes;
   double step;                      ///< s, for the dissipated hourglass energy
   Array<PartialForce<S>*> partial;  ///< N
-  int first_partial;                ///< row of the patches' first node
+  int first_partial;                ///< row of the blocks' first node
 
   using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
 
   /// Scratch memory of a team, bytes.
-  static std::size_t scratch_size(const PatchArrays& patches) {
-    return Staged::scratch_size(patches.node_stride) + sizeof(S) * (3u * component_stride + patch_size) +
-           4 * scratch_alignment +
-           (on_device ? sizeof(std::uint16_t) * (patches.pack_stride + patches.place_stride) : 0);
+  static std::size_t scratch_size(const ElementBlocks& blocks) {
+    return Staged::scratch_size(blocks.node_stride) + sizeof(S) * (3u * component_stride + elements_of_block) +
+           4 * scratch_alignment + (on_device ? sizeof(std::uint16_t) * (blocks.pack_stride + blocks.place_stride) : 0);
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
-    const Staged staged(team, patches.node_stride);
+    const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
-    S* power = scratch_values<S>(team, patch_size);
-    const int elements = patches.element_count(p);
-    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes.nodes));
+    S* power = scratch_values<S>(team, elements_of_block);
+    const int elements = blocks.element_count(p);
+    const auto constants = material.template of_block<S>(blocks.material(p), Staged::turn(blocks, p, nodes.nodes));
     const SumLists lists = sum_lists(team, p);
     if constexpr (on_device) {
       // One element a thread; what it needs of its own is asked for before the nodes, so that it comes in meanwhile.
       const int e = team.team_rank();
       const BatchCorners<S> corners = corners_of_batch(p, e);
       const T scale = hourglass_scales(p, e);
-      staged.bring(team, patches, p, nodes.nodes);
+      staged.bring(team, blocks, p, nodes.nodes);
       team.team_barrier();
       if (e < elements) batch_force(p, e, corners, scale, constants, staged, force, power);
       team.team_barrier();
     } else {
-      staged.bring(team, patches, p, nodes.nodes);
+      staged.bring(team, blocks, p, nodes.nodes);
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
       for (int b = 0; b * lane_count<S> < elements; ++b)
         batch_force(p, b, corners_of_batch(p, b), hourglass_scales(p, b), constants, staged, force, power);
@@ -60,18 +59,18 @@ struct PatchForce {
     sum_corners(team, p, lists, staged, force);
     if constexpr (!Hourglass::stores)
       Kokkos::parallel_for(Kokkos::TeamThreadRange(team, power_sums), [&](const int k) {
-        constexpr int share = patch_size / power_sums;
+        constexpr int share = elements_of_block / power_sums;
         double sum = 0;
         for (int s = k * share; s < (k + 1) * share && s < elements; ++s) sum += static_cast<double>(power[s]);
         // Nobody else adds here; an atomic addition need not wait for what was there before.
-        Kokkos::atomic_add(&patches.hourglass_energy(p * power_sums + k), step * sum);
+        Kokkos::atomic_add(&blocks.hourglass_energy(p * power_sums + k), step * sum);
       });
   }
 
-  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (patch_size / lane_count<S>)+b; }
+  KOKKOS_INLINE_FUNCTION static int batch_number(int p, int b) { return p * (elements_of_block / lane_count<S>)+b; }
 
   KOKKOS_INLINE_FUNCTION BatchCorners<S> corners_of_batch(int p, int b) const {
-    return BatchCorners<S>(patches.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
+    return BatchCorners<S>(blocks.corner.data() + static_cast<long>(batch_number(p, b)) * 8 * lane_count<S>);
   }
 
   /// Where the corner forces lie that meet at each pack of nodes.
@@ -83,17 +82,17 @@ struct PatchForce {
   /// On a device in scratch memory: with the nodes they come in while there is time.
   template <class Member>
   KOKKOS_INLINE_FUNCTION SumLists sum_lists(const Member& team, const int p) const {
-    const SumLists lists{patches.first_place.data() + static_cast<long>(p) * patches.pack_stride,
-                         patches.place.data() + static_cast<long>(p) * patches.place_stride};
+    const SumLists lists{blocks.first_place.data() + static_cast<long>(p) * blocks.pack_stride,
+                         blocks.place.data() + static_cast<long>(p) * blocks.place_stride};
     if constexpr (!on_device) return lists;
-    auto* copy = scratch_values<std::uint16_t>(team, patches.pack_stride + patches.place_stride);
-    const int first_chunks = patches.pack_stride / places_at_once, chunks = patches.place_stride / places_at_once;
+    auto* copy = scratch_values<std::uint16_t>(team, blocks.pack_stride + blocks.place_stride);
+    const int first_chunks = blocks.pack_stride / places_at_once, chunks = blocks.place_stride / places_at_once;
     auto* to = reinterpret_cast<Chunk*>(copy);
     const auto* first = reinterpret_cast<const Chunk*>(lists.first_place);
     const auto* place = reinterpret_cast<const Chunk*>(lists.place);
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, first_chunks + chunks),
                          [&](const int c) { to[c] = c < first_chunks ? first[c] : place[c - first_chunks]; });
-    return {copy, copy + patches.pack_stride};
+    return {copy, copy + blocks.pack_stride};
   }
 
   /// @param force corner forces with their sign turned, N
@@ -149,7 +148,7 @@ struct PatchForce {
       for (int M = 0; M < 3; ++M) m[3 + M] += q[M];
       m[6] = q[3];
       corners_of(m, f);
-      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * patch_size + b * lane_count<S>, f[N]);
+      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * elements_of_block + b * lane_count<S>, f[N]);
     }
     if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
   }
@@ -169,7 +168,7 @@ struct PatchForce {
   KOKKOS_INLINE_FUNCTION void sum_corners(const Member& team, const int p, const SumLists& lists, const Staged& staged,
                                           const S* force) const {
     constexpr int lanes = lane_count<S>;
-    const int count = patches.node_count(p);
+    const int count = blocks.node_count(p);
     Kokkos::parallel_for(Kokkos::TeamThreadRange(team, (count + lanes - 1) / lanes), [&](const int k) {
       const int end = lists.first_place[k + 1];
       T sum[3] = {S(0), S(0), S(0)};
@@ -183,9 +182,9 @@ struct PatchForce {
   }
 
   KOKKOS_INLINE_FUNCTION void hand_over(const int p, const int l, const Staged& staged, const Vector3& force) const {
-    const int place = p * patches.node_stride + l;
+    const int place = p * blocks.node_stride + l;
     if constexpr (Advance) {
-      const int n = patches.node(place);
+      const int n = blocks.node(place);
       if (n < 0) {
         staged.advance(nodes, p, n & ~advance_bit, l, force);
         return;
@@ -196,29 +195,29 @@ struct PatchForce {
   }
 };
 
-/// Stress and energies of a patch's elements at the present instant, for outputs and the account.
+/// Stress and energies of a block's elements at the present instant, for outputs and the account.
 template <class S, class Material, class Hourglass>
-struct PatchState {
+struct ElementState {
   using T = Pack<S>;
 
   Material material;
-  PatchArrays patches;
+  ElementBlocks blocks;
   Array<const float*> hourglass_scale;
   NodeArrays nodes;
   Array<S*> stress;               ///< Cauchy, tiled, 6 values: xx, yy, zz, xy, yz, zx; Pa; not written where empty
-  Array<double* [2]> energy;      ///< J, by patch: elastic, stored by hourglass control
-  Array<const int*> listed = {};  ///< patches to compute; empty: all. Results are in the list's order then
+  Array<double* [2]> energy;      ///< J, by block: elastic, stored by hourglass control
+  Array<const int*> listed = {};  ///< blocks to compute; empty: all. Results are in the list's order then
 
   using Staged = StagedNodes<S, false, false>;
 
-  static std::size_t scratch_size(const PatchArrays& patches) { return Staged::scratch_size(patches.node_stride); }
+  static std::size_t scratch_size(const ElementBlocks& blocks) { return Staged::scratch_size(blocks.node_stride); }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
     const int at = team.league_rank(), p = listed.extent(0) > 0 ? listed(at) : at;
-    const Staged staged(team, patches.node_stride);
-    staged.bring(team, patches, p, nodes);
+    const Staged staged(team, blocks.node_stride);
+    staged.bring(team, blocks, p, nodes);
     team.team_barrier();
-    const int elements = patches.element_count(p);
+    const int elements = blocks.element_count(p);
     const int batches = (elements + lane_count<S> - 1) / lane_count<S>;
     double elastic = 0, stored = 0;
     Kokkos::parallel_reduce(
@@ -234,12 +233,12 @@ struct PatchState {
     });
   }
 
-  /// @param at where the patch's results go
+  /// @param at where the block's results go
   /// @param which energy to return: 0 elastic (writes the stress too), 1 stored by hourglass control
   KOKKOS_INLINE_FUNCTION double batch_state(const int p, const int at, const int b, const int elements,
                                             const Staged& staged, const int which) const {
-    const int batch = p * (patch_size / lane_count<S>)+b;
-    const BatchCorners<S> corners(patches.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
+    const int batch = p * (elements_of_block / lane_count<S>)+b;
+    const BatchCorners<S> corners(blocks.corner.data() + static_cast<long>(batch) * 8 * lane_count<S>);
     T x[3][7], u[3][7], B[3][6], H[3][3], e[6], tau[6];
     for (int i = 0; i < 3; ++i) {
       staged.modes(staged.position + i * staged.stride, corners, x[i]);
@@ -263,14 +262,14 @@ struct PatchState {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
     const T to_cauchy = determinant(H);
-    const auto constants = material.template of_patch<S>(patches.material(p), Staged::turn(patches, p, nodes));
+    const auto constants = material.template of_block<S>(blocks.material(p), Staged::turn(blocks, p, nodes));
     T h[6];
     material.template leave_elastic_part<S>(constants, batch, H, e);
     hencky_strain(e, h);
     kirchhoff_stress<S>(material.elastic(constants), h, tau);
     if (stress.extent(0) != 0)
       for (int c = 0; c < 6; ++c)
-        store(stress.data() + tiled<S>(at * (patch_size / lane_count<S>)+b, 6, c), T(tau[c] * to_cauchy));
+        store(stress.data() + tiled<S>(at * (elements_of_block / lane_count<S>)+b, 6, c), T(tau[c] * to_cauchy));
     value = volume * to_cauchy * elastic_energy_density<S>(h, tau);
     return sum_of_elements(value, b, elements, [](int) { return 1.0; });
   }

@@ -8,12 +8,12 @@ namespace railwave {
 
 /// What a step computes besides the elements, in the same launch: on a GPU few threads work long on sets and contact,
 /// and beside the elements they cost no time of their own. Nothing here reads what another part writes: contact and
-/// sets read nodes that no patch moves by itself.
-template <class Patch, bool Friction>
+/// sets read nodes that no block moves by itself.
+template <class Block, bool Friction>
 struct ForcesTogether {
   SetLoads set_loads;
   ContactForce<Friction> contact;
-  Patch patches;
+  Block blocks;
   int set_teams;  ///< 1, or 0 where no load follows from a set
   int contact_teams;
 
@@ -31,7 +31,7 @@ struct ForcesTogether {
            i += contact_teams * slaves_of_team)
         contact(i);
     } else {
-      patches.run(team, rank - set_teams - contact_teams);
+      blocks.run(team, rank - set_teams - contact_teams);
     }
   }
 };

@@ -12,32 +12,32 @@ struct Bilinear : FlowHistory<7> {
   const Constants* constants;  ///< by row
 
   template <class S>
-  using OfPatch = FlowingPatch<Constants, S>;
+  using OfBlock = FlowingBlock<Constants, S>;
 
   template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(int row, const Turn& turn) const {
-    return flowing_patch<S>(constants[row], turn);
+  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
+    return flowing_block<S>(constants[row], turn);
   }
 
   template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingPatch<Constants, S>& patch) {
-    return patch.constants.elastic;
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
+    return block.constants.elastic;
   }
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfBlock<S>& block, int batch, const T (&K)[3][3], T (&e)[6],
                                           T (&tau)[6]) const {
     T h[6], s[6];
-    leave_elastic_part<S>(patch, batch, K, e);
+    leave_elastic_part<S>(block, batch, K, e);
     hencky_strain(e, h);
-    kirchhoff_stress<S>(patch.constants.elastic, h, tau);
+    kirchhoff_stress<S>(block.constants.elastic, h, tau);
     const T mises_square = deviator<S>(tau, s);
-    const T limit = flow_stress<S>(patch.constants, T(equivalent<S>(batch)));
+    const T limit = flow_stress<S>(block.constants, T(equivalent<S>(batch)));
     const auto yields = mises_square > limit * limit;
     if (!any_lane(yields)) return;
     T lost[6];
-    const T increment = radial_return<S>(patch.constants, yields, s, mises_square, limit, tau, lost);
-    book_flow<S, true>(patch, batch, K, e, yields, lost, increment);
+    const T increment = radial_return<S>(block.constants, yields, s, mises_square, limit, tau, lost);
+    book_flow<S, true>(block, batch, K, e, yields, lost, increment);
   }
 
   KOKKOS_INLINE_FUNCTION static double work(const Constants& constants, const double (&history)[history_values]) {

@@ -27,24 +27,24 @@ struct Chaboche : BackStressHistory<14> {
   const Constants* constants;  ///< by row
 
   template <class S>
-  using OfPatch = FlowingPatch<Constants, S>;
+  using OfBlock = FlowingBlock<Constants, S>;
 
   template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(int row, const Turn& turn) const {
-    return flowing_patch<S>(constants[row], turn);
+  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
+    return flowing_block<S>(constants[row], turn);
   }
 
   template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingPatch<Constants, S>& patch) {
-    return patch.constants.elastic;
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
+    return block.constants.elastic;
   }
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfBlock<S>& block, int batch, const T (&K)[3][3], T (&e)[6],
                                           T (&tau)[6]) const {
-    const Constants& material = patch.constants;
+    const Constants& material = block.constants;
     T h[6], s[6], back[6], xi[6], turned[3][3];
-    leave_elastic_part<S>(patch, batch, K, e);
+    leave_elastic_part<S>(block, batch, K, e);
     hencky_strain(e, h);
     kirchhoff_stress<S>(material.elastic, h, tau);
     deviator<S>(tau, s);
@@ -53,7 +53,7 @@ struct Chaboche : BackStressHistory<14> {
     const bool has_flowed = any_lane(flowed > S(0));
     for (int c = 0; c < 6; ++c) back[c] = S(0);
     if (has_flowed) {
-      turn_back<S>(patch, K, turned);
+      turn_back<S>(block, K, turned);
       load_back<S>(batch, turned, back);
     }
     for (int c = 0; c < 6; ++c) xi[c] = s[c] - back[c];
@@ -78,8 +78,8 @@ struct Chaboche : BackStressHistory<14> {
     for (int c = 0; c < 6; ++c) place[c] = back[c] + S(0.5) * added[c];
     const T work_density = S(0.5) * (limit + limit_after) * increment + product(place, lost);
 
-    book_flow<S, false>(patch, batch, K, e, yields, lost, increment);
-    if (!has_flowed) turn_back<S>(patch, K, turned);
+    book_flow<S, false>(block, batch, K, e, yields, lost, increment);
+    if (!has_flowed) turn_back<S>(block, K, turned);
     add_back<S>(batch, turned, added);
     add_to_history<S>(value<S>(batch, flow_work), work_density);
   }

@@ -66,24 +66,24 @@ struct Elastic {
   const Constants* constants;  ///< by row
 
   template <class S>
-  using OfPatch = Constants;
+  using OfBlock = Constants;
 
   template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION Constants of_patch(int row, const Turn& /*turn*/) const {
+  KOKKOS_FORCEINLINE_FUNCTION Constants of_block(int row, const Turn& /*turn*/) const {
     return constants[row];
   }
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const Constants& patch) { return patch; }
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const Constants& block) { return block; }
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void leave_elastic_part(const Constants& /*patch*/, int /*batch*/,
+  KOKKOS_FORCEINLINE_FUNCTION static void leave_elastic_part(const Constants& /*block*/, int /*batch*/,
                                                              const T (&/*K*/)[3][3], const T (&/*e*/)[6]) {}
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void stress(const Constants& patch, int /*batch*/, const T (&/*K*/)[3][3],
+  KOKKOS_FORCEINLINE_FUNCTION static void stress(const Constants& block, int /*batch*/, const T (&/*K*/)[3][3],
                                                  const T (&e)[6], T (&tau)[6]) {
     T h[6];
     hencky_strain(e, h);
-    kirchhoff_stress<S>(patch, h, tau);
+    kirchhoff_stress<S>(block, h, tau);
   }
 };
 

@@ -6,17 +6,17 @@
 
 namespace railwave {
 
-/// What the elements of a patch have in common where the material flows.
+/// What the elements of a block have in common where the material flows.
 template <class Constants_, class S>
-struct FlowingPatch {
+struct FlowingBlock {
   Constants_ constants;
   S turn[3][3];  ///< R, which single precision leaves out of displacements
 };
 
 /// @param turn see StagedNodes::turn
 template <class S, class Constants, class Turn>
-KOKKOS_FORCEINLINE_FUNCTION FlowingPatch<Constants, S> flowing_patch(const Constants& constants, const Turn& turn) {
-  FlowingPatch<Constants, S> result;
+KOKKOS_FORCEINLINE_FUNCTION FlowingBlock<Constants, S> flowing_block(const Constants& constants, const Turn& turn) {
+  FlowingBlock<Constants, S> result;
   result.constants = constants;
   if constexpr (sizeof(S) < sizeof(double))
     for (int i = 0; i < 3; ++i)
@@ -49,12 +49,12 @@ struct FlowHistory {
   }
 
   /// Takes the plastic part from the Almansi strain e, with the history as it stands.
-  template <class S, class Patch, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const Patch& patch, int batch, const T (&K)[3][3],
+  template <class S, class Block, class T>
+  KOKKOS_FORCEINLINE_FUNCTION void leave_elastic_part(const Block& block, int batch, const T (&K)[3][3],
                                                       T (&e)[6]) const {
     if (!any_lane(equivalent<S>(batch) > S(0))) return;
     T G[3][3], plastic[6], share[6];
-    inverse_gradient<S>(patch, K, G);
+    inverse_gradient<S>(block, K, G);
     load_plastic<S>(batch, plastic);
     carry(plastic, G, share);
     for (int c = 0; c < 6; ++c) e[c] -= share[c];
@@ -65,23 +65,23 @@ struct FlowHistory {
   /// @param lost what the Hencky strain lost
   /// @param increment of the equivalent plastic strain; zero in lanes that do not yield
   /// @tparam Coaxial `lost` has the principal axes of e
-  template <class S, bool Coaxial, class Patch, class T, class Mask>
-  KOKKOS_FORCEINLINE_FUNCTION void book_flow(const Patch& patch, int batch, const T (&K)[3][3], const T (&e)[6],
+  template <class S, bool Coaxial, class Block, class T, class Mask>
+  KOKKOS_FORCEINLINE_FUNCTION void book_flow(const Block& block, int batch, const T (&K)[3][3], const T (&e)[6],
                                              const Mask& yields, const T (&lost)[6], const T& increment) const {
     T G[3][3], plastic[6], added[6];
-    inverse_gradient<S>(patch, K, G);
+    inverse_gradient<S>(block, K, G);
     load_plastic<S>(batch, plastic);
     plastic_increment<S, Coaxial>(G, e, lost, plastic, added);
     for (int c = 0; c < 6; ++c) add_to_history<S>(value<S>(batch, c), choose(yields, added[c], T(S(0))));
     add_to_history<S>(value<S>(batch, plastic_strain), increment);
   }
 
-  template <class S, class Patch, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void inverse_gradient(const Patch& patch, const T (&K)[3][3], T (&G)[3][3]) {
+  template <class S, class Block, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void inverse_gradient(const Block& block, const T (&K)[3][3], T (&G)[3][3]) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         if constexpr (sizeof(S) < sizeof(double))
-          G[i][j] = patch.turn[0][i] * K[0][j] + patch.turn[1][i] * K[1][j] + patch.turn[2][i] * K[2][j];
+          G[i][j] = block.turn[0][i] * K[0][j] + block.turn[1][i] * K[1][j] + block.turn[2][i] * K[2][j];
         else
           G[i][j] = K[i][j];
       }
@@ -96,10 +96,10 @@ struct BackStressHistory : FlowHistory<Values> {
   static constexpr int back_stress = 7;  ///< first of the history's values of a: xx, yy, zz, xy, yz, zx; Pa
 
   /// R^T: the inverse deformation gradient is U^-1 R^T.
-  template <class S, class Patch, class T>
-  KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const Patch& patch, const T (&K)[3][3], T (&turned)[3][3]) {
+  template <class S, class Block, class T>
+  KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const Block& block, const T (&K)[3][3], T (&turned)[3][3]) {
     T G[3][3];
-    FlowHistory<Values>::template inverse_gradient<S>(patch, K, G);
+    FlowHistory<Values>::template inverse_gradient<S>(block, K, G);
     polar_rotation<S>(G, turned);
   }
 

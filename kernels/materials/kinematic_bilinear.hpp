@@ -19,24 +19,24 @@ struct KinematicBilinear : BackStressHistory<13> {
   const Constants* constants;  ///< by row
 
   template <class S>
-  using OfPatch = FlowingPatch<Constants, S>;
+  using OfBlock = FlowingBlock<Constants, S>;
 
   template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION OfPatch<S> of_patch(int row, const Turn& turn) const {
-    return flowing_patch<S>(constants[row], turn);
+  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
+    return flowing_block<S>(constants[row], turn);
   }
 
   template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingPatch<Constants, S>& patch) {
-    return patch.constants.bilinear.elastic;
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
+    return block.constants.bilinear.elastic;
   }
 
   template <class S, class T>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfPatch<S>& patch, int batch, const T (&K)[3][3], T (&e)[6],
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const OfBlock<S>& block, int batch, const T (&K)[3][3], T (&e)[6],
                                           T (&tau)[6]) const {
-    const BilinearConstants& bilinear = patch.constants.bilinear;
+    const BilinearConstants& bilinear = block.constants.bilinear;
     T h[6], xi[6], turned[3][3];
-    leave_elastic_part<S>(patch, batch, K, e);
+    leave_elastic_part<S>(block, batch, K, e);
     hencky_strain(e, h);
     kirchhoff_stress<S>(bilinear.elastic, h, tau);
     deviator<S>(tau, xi);
@@ -45,21 +45,21 @@ struct KinematicBilinear : BackStressHistory<13> {
     const bool has_flowed = any_lane(flowed > S(0));
     if (has_flowed) {
       T back[6];
-      turn_back<S>(patch, K, turned);
+      turn_back<S>(block, K, turned);
       load_back<S>(batch, turned, back);
       for (int c = 0; c < 6; ++c) xi[c] -= back[c];
     }
     const T mises_square = S(1.5) * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]) +
                            S(3) * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5]);
-    const T limit = S(bilinear.yield_stress) + S(patch.constants.isotropic_share * bilinear.hardening) * flowed;
+    const T limit = S(bilinear.yield_stress) + S(block.constants.isotropic_share * bilinear.hardening) * flowed;
     const auto yields = mises_square > limit * limit;
     if (!any_lane(yields)) return;
     T lost[6];
     const T increment = radial_return<S>(bilinear, yields, xi, mises_square, limit, tau, lost);
-    book_flow<S, false>(patch, batch, K, e, yields, lost, increment);
-    if (!has_flowed) turn_back<S>(patch, K, turned);
+    book_flow<S, false>(block, batch, K, e, yields, lost, increment);
+    if (!has_flowed) turn_back<S>(block, K, turned);
     T moved[6];
-    const S modulus = S(2.0 / 3 * (1 - patch.constants.isotropic_share) * bilinear.hardening);
+    const S modulus = S(2.0 / 3 * (1 - block.constants.isotropic_share) * bilinear.hardening);
     for (int c = 0; c < 6; ++c) moved[c] = modulus * lost[c];
     add_back<S>(batch, turned, moved);
   }

@@ -11,10 +11,10 @@
 /// | `Constants` | what elements of one material have in common: doubles alone |
 /// | `history_values` | doubles that each element keeps from step to step, zero at the start; 0: none |
 /// | `plastic_strain` | which of these is the equivalent plastic strain |
-/// | `OfPatch<S>`, `of_patch<S>(row, turn)` | what the elements of a patch have in common |
-/// | `elastic(of_patch)` | its elastic constants |
-/// | `leave_elastic_part<S>(of_patch, batch, K, e)` | takes the plastic part from the Almansi strain e |
-/// | `stress<S>(of_patch, batch, K, e, tau)` | Kirchhoff stress from the Almansi strain, and the flow that leads there
+/// | `OfBlock<S>`, `of_block<S>(row, turn)` | what the elements of a block have in common |
+/// | `elastic(of_block)` | its elastic constants |
+/// | `leave_elastic_part<S>(of_block, batch, K, e)` | takes the plastic part from the Almansi strain e |
+/// | `stress<S>(of_block, batch, K, e, tau)` | Kirchhoff stress from the Almansi strain, and the flow that leads there
 /// | | `work(constants, history)` | J dissipated by flow for each m3 of the reference |
 ///
 /// K = I - H is the inverse deformation gradient but for the turn that single precision leaves out, G = R^T K.
@@ -24,7 +24,7 @@ namespace railwave {
 struct MaterialArrays {
   int number = 0;            ///< of the material among `Materials`
   int history_values = 0;    ///< of each element
-  Array<double*> constants;  ///< `Constants` by the patches' material row
+  Array<double*> constants;  ///< `Constants` by the blocks' material row
   Array<double*> history;    ///< in tiles of `history_values`; in double precision whatever the elements' own
   Array<double*> volume;     ///< m3, of the reference, by slot, zero in slots that only fill up; empty without history
   bool flows() const { return history_values > 0; }

@@ -104,7 +104,7 @@ struct ContactWatch {
   }
 };
 
-/// Adds what a patch's hourglass control has dissipated to what it has stored.
+/// Adds what a block's hourglass control has dissipated to what it has stored.
 struct AddDissipated {
   Array<double* [2]> energy;
   Array<const double*> dissipated;

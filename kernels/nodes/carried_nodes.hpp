@@ -20,17 +20,17 @@ struct alignas(16) CarriedNode {
   float unused;
 };
 
-/// X - c_0 of a node or of a patch's own point, m, and whose arm it is.
+/// X - c_0 of a node or of a block's own point, m, and whose arm it is.
 struct alignas(16) CarriedArm {
   float x[3];
   int carrier;
 };
 
-/// What a group's patches need of nodes in single precision.
+/// What a group's blocks need of nodes in single precision.
 struct CarriedArrays {
   Array<CarriedNode*> node;
-  Array<const float*> local;     ///< m, X - the patch's point: by patch and component, `node_stride` values each
-  Array<const CarriedArm*> arm;  ///< by patch, of its point
+  Array<const float*> local;     ///< m, X - the block's point: by block and component, `node_stride` values each
+  Array<const CarriedArm*> arm;  ///< by block, of its point
   Array<const CarrierStep*> steps;
   int first = 0;  ///< of the present step's carriers
 
@@ -73,24 +73,24 @@ struct CarriedAdvance {
   }
 };
 
-/// ListedNodeUpdate for nodes in single precision. Those that extra forces or constraints concern get their positions
+/// SharedNodeUpdate for nodes in single precision. Those that extra forces or constraints concern get their positions
 /// and velocities in double precision too: contact, loads and connectors know no other.
 struct CarriedListedUpdate {
   NodalAcceleration acceleration;
   CarriedAdvance advance;
-  Array<const ListedNode*> listed;
-  Array<const CarriedArm*> arm;  ///< of each listed node
+  Array<const SharedNode*> shared;
+  Array<const CarriedArm*> arm;  ///< of each shared node
   RowLoads rows;
   bool rows_here;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const ListedNode node = listed(i);
+    const SharedNode node = shared(i);
     const CarriedArm own = arm(i);
-    const NodeArrays& wide = acceleration.force.nodes;
+    const NodeArrays& in_double = acceleration.force.nodes;
     const int n = node.node & ~special_bit;
     const bool special = node.node < 0;
     const CarrierStep& carrier = advance.nodes.carrier(own.carrier);
-    const int r = special ? wide.extra(n) : -1;
+    const int r = special ? in_double.extra(n) : -1;
     if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows.gather<1>(rows.extra.loaded_of_row(r));
     float a[3];
     advance.acceleration(advance.nodes.node(n).inverse_mass, acceleration.force(node), a);
@@ -100,10 +100,10 @@ struct CarriedListedUpdate {
     }
     const CarriedNode after = advance.move(n, a, carrier.change_at_start, own.x);
     if (special) {
-      const Vector3 X = row(wide.reference, n), x = carrier.next.position(X), v = carrier.next.velocity_of(X);
+      const Vector3 X = row(in_double.reference, n), x = carrier.next.position(X), v = carrier.next.velocity_of(X);
       for (int k = 0; k < 3; ++k) {
-        wide.position(n, k) = x[k] + static_cast<double>(after.displacement[k]);
-        wide.velocity(n, k) = v[k] + static_cast<double>(after.velocity[k]);
+        in_double.position(n, k) = x[k] + static_cast<double>(after.displacement[k]);
+        in_double.velocity(n, k) = v[k] + static_cast<double>(after.velocity[k]);
       }
     }
     if (r >= 0) acceleration.force.extra.clear_contact(r);
@@ -112,21 +112,22 @@ struct CarriedListedUpdate {
 
 /// Takes nodes first, first + 1, ... over from double precision.
 struct TakeNodes {
-  NodeArrays wide;
+  NodeArrays in_double;
   Array<CarriedNode*> node;
   CarrierInstant carrier;
   int first;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
     const int n = first + k;
-    const Vector3 X = row(wide.reference, n);
-    const Vector3 d = row(wide.position, n) - carrier.position(X), w = row(wide.velocity, n) - carrier.velocity_of(X);
+    const Vector3 X = row(in_double.reference, n);
+    const Vector3 d = row(in_double.position, n) - carrier.position(X),
+                  w = row(in_double.velocity, n) - carrier.velocity_of(X);
     CarriedNode taken;
     for (int i = 0; i < 3; ++i) {
       taken.displacement[i] = static_cast<float>(d[i]);
       taken.velocity[i] = static_cast<float>(w[i]);
     }
-    taken.inverse_mass = static_cast<float>(1.0 / wide.mass(n));
+    taken.inverse_mass = static_cast<float>(1.0 / in_double.mass(n));
     taken.unused = 0;
     node(n) = taken;
   }
@@ -134,19 +135,19 @@ struct TakeNodes {
 
 /// Gives them back, but for those that each step keeps in double precision anyway.
 struct GiveNodes {
-  NodeArrays wide;
+  NodeArrays in_double;
   Array<const CarriedNode*> node;
   CarrierInstant carrier;
   int first;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
     const int n = first + k;
-    if (wide.extra(n) >= 0 || wide.constraint(n) >= 0) return;
+    if (in_double.extra(n) >= 0 || in_double.constraint(n) >= 0) return;
     const CarriedNode own = node(n);
-    const Vector3 X = row(wide.reference, n), x = carrier.position(X), v = carrier.velocity_of(X);
+    const Vector3 X = row(in_double.reference, n), x = carrier.position(X), v = carrier.velocity_of(X);
     for (int i = 0; i < 3; ++i) {
-      wide.position(n, i) = x[i] + static_cast<double>(own.displacement[i]);
-      wide.velocity(n, i) = v[i] + static_cast<double>(own.velocity[i]);
+      in_double.position(n, i) = x[i] + static_cast<double>(own.displacement[i]);
+      in_double.velocity(n, i) = v[i] + static_cast<double>(own.velocity[i]);
     }
   }
 };

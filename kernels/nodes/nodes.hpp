@@ -14,7 +14,7 @@ struct NodeArrays {
   Array<double*> mass;           ///< kg, lumped
   Array<int*>
       first_partial;  ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
-  Array<int*> partial_place;  ///< rows of the partial forces: one for each patch that the node belongs to
+  Array<int*> partial_place;  ///< rows of the partial forces: one for each block that the node belongs to
   Array<int*> extra;          ///< row in the extra forces (loads, connectors, contact), -1: none
   Array<int*> constraint;     ///< row in the constraint table, -1: free
 };
@@ -25,25 +25,25 @@ struct alignas(4 * sizeof(S)) PartialForce {
   S x[4];
 };
 
-/// What the patches' elements do to their nodes, N: one row for each node of each patch, in the precision of the
+/// What the blocks' elements do to their nodes, N: one row for each node of each block, in the precision of the
 /// elements.
 struct PartialForces {
-  Array<PartialForce<double>*> wide;
-  Array<PartialForce<float>*> narrow;
+  Array<PartialForce<double>*> in_double;
+  Array<PartialForce<float>*> in_single;
   bool single_precision = false;
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
     if (single_precision) {
-      const PartialForce<float> f = narrow(place);
+      const PartialForce<float> f = in_single(place);
       return {{f.x[0], f.x[1], f.x[2]}};
     }
-    const PartialForce<double> f = wide(place);
+    const PartialForce<double> f = in_double(place);
     return {{f.x[0], f.x[1], f.x[2]}};
   }
 };
 
-/// A node that no patch advances by itself, with what is asked of it at once: most belong to two patches.
-struct alignas(16) ListedNode {
+/// A node that no block advances by itself, with what is asked of it at once: most belong to two blocks.
+struct alignas(16) SharedNode {
   int node;      ///< with `special_bit` where extra forces or a constraint concern it
   int place[2];  ///< its first partial forces, -1: none
   int more;      ///< 1: there are others, 0: none
@@ -70,14 +70,14 @@ struct NodalForce {
     return force;
   }
 
-  /// The same for a listed node.
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(const ListedNode& listed) const {
-    const int n = listed.node & ~special_bit;
+  /// The same for a shared node.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(const SharedNode& shared) const {
+    const int n = shared.node & ~special_bit;
     Vector3 force{{0, 0, 0}};
-    if (listed.node < 0) force = extra_force(n);
+    if (shared.node < 0) force = extra_force(n);
     for (int k = 0; k < 2; ++k)
-      if (listed.place[k] >= 0) force = force + partial(listed.place[k]);
-    return listed.more == 0 ? force : with_partials(force, n, 2);
+      if (shared.place[k] >= 0) force = force + partial(shared.place[k]);
+    return shared.more == 0 ? force : with_partials(force, n, 2);
   }
 };
 

@@ -48,7 +48,7 @@ struct PacedAcceleration {
 struct PacedNodeUpdate {
   PacedAcceleration acceleration;
   NodeAdvance advance;              ///< of the finest nodes
-  Array<const ListedNode*> listed;  ///< the nodes concerned; empty: all
+  Array<const SharedNode*> listed;  ///< the nodes concerned; empty: all
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const int n = listed.extent(0) == 0 ? i : listed(i).node & ~special_bit;

@@ -125,7 +125,7 @@ KOKKOS_FORCEINLINE_FUNCTION Pack<S> gather(const S* values, const Index* places)
 #endif
 }
 
-/// The eight corners of a batch's elements as places in their patch's list of nodes (below 256).
+/// The eight corners of a batch's elements as places in their block's list of nodes (below 256).
 /// Stored corner by corner, a pack's lanes together; on a GPU an element's eight bytes are one load.
 template <class S>
 struct BatchCorners {

@@ -124,17 +124,17 @@ struct TieFollow {
 
 /// The same where nodes are in single precision.
 struct CarriedTieFollow {
-  TieFollow wide;
+  TieFollow in_double;
   CarriedArrays carried;
   Array<const int*> carrier;  ///< by slave
 
   KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
-    wide(s);
-    const int n = wide.ties.places(s).slave;
+    in_double(s);
+    const int n = in_double.ties.places(s).slave;
     const CarrierInstant& next = carried.carrier(carrier(s)).next;
-    const Vector3 X = row(wide.nodes.reference, n);
-    const Vector3 d = row(wide.nodes.position, n) - next.position(X),
-                  w = row(wide.nodes.velocity, n) - next.velocity_of(X);
+    const Vector3 X = row(in_double.nodes.reference, n);
+    const Vector3 d = row(in_double.nodes.position, n) - next.position(X),
+                  w = row(in_double.nodes.velocity, n) - next.velocity_of(X);
     CarriedNode& own = carried.node(n);
     for (int k = 0; k < 3; ++k) {
       own.displacement[k] = static_cast<float>(d[k]);

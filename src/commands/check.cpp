@@ -149,7 +149,7 @@ void describe_run(Model& model, std::ostream& out) {
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,
                      1e6 * megabytes / static_cast<double>(model.element_count()));
-  out << fmt::format("Runs on: {}, patches of {} elements, {} in a pack\n", ExecutionSpace::name(), patch_size,
+  out << fmt::format("Runs on: {}, blocks of {} elements, {} in a pack\n", ExecutionSpace::name(), elements_of_block,
                      lane_count<double>);
   const StepPlans plans(model);
   describe_tasks("A step computes (steps of table 2.1 of the thesis)", describe_plan(plans.of(StepKind::advancing)),

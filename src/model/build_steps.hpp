@@ -8,7 +8,7 @@ namespace railwave {
 void refuse_unknown_methods(
     const scene::Scene& scene);           ///< solver_support.cpp: InputError for [solver] wishes that no code honours
 void check_elements(const Model& model);  ///< element_groups.cpp: InputError for an element that is inverted or flat
-void build_elements(Model& model);        ///< element_groups.cpp: patches, hourglass scales, lengths, masses
+void build_elements(Model& model);        ///< element_groups.cpp: blocks, hourglass scales, lengths, masses
 void build_node_arrays(Model& model);     ///< node_arrays.cpp: state, gather lists, constraints
 void build_carried_nodes(Model& model);   ///< carriers.cpp: nodes in single precision
 void build_beams(Model& model);           ///< beams.cpp: sections, masses, rotations

@@ -9,8 +9,8 @@
 #include "mesh/hexahedron.hpp"
 #include "model/contact/contact_law.hpp"
 #include "model/element_precision.hpp"
+#include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
-#include "model/elements/patch_launch.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 
@@ -85,7 +85,7 @@ Array<int* [2]> wanted_slots(const ElementGroup& group, const std::vector<int>& 
     if (after == group.first_element.begin()) continue;
     const int p = static_cast<int>(after - group.first_element.begin()) - 1,
               place = elements[i] - group.first_element[p];
-    if (place < group.element_count[p]) slots.push_back({static_cast<int>(i), p * patch_size + place});
+    if (place < group.element_count[p]) slots.push_back({static_cast<int>(i), p * elements_of_block + place});
   }
   return to_device("wanted slots", slots);
 }
@@ -118,12 +118,12 @@ HostField stress_in(const Model& model, const std::vector<int>& elements) {
   for (const ElementGroup& group : model.elements) {
     const auto slots = wanted_slots(group, elements);
     if (slots.extent(0) == 0) continue;
-    const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.patches.count) * patch_size);
-    const auto unused = unset_array<double* [2]>("patch energy", group.patches.count);
+    const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.blocks.count) * elements_of_block);
+    const auto unused = unset_array<double* [2]>("block energy", group.blocks.count);
     with_material(group, [&](const auto& material) {
-      using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
-      launch_patches(group.patches,
-                     State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress, unused});
+      using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
+      launch_blocks(group.blocks,
+                    State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, stress, unused});
     });
     fetch_elements(FetchElements<S, S>{slots, stress, 6, 0, 6, result});
   }

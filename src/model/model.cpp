@@ -24,7 +24,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   Activity laying("ordering the elements");
   check_elements(model);
   model.order =
-      order_in_patches(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
+      order_in_blocks(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   model.absorbing = absorbing_layers(scene, model.assembly);
   build_elements(model);
   build_beams(model);
@@ -49,9 +49,9 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
 }
 
 void renew_frames(const Model& model, const ElementGroup& group) {
-  if (group.patches.frame.extent(0) == 0) return;
-  Kokkos::parallel_for("renew_frames", Range(0, group.patches.count),
-                       RenewFrames{group.patches, model.nodes.position, model.nodes.reference});
+  if (group.blocks.frame.extent(0) == 0) return;
+  Kokkos::parallel_for("renew_frames", Range(0, group.blocks.count),
+                       RenewFrames{group.blocks, model.nodes.position, model.nodes.reference});
 }
 
 namespace {

@@ -18,15 +18,15 @@
 #include "kernels/support/reduction_space.hpp"
 #include "kernels/ties/tie.hpp"
 #include "model/assembly.hpp"
-#include "model/elements/patch_order.hpp"
+#include "model/elements/block_order.hpp"
 #include "model/loads/connector_cells.hpp"
 #include "model/output_times.hpp"
 #include "model/subcycling.hpp"
 
 namespace railwave {
 
-/// What patches have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
-struct CarriedPatches {
+/// What blocks have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
+struct CarriedBlocks {
   Array<float*> local;
   Array<CarriedArm*> arm;
 };
@@ -41,7 +41,7 @@ struct CarriedNodes {
   };
 
   Array<CarriedNode*> node;
-  Array<CarriedArm*> listed_arm;  ///< of each listed node
+  Array<CarriedArm*> shared_arm;  ///< of each shared node
   Array<CarrierMotion*> motion;   ///< by carrier
   Array<CarrierStep*> steps;      ///< of a block of steps, see LayCarrierSteps
   std::vector<Range> range;       ///< by carrier
@@ -61,19 +61,19 @@ struct ElementGroup {
   std::string parts;  ///< their names, for the summary
   scene::HourglassType hourglass = scene::HourglassType::viscous;
   int level = 0;  ///< evaluated every 2^level steps; groups ascend by it
-  PatchArrays patches;
+  ElementBlocks blocks;
   MaterialArrays material;
   DampingArrays damping;
-  CarriedPatches carried;
-  int first_partial = 0;            ///< row of the first patch's first node in the partial forces
-  std::vector<int> first_element;   ///< of each patch, in the assembly's numbering
-  std::vector<int> element_count;   ///< of each patch
-  Array<double* [2]> patch_energy;  ///< J, elastic and hourglass, of each patch: where the account works
-  PinnedArray<double* [2]> patch_energy_fetched;
+  CarriedBlocks carried;
+  int first_partial = 0;            ///< row of the first block's first node in the partial forces
+  std::vector<int> first_element;   ///< of each block, in the assembly's numbering
+  std::vector<int> element_count;   ///< of each block
+  Array<double* [2]> block_energy;  ///< J, elastic and hourglass, of each block: where the account works
+  PinnedArray<double* [2]> block_energy_fetched;
 
   /// Rows of the partial forces up to the group's last.
   int rows_end() const {
-    return (damping.active() ? damping.first_partial : first_partial) + patches.count * patches.node_stride;
+    return (damping.active() ? damping.first_partial : first_partial) + blocks.count * blocks.node_stride;
   }
 };
 
@@ -91,7 +91,7 @@ struct LoadArrays {
 };
 
 /// Connectors of a scene, with the contributions by which their ends feel them.
-struct ConnectorStage {
+struct ConnectorModel {
   std::vector<ConnectorCell> cells;  ///< one for each of the arrays' entries
   ConnectorArrays arrays;
   int first = 0;              ///< contribution
@@ -189,7 +189,7 @@ struct StableStep {
 };
 
 class GlobalEstimate;
-struct BeamStage;
+struct BeamModel;
 struct ElementHistories;
 
 /// Everything on the device, and the host data that describe it.
@@ -207,11 +207,11 @@ struct Model {
   NodeArrays nodes;
   CarriedNodes carried;
   Array<double* [3][3]> constraints;
-  PatchOrder order;
+  BlockOrder order;
   std::vector<ElementGroup> elements;
   Subcycling subcycling;
   PartialForces partial;
-  Array<ListedNode*> listed_nodes;  ///< those that no patch advances by itself
+  Array<SharedNode*> shared_nodes;  ///< those that no block advances by itself
   ExtraForces extra;
   NodeSets sets;
   std::vector<int> first_of_set;  ///< host copy of sets.first
@@ -220,9 +220,9 @@ struct Model {
   std::vector<int> history_sets;  ///< set numbers of those of scene.output.history_sets whose motion is written
   std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
   std::vector<LoadArrays> loads;
-  ConnectorStage connectors;
+  ConnectorModel connectors;
   TorqueArrays torques;
-  std::shared_ptr<BeamStage> beams;  ///< null in a scene without beams
+  std::shared_ptr<BeamModel> beams;  ///< null in a scene without beams
   std::vector<PrescribedSet> prescribed;
   NonReflectingEnds ends;
   AbsorbingLayers absorbing;
@@ -259,7 +259,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
 /// Bytes of all device arrays.
 std::size_t device_bytes(const Model& model);
 
-/// Lays the frames from which single precision measures a group's displacements where its patches are now.
+/// Lays the frames from which single precision measures a group's displacements where its blocks are now.
 void renew_frames(const Model& model, const ElementGroup& group);
 
 /// Puts nodes and history variables back to the undeformed start, at rest.

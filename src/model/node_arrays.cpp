@@ -18,16 +18,16 @@ void build_constraints(Model& model, std::vector<int>& row_of_node) {
   model.constraints = projections(constrained, row_of_node);
 }
 
-/// For each node the rows of the partial forces that are its own, in the order of patches.
+/// For each node the rows of the partial forces that are its own, in the order of blocks.
 void build_gather(Model& model) {
   const int count = model.nodes.count;
   std::vector<int> first(count + 1, 0);
   std::vector<std::pair<int, int>> rows;  // node, row
   for (const ElementGroup& group : model.elements) {
-    const auto nodes = to_host(group.patches.node), node_count = to_host(group.patches.node_count);
-    for (int p = 0; p < group.patches.count; ++p)
+    const auto nodes = to_host(group.blocks.node), node_count = to_host(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p)
       for (int l = 0; l < node_count(p); ++l) {
-        const int k = p * group.patches.node_stride + l;
+        const int k = p * group.blocks.node_stride + l;
         rows.emplace_back(nodes(k), group.first_partial + k);
         ++first[nodes(k) + 1];
         if (!group.damping.active()) continue;
@@ -42,12 +42,12 @@ void build_gather(Model& model) {
   model.nodes.partial_place = to_device("partial forces of nodes", place);
 }
 
-/// A node of one patch only, on which nothing else acts, is advanced by its patch; the others are listed.
+/// A node of one block only, on which nothing else acts, is advanced by its block; the others are listed.
 void share_out_nodes(Model& model) {
   const auto first = to_host(model.nodes.first_partial);
   const auto extra = to_host(model.nodes.extra), constraint = to_host(model.nodes.constraint);
   const auto place = to_host(model.nodes.partial_place);
-  std::vector<ListedNode> listed;
+  std::vector<SharedNode> listed;
   std::vector<char> alone(model.nodes.count, 1);
   for (int n = 0; n < model.nodes.count; ++n) {
     const int count = first(n + 1) - first(n);
@@ -59,13 +59,13 @@ void share_out_nodes(Model& model) {
                       count > 2 ? 1 : 0});
   }
   for (const ElementGroup& group : model.elements) {
-    const auto nodes = to_host(group.patches.node);
-    // The rows' fill carries the bit too; the kernels read no further than a patch's nodes when they advance.
+    const auto nodes = to_host(group.blocks.node);
+    // The rows' fill carries the bit too; the kernels read no further than a block's nodes when they advance.
     for (std::size_t k = 0; k < nodes.extent(0); ++k)
       if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
-    Kokkos::deep_copy(group.patches.node, nodes);
+    Kokkos::deep_copy(group.blocks.node, nodes);
   }
-  model.listed_nodes = to_device("listed nodes", listed);
+  model.shared_nodes = to_device("shared nodes", listed);
 }
 
 }  // namespace

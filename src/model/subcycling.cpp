@@ -28,7 +28,7 @@ namespace {
 
 /// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of
 /// non-reflecting ends at their nodes'. Rows of partial forces ascend by level, so a node's first row is of its finest
-/// patch.
+/// block.
 std::vector<std::uint8_t> node_levels(const Model& model) {
   const auto first = to_host(model.nodes.first_partial), place = to_host(model.nodes.partial_place);
   const auto extra = to_host(model.nodes.extra);
@@ -56,14 +56,14 @@ void build_subcycling(Model& model) {
   const auto level = node_levels(model);
   subcycling.paces.level = to_device("node levels", level);
 
-  const auto listed = to_host(model.listed_nodes);
-  const auto level_of = [&](const ListedNode& node) { return level[node.node & ~special_bit]; };
-  std::stable_sort(listed.data(), listed.data() + listed.extent(0),
-                   [&](const ListedNode& a, const ListedNode& b) { return level_of(a) < level_of(b); });
-  Kokkos::deep_copy(model.listed_nodes, listed);
+  const auto shared = to_host(model.shared_nodes);
+  const auto level_of = [&](const SharedNode& node) { return level[node.node & ~special_bit]; };
+  std::stable_sort(shared.data(), shared.data() + shared.extent(0),
+                   [&](const SharedNode& a, const SharedNode& b) { return level_of(a) < level_of(b); });
+  Kokkos::deep_copy(model.shared_nodes, shared);
   for (int l = 0; l < subcycling.levels; ++l)
-    subcycling.listed_end.push_back(static_cast<int>(std::count_if(
-        listed.data(), listed.data() + listed.extent(0), [&](const ListedNode& n) { return level_of(n) <= l; })));
+    subcycling.shared_end.push_back(static_cast<int>(std::count_if(
+        shared.data(), shared.data() + shared.extent(0), [&](const SharedNode& n) { return level_of(n) <= l; })));
 
   plan_steps(model, subcycling.round());
 }

@@ -15,7 +15,7 @@ struct Model;
 struct Subcycling {
   int levels = 1;  ///< 1: every element takes every step
   NodePaces paces;
-  std::vector<int> listed_end;  ///< by level: how many of the model's listed nodes are of it or finer
+  std::vector<int> shared_end;  ///< by level: how many of the model's shared nodes are of it or finer
   std::vector<long> elements;   ///< by level
 
   /// Steps from one instant at which everything is in phase to the next.

@@ -54,27 +54,27 @@ void visit_arrays(const Named<Visitor>& visit, NodeArrays& nodes) {
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, CarriedNodes& carried) {
   visit(ArrayUse::run_state, "node", carried.node);
-  visit(ArrayUse::run_state, "listed_arm", carried.listed_arm);
+  visit(ArrayUse::run_state, "shared_arm", carried.shared_arm);
   visit(ArrayUse::run_state, "motion", carried.motion);
   visit(ArrayUse::run_state, "steps", carried.steps);
 }
 
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
-  PatchArrays& patches = group.patches;
-  visit(ArrayUse::constant, "element_count", patches.element_count);
-  visit(ArrayUse::constant, "node_count", patches.node_count);
-  visit(ArrayUse::constant, "material", patches.material);
-  visit(ArrayUse::constant, "node", patches.node);
-  visit(ArrayUse::constant, "frame_node", patches.frame_node);
-  visit(ArrayUse::run_state, "frame", patches.frame);
-  visit(ArrayUse::constant, "corner", patches.corner);
-  visit(ArrayUse::constant, "first_place", patches.first_place);
-  visit(ArrayUse::constant, "place", patches.place);
-  visit(ArrayUse::constant, "hourglass_scale", patches.hourglass_scale);
-  visit(ArrayUse::constant, "settling_hourglass", patches.settling_hourglass);
-  visit(ArrayUse::run_state, "hourglass_energy", patches.hourglass_energy);
-  visit(ArrayUse::scratch, "patch_energy", group.patch_energy);
+  ElementBlocks& blocks = group.blocks;
+  visit(ArrayUse::constant, "element_count", blocks.element_count);
+  visit(ArrayUse::constant, "node_count", blocks.node_count);
+  visit(ArrayUse::constant, "material", blocks.material);
+  visit(ArrayUse::constant, "node", blocks.node);
+  visit(ArrayUse::constant, "frame_node", blocks.frame_node);
+  visit(ArrayUse::run_state, "frame", blocks.frame);
+  visit(ArrayUse::constant, "corner", blocks.corner);
+  visit(ArrayUse::constant, "first_place", blocks.first_place);
+  visit(ArrayUse::constant, "place", blocks.place);
+  visit(ArrayUse::constant, "hourglass_scale", blocks.hourglass_scale);
+  visit(ArrayUse::constant, "settling_hourglass", blocks.settling_hourglass);
+  visit(ArrayUse::run_state, "hourglass_energy", blocks.hourglass_energy);
+  visit(ArrayUse::scratch, "block_energy", group.block_energy);
 
   MaterialArrays& material = group.material;
   visit(ArrayUse::constant, "material_constants", material.constants);
@@ -98,10 +98,10 @@ void visit_arrays(const Named<Visitor>& visit, ElementHistories& histories) {
   visit(ArrayUse::scratch, "strain", histories.strain);
   visit(ArrayUse::scratch, "plastic_strain", histories.plastic_strain);
   for (ListedElements& listed : histories.listed) {
-    visit(ArrayUse::constant, "patches", listed.patches);
+    visit(ArrayUse::constant, "blocks", listed.blocks);
     visit(ArrayUse::constant, "places", listed.places);
-    visit(ArrayUse::scratch, "stress_wide", listed.stress_wide);
-    visit(ArrayUse::scratch, "stress_narrow", listed.stress_narrow);
+    visit(ArrayUse::scratch, "stress_double", listed.stress_double);
+    visit(ArrayUse::scratch, "stress_single", listed.stress_single);
     visit(ArrayUse::scratch, "energy", listed.energy);
   }
 }
@@ -155,8 +155,8 @@ void visit_arrays(const Named<Visitor>& visit, TorqueArrays& torques) {
 }
 
 template <class Visitor>
-void visit_arrays(const Named<Visitor>& visit, BeamStage& stage) {
-  BeamArrays& beams = stage.arrays;
+void visit_arrays(const Named<Visitor>& visit, BeamModel& built) {
+  BeamArrays& beams = built.arrays;
   visit(ArrayUse::constant, "end", beams.end);
   visit(ArrayUse::constant, "axes", beams.axes);
   visit(ArrayUse::constant, "length", beams.length);
@@ -177,8 +177,8 @@ void visit_arrays(const Named<Visitor>& visit, BeamStage& stage) {
   visit(ArrayUse::constant, "loaded", beams.loaded);
   visit(ArrayUse::constant, "moment_axis", beams.moment_axis);
   visit(ArrayUse::run_state, "work", beams.work);
-  visit(ArrayUse::constant, "relaxation_inertia", stage.relaxation_inertia);
-  visit(ArrayUse::constant, "arm", stage.arm);
+  visit(ArrayUse::constant, "relaxation_inertia", built.relaxation_inertia);
+  visit(ArrayUse::constant, "arm", built.arm);
 }
 
 template <class Visitor>
@@ -239,7 +239,7 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::trial_state, "law_state", pair.law.state);
 
   visit(ArrayUse::run_state, "multiplier_rows", pair.multipliers.rows);
-  visit(ArrayUse::run_state, "multiplier_crowd", pair.multipliers.crowd);
+  visit(ArrayUse::run_state, "multiplier_multiplicity", pair.multipliers.multiplicity);
   visit(ArrayUse::settled_state, "way_since_stuck", pair.multipliers.way_since_stuck);
   visit(ArrayUse::run_state, "impact_energy", pair.multipliers.impact_energy);
 
@@ -281,13 +281,13 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   visit_arrays(of("reductions_"), *model.reduction_space);
   const Named<Visitor> own = of("model_");
   own(ArrayUse::constant, "constraints", model.constraints);
-  own(ArrayUse::constant, "listed_nodes", model.listed_nodes);
+  own(ArrayUse::constant, "shared_nodes", model.shared_nodes);
   own(ArrayUse::constant, "paces", model.subcycling.paces.level);
   // The account of damping takes the rows of the step before.
   bool damped = false;
   for (const ElementGroup& group : model.elements) damped = damped || group.damping.active();
-  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_wide", model.partial.wide);
-  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_narrow", model.partial.narrow);
+  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_double", model.partial.in_double);
+  own(damped ? ArrayUse::run_state : ArrayUse::scratch, "partial_single", model.partial.in_single);
 }
 
 }  // namespace railwave

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "kernels/elements/patches.hpp"
+#include "kernels/elements/element_blocks.hpp"
 #include "model/model.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
@@ -118,7 +118,7 @@ std::string checkpoint_key(const Model& model, const std::string& program_versio
   Hash hash;
   hash.add(format_name);
   hash.add(program_version);
-  hash.add(fmt::format("{} elements of a patch", patch_size));
+  hash.add(fmt::format("{} elements of a block", elements_of_block));
   hash.add(scene.static_text);
   hash.add(
       fmt::format("time {:.17g} {:.17g}, settled {}", scene.time.step_scale, scene.time.step, scene.settle.active));

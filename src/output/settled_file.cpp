@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "kernels/elements/patches.hpp"
+#include "kernels/elements/element_blocks.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/seal.hpp"
@@ -53,7 +53,7 @@ std::string SettledFiles::key(const Model& model) const {
   Hash hash;
   hash.add(format_name);
   hash.add(version_);
-  hash.add(fmt::format("{} elements of a patch, {} in a pack", patch_size, lane_count<double>));
+  hash.add(fmt::format("{} elements of a block, {} in a pack", elements_of_block, lane_count<double>));
   hash.add(model.scene.static_text);
   hash.add(model.assembly.nodes);
   hash.add(model.assembly.elements);

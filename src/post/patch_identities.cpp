@@ -7,13 +7,13 @@
 namespace railwave {
 namespace {
 
-constexpr double reach_in_sizes = 2;    ///< that a patch may lie off its foreseen place
+constexpr double reach_in_sizes = 2;    ///< that a patch may lie off its predicted place
 constexpr double doubt_of_way = 0.25;   ///< and more where it has moved, of the way, at most as much again
 constexpr double price_of_shift = 0.1;  ///< an unknown common motion should be small, but fit before that
 
 }  // namespace
 
-void PatchIdentities::foresee(double time) {
+void PatchIdentities::predict(double time) {
   for (Track& track : tracks_) {
     const Track* known = track.moving ? &track : nullptr;
     for (const Track& other : tracks_)
@@ -22,7 +22,7 @@ void PatchIdentities::foresee(double time) {
            (other.last.centre - track.last.centre).norm() < (known->last.centre - track.last.centre).norm()))
         known = &other;
     const Vector way = known ? Vector((time - track.time) * known->velocity) : Vector(Vector::Zero());
-    track.foreseen = track.last.centre + way;
+    track.predicted = track.last.centre + way;
     track.doubt = doubt_of_way * way.norm();
   }
 }
@@ -34,7 +34,7 @@ PatchIdentities::Match PatchIdentities::match(const std::vector<SeenPatch>& patc
     for (std::size_t j = 0; j < patches.size(); ++j) {
       const Track& track = tracks_[k];
       const double size = std::max(track.last.size, patches[j].size),
-                   off = (patches[j].centre - track.foreseen - shift).norm();
+                   off = (patches[j].centre - track.predicted - shift).norm();
       if (off <= reach_in_sizes * size + std::min(track.doubt, reach_in_sizes * size))
         pairs.emplace_back(track.last.small || patches[j].small, off, static_cast<int>(k), static_cast<int>(j));
     }
@@ -53,13 +53,13 @@ PatchIdentities::Match PatchIdentities::match(const std::vector<SeenPatch>& patc
 }
 
 std::vector<int> PatchIdentities::numbers(double time, const std::vector<SeenPatch>& patches) {
-  foresee(time);
+  predict(time);
   Match best = match(patches, Vector::Zero());
   if (std::none_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.moving; })) {
     double price = best.distance;
     for (const Track& track : tracks_)
       for (const SeenPatch& patch : patches) {
-        const Vector shift = (patch.centre - track.foreseen).dot(rolling_) * rolling_;
+        const Vector shift = (patch.centre - track.predicted).dot(rolling_) * rolling_;
         Match other = match(patches, shift);
         const double its_price = other.distance + price_of_shift * other.all * shift.norm();
         if (std::make_tuple(-other.large, -other.all, its_price) >= std::make_tuple(-best.large, -best.all, price))

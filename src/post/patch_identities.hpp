@@ -17,10 +17,10 @@ struct SeenPatch {
 /// where its way so far leads it, whatever its force, also when it was not there at outputs between. Forces take no
 /// part in it.
 ///
-/// A patch's way is foreseen with its velocity between the last two outputs at which it was seen; where it was seen
+/// A patch's way is predicted with its velocity between the last two outputs at which it was seen; where it was seen
 /// once, with that of the patch nearest to it; while no velocity is known, with any common motion along the rolling
 /// direction, the smallest that fits most patches. Of the pairs of known and seen patches the nearest take each other
-/// first, patches of enough nodes before small ones. What lies farther from every foreseen place than two to four of
+/// first, patches of enough nodes before small ones. What lies farther from every predicted place than two to four of
 /// the patch's sizes is a new patch.
 class PatchIdentities {
  public:
@@ -35,11 +35,11 @@ class PatchIdentities {
  private:
   struct Track {
     SeenPatch last;
-    double time = 0;                   ///< s, of `last`
-    bool moving = false;               ///< its velocity is known
-    Vector velocity = Vector::Zero();  ///< m/s
-    Vector foreseen = Vector::Zero();  ///< m, at the present output
-    double doubt = 0;                  ///< m, of that
+    double time = 0;                    ///< s, of `last`
+    bool moving = false;                ///< its velocity is known
+    Vector velocity = Vector::Zero();   ///< m/s
+    Vector predicted = Vector::Zero();  ///< m, at the present output
+    double doubt = 0;                   ///< m, of that
   };
   struct Match {
     std::vector<int> track;  ///< of each patch, -1: none
@@ -47,7 +47,7 @@ class PatchIdentities {
     double distance = 0;  ///< m, sum
   };
 
-  void foresee(double time);
+  void predict(double time);
   Match match(const std::vector<SeenPatch>& patches, const Vector& shift) const;
 
   Vector rolling_;

@@ -17,7 +17,7 @@ struct Instant {
 
 /// What a step is for decides what it computes, and how.
 enum class StepKind {
-  advancing,  ///< nothing is read at its instant: patches may move the nodes that are theirs alone at once
+  advancing,  ///< nothing is read at its instant: blocks may move the nodes that are theirs alone at once
   sampled,    ///< all forces of the instant are there for outputs and the monitor before any node moves
   settling    ///< on the way to static equilibrium, in pseudo-time
 };

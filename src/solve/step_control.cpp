@@ -16,7 +16,7 @@ namespace {
 /// Share by which the step must be able to grow before it does: every change moves the outputs by a part of a step.
 constexpr double worthwhile_gain = 0.01;
 
-/// Steps between looks for slave nodes that touch although the estimate did not foresee it.
+/// Steps between looks for slave nodes that touch although the estimate did not predict it.
 constexpr long steps_between_looks = 500;
 
 /// Steps in the whole number of rounds nearest to an interval, at least one round.

@@ -13,7 +13,7 @@ std::vector<Task> load_tasks(Model& model, StepKind kind);
 std::vector<Task> contact_tasks(Model& model, StepKind kind);
 
 /// (b, c) Element forces with hourglass control, and damping. In an advancing step they move the nodes that belong to
-/// one patch alone, so they come after all that must still find these nodes where they were.
+/// one block alone, so they come after all that must still find these nodes where they were.
 std::vector<Task> element_tasks(Model& model, StepKind kind);
 
 /// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node. They predict where all other

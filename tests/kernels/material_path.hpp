@@ -12,7 +12,7 @@ namespace railwave {
 template <class S, class Material>
 struct MaterialPath {
   Material material;
-  typename Material::template OfPatch<S> patch;
+  typename Material::template OfBlock<S> block;
   Array<const double* [3][3]> path;  ///< displacement gradients along present coordinates
   Array<S*> stress;                  ///< tiled, 6 values an instant
 
@@ -24,7 +24,7 @@ struct MaterialPath {
       almansi_strain<S>(H, e);
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
-      material.template stress<S>(patch, batch, H, e, tau);
+      material.template stress<S>(block, batch, H, e, tau);
       for (int c = 0; c < 6; ++c) store<S>(stress.data() + (6l * k + c) * tile_width<S>, tau[c]);
     }
   }
@@ -32,7 +32,7 @@ struct MaterialPath {
 
 /// Kirchhoff stresses of the first element along a path of displacement gradients H, F = (I - H)^-1.
 template <class S, class Material>
-std::vector<Eigen::Matrix3d> follow_path(const Material& material, const typename Material::template OfPatch<S>& patch,
+std::vector<Eigen::Matrix3d> follow_path(const Material& material, const typename Material::template OfBlock<S>& block,
                                          const std::vector<Eigen::Matrix3d>& path) {
   const Array<double* [3][3]> gradient("path", path.size());
   const auto host = Kokkos::create_mirror_view(gradient);
@@ -41,7 +41,7 @@ std::vector<Eigen::Matrix3d> follow_path(const Material& material, const typenam
       for (int j = 0; j < 3; ++j) host(k, i, j) = path[k](i, j);
   Kokkos::deep_copy(gradient, host);
   const Array<S*> stress("stress", 6 * tile_width<S> * path.size());
-  Kokkos::parallel_for("material_path", Range(0, 1), MaterialPath<S, Material>{material, patch, gradient, stress});
+  Kokkos::parallel_for("material_path", Range(0, 1), MaterialPath<S, Material>{material, block, gradient, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Eigen::Matrix3d> result(path.size());

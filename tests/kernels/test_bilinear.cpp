@@ -37,7 +37,7 @@ Element material(const BilinearConstants& constants) {
 template <class S>
 struct FollowPath {
   Bilinear material;
-  Bilinear::OfPatch<S> patch;
+  Bilinear::OfBlock<S> block;
   bool plastic;
   Array<const double* [3][3]> path;  ///< displacement gradients along present coordinates
   Array<const S*> share;             ///< by lane
@@ -53,9 +53,9 @@ struct FollowPath {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) H[i][j] = (i == j ? S(1) : S(0)) - H[i][j];
       if (plastic)
-        material.template stress<S>(patch, batch, H, e, tau);
+        material.template stress<S>(block, batch, H, e, tau);
       else
-        Elastic::stress<S>(patch.constants.elastic, batch, H, e, tau);
+        Elastic::stress<S>(block.constants.elastic, batch, H, e, tau);
       for (int c = 0; c < 6; ++c) store<S>(stress.data() + (6l * k + c) * tile_width<S>, tau[c]);
     }
   }
@@ -82,12 +82,12 @@ std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& pa
   for (int lane = 0; lane < tile_width<S>; ++lane)
     shares(lane) = static_cast<S>(lane_share(lane, tile_width<S>, least_share));
   Kokkos::deep_copy(share, shares);
-  Bilinear::OfPatch<S> patch;
-  patch.constants = element.constants;
+  Bilinear::OfBlock<S> block;
+  block.constants = element.constants;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(element.turn(i, j));
+    for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(element.turn(i, j));
   Kokkos::parallel_for("follow_path", Range(0, 1),
-                       FollowPath<S>{{{element.history.data()}, nullptr}, patch, plastic, gradient, share, stress});
+                       FollowPath<S>{{{element.history.data()}, nullptr}, block, plastic, gradient, share, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());

@@ -69,11 +69,11 @@ struct Element {
 
   template <class S = double>
   std::vector<Matrix3> follow(const std::vector<Matrix3>& path) const {
-    Chaboche::OfPatch<S> patch;
-    patch.constants = constants;
+    Chaboche::OfBlock<S> block;
+    block.constants = constants;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(turn(i, j));
-    return follow_path<S>(Chaboche{{{history.data()}}, nullptr}, patch, path);
+      for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(turn(i, j));
+    return follow_path<S>(Chaboche{{{history.data()}}, nullptr}, block, path);
   }
   template <class S = double>
   double value(int number) const {
@@ -160,9 +160,9 @@ TEST_CASE("without recall and without saturation it is the bilinear law with a m
   constants.saturation = constants.rate = constants.recall = 0;
   const Element element{constants};
   Array<double*> history("history", KinematicBilinear::history_values * tile_width<float>);
-  KinematicBilinear::OfPatch<double> patch;
+  KinematicBilinear::OfBlock<double> block;
   // C is d(back)/dp along the flow, as is (1 - beta) H.
-  patch.constants = {{constants.elastic, constants.yield_stress, constants.back_modulus}, 0};
+  block.constants = {{constants.elastic, constants.yield_stress, constants.back_modulus}, 0};
   std::vector<Matrix3> path;
   for (double strain : strains(cycle, 500)) {
     Matrix3 H = stretched(strain);
@@ -170,7 +170,7 @@ TEST_CASE("without recall and without saturation it is the bilinear law with a m
     path.push_back(H);
   }
   const auto stress = element.follow(path);
-  const auto expected = follow_path<double>(KinematicBilinear{{{history.data()}}, nullptr}, patch, path);
+  const auto expected = follow_path<double>(KinematicBilinear{{{history.data()}}, nullptr}, block, path);
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k)
     worst = std::max(worst, (stress[k] - expected[k]).norm() / constants.yield_stress);

@@ -39,11 +39,11 @@ struct Element {
 
   template <class S = double>
   std::vector<Matrix3> follow(const std::vector<Matrix3>& path) const {
-    KinematicBilinear::OfPatch<S> patch;
-    patch.constants = {constants, beta};
+    KinematicBilinear::OfBlock<S> block;
+    block.constants = {constants, beta};
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) patch.turn[i][j] = static_cast<S>(turn(i, j));
-    return follow_path<S>(KinematicBilinear{{history.data()}, nullptr}, patch, path);
+      for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(turn(i, j));
+    return follow_path<S>(KinematicBilinear{{history.data()}, nullptr}, block, path);
   }
 
   double value(int number) const {
@@ -220,9 +220,9 @@ TEST_CASE("without a kinematic share the stress is Bilinear's") {
   const Element element(constants, 1);
   const Array<double*> history("history", Bilinear::history_values * tile_width<double>);
   const Bilinear plain{{history.data()}, nullptr};
-  Bilinear::OfPatch<double> patch;
-  patch.constants = constants;
-  const auto mixed = element.follow(path), isotropic = follow_path<double>(plain, patch, path);
+  Bilinear::OfBlock<double> block;
+  block.constants = constants;
+  const auto mixed = element.follow(path), isotropic = follow_path<double>(plain, block, path);
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k)
     worst = std::max(worst, (mixed[k] - isotropic[k]).norm() / constants.yield_stress);
@@ -280,7 +280,7 @@ TEST_CASE("the back stress does not swing in large shear") {
   CHECK(least_growth > 0);
 }
 
-TEST_CASE("single precision follows double along a cyclic path with mixed hardening, its patch's turn left out") {
+TEST_CASE("single precision follows double along a cyclic path with mixed hardening, its block's turn left out") {
   const auto path = sampled(winding(0.01), 2000);
   const Matrix3 R = rotation(2.1, {1, 2, -0.5});
   for (const double beta : {0.0, 0.5}) {

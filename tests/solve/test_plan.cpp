@@ -164,7 +164,7 @@ TEST_CASE("plans hold what the scene needs, and a fused launch is a task of its 
   const Plan &advancing = plans.of(StepKind::advancing), &sampled = plans.of(StepKind::sampled);
   CHECK(has(advancing, "with their inner nodes"));
   CHECK_FALSE(has(sampled, "with their inner nodes"));
-  CHECK(has(advancing, "nodes that patches share"));
+  CHECK(has(advancing, "nodes that element blocks share"));
   CHECK_FALSE(has(advancing, "clearing of contact forces"));
   CHECK(has(sampled, "clearing of contact forces"));
   CHECK(has(advancing, "contact touch and elements") == on_device);

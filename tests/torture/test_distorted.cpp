@@ -67,7 +67,7 @@ TEST_CASE("distorted meshes: a linear displacement field has one stress everywhe
       const double outer = largest_force(model, all_nodes(model)),
                    unbalance = inner.empty() ? 0 : largest_force(model, inner) / outer;
       std::cout << fmt::format(
-          "patch   {:21} {:9}: spread of stress {:.1e}, force on inner nodes {:.1e} of the largest\n", distortion.name,
+          "block   {:21} {:9}: spread of stress {:.1e}, force on inner nodes {:.1e} of the largest\n", distortion.name,
           name_of(hourglass), spread / largest, unbalance);
       INFO(distortion.name << ", " << name_of(hourglass));
       CHECK(spread < 1e-9 * largest);

@@ -7,7 +7,7 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Positions and velocities after a number of steps at which patches may move their own nodes, or may not.
+/// Positions and velocities after a number of steps at which blocks may move their own nodes, or may not.
 std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancing) {
   Model model;
   build_model(scene, model);
@@ -36,7 +36,7 @@ std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancin
 
 }  // namespace
 
-TEST_CASE("nodes that patches advance at once move as all others do, bit by bit") {
+TEST_CASE("nodes that blocks advance at once move as all others do, bit by bit") {
   TwoBlocks blocks;
   blocks.upper_size = {0.02, 0.02, 0.02};
   blocks.upper_divisions = {9, 8, 9};

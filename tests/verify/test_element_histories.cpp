@@ -211,7 +211,7 @@ double exact_shear(double z, double nu) {
 
 }  // namespace
 
-// Cells of 2.4 mm over a patch of 14.4 mm, one of them on the axis.
+// Cells of 2.4 mm over a block of 14.4 mm, one of them on the axis.
 TEST_CASE("probes under a sphere find Hertz's largest shear at 0.48 of the contact's radius") {
   std::vector<std::string> changed{"contacts.hertz.algorithm=multiplier", "settle.tolerance=2e-3"};
   for (const std::string mesh : {"sphere", "block"})
@@ -238,7 +238,7 @@ TEST_CASE("probes under a sphere find Hertz's largest shear at 0.48 of the conta
                   << "; off the axis by " << sets[k].element_centre[0] / a << ", " << sets[k].element_centre[1] / a
                   << " a");
     CHECK(std::fabs(sets[k].element_centre[0]) + std::fabs(sets[k].element_centre[1]) < 0.05 * a);
-    // The first element lies right under the surface, where six cells over the patch give its pressure by 6 %.
+    // The first element lies right under the surface, where six cells over the block give its pressure by 6 %.
     CHECK_THAT(shear[k], WithinAbs(exact_shear(depth[k], 0.3), k == 0 ? 0.03 : 0.02));
   }
   CHECK(*std::max_element(shear, shear + 4) == shear[1]);  // 0.49 a

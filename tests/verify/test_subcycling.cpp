@@ -113,7 +113,7 @@ TEST_CASE("a coarse region one element thick, which heights call stable with its
   }
 }
 
-TEST_CASE("looking at every round changes nothing, nor does computing at nodes what patches could") {
+TEST_CASE("looking at every round changes nothing, nor does computing at nodes what blocks could") {
   GradedBar bar(4, 12, 1);
   bar.scene.time.end = 640 * 0.9e-3 / bar.wave_speed();
   Model one, other;

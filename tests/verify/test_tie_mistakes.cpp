@@ -73,7 +73,7 @@ TEST_CASE("what cannot be tied is refused, with where and why") {
     contact.master = "third.x_min";
     contact.algorithm = scene::ContactAlgorithm::multiplier;
     scene.contacts.push_back(contact);
-    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("whose algorithm \"multiplier\" cannot foresee"));
+    CHECK_THAT(complaint_of_building(scene), ContainsSubstring("whose algorithm \"multiplier\" cannot predict"));
     scene.contacts[0].algorithm = scene::ContactAlgorithm::penalty;
     CHECK(complaint_of_building(scene).empty());
   }

@@ -34,8 +34,8 @@ struct Lists {
   std::vector<double> inertia, relaxation_inertia, arm, elements;
 };
 
-int number_of(BeamStage& stage, Lists& lists, int node) {
-  int& number = stage.number[node];
+int number_of(BeamModel& built, Lists& lists, int node) {
+  int& number = built.number[node];
   if (number >= 0) return number;
   number = static_cast<int>(lists.node.size());
   lists.node.push_back(node);
@@ -43,7 +43,7 @@ int number_of(BeamStage& stage, Lists& lists, int node) {
   return number;
 }
 
-void add_chain(Model& model, BeamStage& stage, Lists& lists, const Assembly::BeamChain& chain) {
+void add_chain(Model& model, BeamModel& built, Lists& lists, const Assembly::BeamChain& chain) {
   const scene::Beam& beam = model.scene.beams[chain.beam];
   const scene::Material& material = material_of(model.scene, beam);
   const auto& x = model.assembly.nodes;
@@ -52,16 +52,16 @@ void add_chain(Model& model, BeamStage& stage, Lists& lists, const Assembly::Bea
   for (int i = 0; i < 3; ++i) whole += axes[0][i] * (x[chain.nodes.back()][i] - x[chain.nodes.front()][i]);
   const double length = whole / beam.divisions;
   const BeamElementValues values = element_values(section_values(beam, material), material, length);
-  stage.step = std::min(stage.step, values.step);
-  stage.inertia_scale = std::max(stage.inertia_scale, values.inertia_scale);
-  if (values.inertia_scale > 1.001) stage.scaled += beam.divisions;
+  built.step = std::min(built.step, values.step);
+  built.inertia_scale = std::max(built.inertia_scale, values.inertia_scale);
+  if (values.inertia_scale > 1.001) built.scaled += beam.divisions;
   const double pseudo = relaxation_share * values.stiffness[0] / (length * values.end_mass);
   for (int k = 0; k < beam.divisions; ++k) {
     std::array<int, 2> end{};
     for (int side : {0, 1}) {
-      const int n = chain.nodes[k + side], b = end[side] = number_of(stage, lists, n);
+      const int n = chain.nodes[k + side], b = end[side] = number_of(built, lists, n);
       model.mass[n] += values.end_mass;
-      stage.relaxation_mass[n] += pseudo * values.end_mass;
+      built.relaxation_mass[n] += pseudo * values.end_mass;
       lists.inertia[b] += values.end_inertia;
       lists.relaxation_inertia[b] += pseudo * values.end_inertia;
       lists.arm[b] += length;
@@ -137,19 +137,19 @@ void refuse_points_without_mass(const Model& model) {
 
 void build_beams(Model& model) {
   if (!model.assembly.beam_chains.empty()) {
-    model.beams = std::make_shared<BeamStage>();
-    BeamStage& stage = *model.beams;
+    model.beams = std::make_shared<BeamModel>();
+    BeamModel& built = *model.beams;
     const std::size_t nodes = model.assembly.nodes.size();
-    stage.step = std::numeric_limits<double>::infinity();
-    stage.number.assign(nodes, -1);
-    stage.relaxation_mass.assign(nodes, 0);
+    built.step = std::numeric_limits<double>::infinity();
+    built.number.assign(nodes, -1);
+    built.relaxation_mass.assign(nodes, 0);
     Lists lists;
-    stage.first_of_beam.assign(model.scene.beams.size() + 1, 0);
+    built.first_of_beam.assign(model.scene.beams.size() + 1, 0);
     for (const Assembly::BeamChain& chain : model.assembly.beam_chains) {
-      add_chain(model, stage, lists, chain);
-      stage.first_of_beam[chain.beam + 1] = static_cast<int>(lists.end.size());
+      add_chain(model, built, lists, chain);
+      built.first_of_beam[chain.beam + 1] = static_cast<int>(lists.end.size());
     }
-    BeamArrays& arrays = stage.arrays;
+    BeamArrays& arrays = built.arrays;
     arrays.count = static_cast<int>(lists.end.size());
     arrays.node_count = static_cast<int>(lists.node.size());
     arrays.end = to_device("beam ends", lists.end);
@@ -169,9 +169,9 @@ void build_beams(Model& model) {
     arrays.rotation = Array<double* [4]>("beam rotation", arrays.node_count);
     arrays.spin = Array<double* [3]>("beam spin", arrays.node_count);
     arrays.inertia = to_device("beam inertia", lists.inertia);
-    stage.relaxation_inertia = to_device("beam relaxation inertia", lists.relaxation_inertia);
+    built.relaxation_inertia = to_device("beam relaxation inertia", lists.relaxation_inertia);
     for (std::size_t b = 0; b < lists.arm.size(); ++b) lists.arm[b] /= lists.elements[b];
-    stage.arm = to_device("beam arm", lists.arm);
+    built.arm = to_device("beam arm", lists.arm);
   }
   hold_rotations(model);
   refuse_points_without_mass(model);
@@ -182,21 +182,21 @@ int beam_node_of(const Model& model, const std::vector<int>& nodes) {
 }
 
 void add_moments(Model& model) {
-  BeamStage& stage = *model.beams;
+  BeamModel& built = *model.beams;
   std::vector<int> loaded;
   std::vector<Vec3> axis;
   for (const LoadArrays& load : model.loads) {
     if (load.beam_node < 0) continue;
     const Vec3& a = load.load->axis;
     const double size = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-    stage.moments.push_back(&load);
+    built.moments.push_back(&load);
     loaded.push_back(load.beam_node);
     axis.push_back({a[0] / size, a[1] / size, a[2] / size});
   }
   if (loaded.size() > BeamArrays::most_moments)
     throw InputError(fmt::format("{}: [loads] {} torques on points are too many; a scene can have {}", model.scene.path,
                                  loaded.size(), BeamArrays::most_moments));
-  BeamArrays& arrays = stage.arrays;
+  BeamArrays& arrays = built.arrays;
   arrays.moment_count = static_cast<int>(loaded.size());
   arrays.loaded = to_device("beam node of moment", loaded);
   arrays.moment_axis = to_device("axis of moment", axis);

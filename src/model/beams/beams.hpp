@@ -6,7 +6,7 @@
 namespace railwave {
 
 /// The beams of a scene on the device, and what the host must know of them.
-struct BeamStage {
+struct BeamModel {
   BeamArrays arrays;
   Array<double*> relaxation_inertia;  ///< kg m2 by beam node, see BeamRelaxation
   Array<double*> arm;                 ///< m by beam node: the mean length of elements there

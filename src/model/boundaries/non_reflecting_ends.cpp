@@ -74,7 +74,7 @@ void check_nodes(const Model& model, const scene::NonReflecting& end, const std:
           refuse(
               model, end, n,
               fmt::format(
-                  "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee dashpots; set algorithm = "
+                  "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot predict dashpots; set algorithm = "
                   "\"penalty\", or end that surface before the end",
                   pair.contact->name));
 }

@@ -95,7 +95,7 @@ class Conflicts {
       for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
         for (int n : *nodes)
           why_[n] = fmt::format(
-              "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot foresee how a tied node moves; set "
+              "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot predict how a tied node moves; set "
               "algorithm = \"penalty\", or end that surface before the tie",
               pair.contact->name);
     }

@@ -168,7 +168,7 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
   if (contact.algorithm == scene::ContactAlgorithm::multiplier)
     pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
-                        Array<std::uint64_t*>("crowd", masters),
+                        Array<std::uint64_t*>("multiplicity", masters),
                         Array<double* [3]>("way since stuck", arrays.slave_count),
                         linked.mouth_corners.empty() ? nodes_of_multiplier : most_nodes_of_multiplier,
                         Array<double*>("impact energy", arrays.slave_count)};

@@ -66,36 +66,36 @@ int carrier_of(const CarriedNodes& carried, int node) {
   return static_cast<int>(after - carried.range.begin()) - 1;
 }
 
-/// Arms of patches and of listed nodes from the carriers' centres.
+/// Arms of blocks and of shared nodes from the carriers' centres.
 void set_arms(Model& model) {
   for (const ElementGroup& group : model.elements) {
     const auto arm = Kokkos::create_mirror_view(group.carried.arm);
-    for (int p = 0; p < group.patches.count; ++p) {
+    for (int p = 0; p < group.blocks.count; ++p) {
       const int node = model.assembly.elements[group.first_element[p]][0];
       arm(p) = arm_of(model, node, carrier_of(model.carried, node));
     }
     Kokkos::deep_copy(group.carried.arm, arm);
   }
-  const auto listed = to_host(model.listed_nodes);
-  const auto arm = Kokkos::create_mirror_view(model.carried.listed_arm);
+  const auto listed = to_host(model.shared_nodes);
+  const auto arm = Kokkos::create_mirror_view(model.carried.shared_arm);
   for (std::size_t i = 0; i < listed.extent(0); ++i) {
     const int node = listed(i).node & ~special_bit;
     arm(i) = arm_of(model, node, carrier_of(model.carried, node));
   }
-  Kokkos::deep_copy(model.carried.listed_arm, arm);
+  Kokkos::deep_copy(model.carried.shared_arm, arm);
 }
 
-/// Reference places of a group's nodes told from each patch's point, the first corner of its first element.
+/// Reference places of a group's nodes told from each block's point, the first corner of its first element.
 Array<float*> local_places(const Model& model, const ElementGroup& group) {
-  const PatchArrays& patches = group.patches;
-  const auto number = to_host(patches.node);
+  const ElementBlocks& blocks = group.blocks;
+  const auto number = to_host(blocks.node);
   std::vector<float> local(3 * number.extent(0));
-  for (int p = 0; p < patches.count; ++p) {
+  for (int p = 0; p < blocks.count; ++p) {
     const Vec3& point = model.assembly.nodes[model.assembly.elements[group.first_element[p]][0]];
-    for (int l = 0; l < patches.node_stride; ++l) {
-      const int n = number(static_cast<std::size_t>(p) * patches.node_stride + l) & ~advance_bit;
+    for (int l = 0; l < blocks.node_stride; ++l) {
+      const int n = number(static_cast<std::size_t>(p) * blocks.node_stride + l) & ~advance_bit;
       for (int i = 0; i < 3; ++i)
-        local[(3 * static_cast<std::size_t>(p) + i) * patches.node_stride + l] =
+        local[(3 * static_cast<std::size_t>(p) + i) * blocks.node_stride + l] =
             static_cast<float>(model.assembly.nodes[n][i] - point[i]);
     }
   }
@@ -112,7 +112,7 @@ void build_carried_nodes(Model& model) {
   for (const auto& [first, count] : model.assembly.beam_nodes)
     if (count > 0) carried.range.push_back({first, count});
   carried.node = unset_array<CarriedNode*>("carried nodes", model.nodes.count);
-  carried.listed_arm = unset_array<CarriedArm*>("arms of listed nodes", model.listed_nodes.extent(0));
+  carried.shared_arm = unset_array<CarriedArm*>("arms of shared nodes", model.shared_nodes.extent(0));
   carried.motion = unset_array<CarrierMotion*>("carriers", carried.range.size());
   carried.steps = unset_array<CarrierStep*>("steps of carriers", steps_of_block * carried.range.size());
   std::vector<int> of_slave;
@@ -120,7 +120,7 @@ void build_carried_nodes(Model& model) {
   model.ties.carrier = to_device("carriers of tied nodes", of_slave);
   for (ElementGroup& group : model.elements) {
     group.carried.local = local_places(model, group);
-    group.carried.arm = unset_array<CarriedArm*>("arms of patches", group.patches.count);
+    group.carried.arm = unset_array<CarriedArm*>("arms of blocks", group.blocks.count);
   }
 }
 
@@ -167,11 +167,11 @@ void give_nodes_back(const Model& model) {
                   carried.range[c].first});
 }
 
-CarriedAdvance carried_advance(const Model& model, const CarriedPatches& patches, double step) {
+CarriedAdvance carried_advance(const Model& model, const CarriedBlocks& blocks, double step) {
   const CarriedNodes& carried = model.carried;
   const Vec3& g = model.scene.gravity;
   const int first = static_cast<int>(model.step - carried.block_step) * static_cast<int>(carried.range.size());
-  return {{carried.node, patches.local, patches.arm, carried.steps, first},
+  return {{carried.node, blocks.local, blocks.arm, carried.steps, first},
           {static_cast<float>(g[0]), static_cast<float>(g[1]), static_cast<float>(g[2])},
           static_cast<float>(model.velocity_lag + 0.5 * step),
           static_cast<float>(step)};

@@ -16,6 +16,6 @@ void lay_carrier_steps(Model& model, double step);
 void give_nodes_back(const Model& model);
 
 /// What moves a group's nodes over a step of size `step` (s).
-CarriedAdvance carried_advance(const Model& model, const CarriedPatches& patches, double step);
+CarriedAdvance carried_advance(const Model& model, const CarriedBlocks& blocks, double step);
 
 }  // namespace railwave

@@ -16,7 +16,7 @@ namespace railwave {
 namespace {
 
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
-/// (the inner nodes of MacNeal & Harder's patch have one), and `railwave check` reports it.
+/// (the inner nodes of MacNeal & Harder's block have one), and `railwave check` reports it.
 void check_element(const Model& model, const Assembly::PartRange& part, int element, const HexahedronCorners& corners) {
   const double g = 1 / std::sqrt(3.0);
   for (const auto& s : hexahedron_corner_signs) {
@@ -71,11 +71,11 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
   }
 }
 
-/// The host side of a group's patches.
-struct PatchLists {
+/// The host side of a group's blocks.
+struct BlockLists {
   std::vector<int> element_count, material;
-  std::vector<std::vector<int>> node;                          ///< by patch
-  std::vector<std::vector<std::uint16_t>> first_place, place;  ///< by patch
+  std::vector<std::vector<int>> node;                          ///< by block
+  std::vector<std::vector<std::uint16_t>> first_place, place;  ///< by block
   std::vector<std::array<int, 3>> frame_node;
   std::vector<std::uint8_t> corner;
   std::vector<float> scale, settling;
@@ -85,7 +85,7 @@ double squared_distance(const Vec3& a, const Vec3& b) {
   return (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
 }
 
-/// Three of the patch's nodes far from each other and from one line.
+/// Three of the block's nodes far from each other and from one line.
 std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int>& nodes) {
   const int a = nodes[0];
   int b = a, c = a;
@@ -111,9 +111,9 @@ std::array<int, 3> frame_nodes(const std::vector<Vec3>& x, const std::vector<int
   return {a, b, c};
 }
 
-/// A patch's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and
+/// A block's nodes by how many of its corners meet there, so that sums over corners run equally long side by side, and
 /// in the mesh's own order among those, which lies well in memory.
-std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, int first, int end,
+std::vector<int> local_nodes(const Assembly& assembly, const BlockOrder& order, int first, int end,
                              std::vector<int>& corners) {
   std::vector<int> all;
   for (int e = first; e < end; ++e) all.insert(all.end(), assembly.elements[e].begin(), assembly.elements[e].end());
@@ -135,7 +135,7 @@ std::vector<int> local_nodes(const Assembly& assembly, const PatchOrder& order, 
 }
 
 /// The sums over corners, a pack of nodes at a time.
-void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lanes, PatchLists& lists) {
+void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lanes, BlockLists& lists) {
   std::vector<std::uint16_t> first{0}, all;
   for (std::size_t begin = 0; begin < places.size(); begin += lanes) {
     const std::size_t end = std::min(places.size(), begin + lanes);
@@ -150,8 +150,8 @@ void append_packs(const std::vector<std::vector<std::uint16_t>>& places, int lan
   lists.place.push_back(std::move(all));
 }
 
-/// Appends the patch of elements [first, end).
-void append_patch(const Assembly& assembly, const PatchOrder& order, int first, int end, int lanes, PatchLists& lists) {
+/// Appends the block of elements [first, end).
+void append_block(const Assembly& assembly, const BlockOrder& order, int first, int end, int lanes, BlockLists& lists) {
   const int count = end - first;
   std::vector<int> corners;
   const std::vector<int> nodes = local_nodes(assembly, order, first, end, corners);
@@ -159,13 +159,13 @@ void append_patch(const Assembly& assembly, const PatchOrder& order, int first, 
   for (std::size_t l = 0; l < nodes.size(); ++l) local[nodes[l]] = static_cast<int>(l);
   std::vector<std::vector<std::uint16_t>> places(nodes.size());
   const std::size_t base = lists.corner.size();
-  lists.corner.resize(base + 8u * patch_size);
-  for (int slot = 0; slot < patch_size; ++slot)
+  lists.corner.resize(base + 8u * elements_of_block);
+  for (int slot = 0; slot < elements_of_block; ++slot)
     for (int N = 0; N < 8; ++N) {
       const int l = local[assembly.elements[first + std::min(slot, count - 1)][N]];
       lists.corner[base + (static_cast<std::size_t>(slot / lanes) * 8 + N) * lanes + slot % lanes] =
           static_cast<std::uint8_t>(l);
-      if (slot < count) places[l].push_back(static_cast<std::uint16_t>(N * patch_size + slot));
+      if (slot < count) places[l].push_back(static_cast<std::uint16_t>(N * elements_of_block + slot));
     }
   append_packs(places, lanes, lists);
   lists.element_count.push_back(count);
@@ -188,37 +188,37 @@ Array<T*> even_rows(const char* label, const std::vector<std::vector<T>>& rows, 
   return to_device(label, all);
 }
 
-PatchArrays arrays_of(const PatchLists& lists, bool single_precision) {
-  PatchArrays patches;
-  patches.count = static_cast<int>(lists.element_count.size());
+ElementBlocks arrays_of(const BlockLists& lists, bool single_precision) {
+  ElementBlocks blocks;
+  blocks.count = static_cast<int>(lists.element_count.size());
   std::vector<int> node_count;
   for (const auto& nodes : lists.node) node_count.push_back(static_cast<int>(nodes.size()));
-  patches.element_count = to_device("patch element count", lists.element_count);
-  patches.node_count = to_device("patch node count", node_count);
-  patches.material = to_device("patch material", lists.material);
-  patches.node = even_rows("patch nodes", lists.node, 16, patches.node_stride);
-  patches.frame_node = to_device("patch frame nodes", lists.frame_node);
-  if (single_precision) patches.frame = Array<double * [PatchFrame::values]>("patch frames", patches.count);
-  patches.corner = to_device("patch corners", lists.corner);
-  patches.first_place = even_rows("first corner places", lists.first_place, places_at_once, patches.pack_stride);
-  patches.place = even_rows("corner places", lists.place, places_at_once, patches.place_stride);
-  patches.hourglass_scale = to_device("hourglass scale", lists.scale);
-  patches.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
-  patches.hourglass_energy = Array<double*>("hourglass energy", static_cast<std::size_t>(patches.count) * power_sums);
-  return patches;
+  blocks.element_count = to_device("block element count", lists.element_count);
+  blocks.node_count = to_device("block node count", node_count);
+  blocks.material = to_device("block material", lists.material);
+  blocks.node = even_rows("block nodes", lists.node, 16, blocks.node_stride);
+  blocks.frame_node = to_device("block frame nodes", lists.frame_node);
+  if (single_precision) blocks.frame = Array<double * [BlockFrame::values]>("block frames", blocks.count);
+  blocks.corner = to_device("block corners", lists.corner);
+  blocks.first_place = even_rows("first corner places", lists.first_place, places_at_once, blocks.pack_stride);
+  blocks.place = even_rows("corner places", lists.place, places_at_once, blocks.place_stride);
+  blocks.hourglass_scale = to_device("hourglass scale", lists.scale);
+  blocks.settling_hourglass = to_device("hourglass scale while settling", lists.settling);
+  blocks.hourglass_energy = Array<double*>("hourglass energy", static_cast<std::size_t>(blocks.count) * power_sums);
+  return blocks;
 }
 
 /// m3, of a group's elements in the reference, by slot; zero in slots that only fill up.
 std::vector<double> reference_volumes(const Model& model, const ElementGroup& group) {
-  std::vector<double> volume(group.first_element.size() * patch_size, 0.0);
+  std::vector<double> volume(group.first_element.size() * elements_of_block, 0.0);
   for (std::size_t p = 0; p < group.first_element.size(); ++p)
     for (int slot = 0; slot < group.element_count[p]; ++slot)
-      volume[p * patch_size + slot] =
+      volume[p * elements_of_block + slot] =
           hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]));
   return volume;
 }
 
-/// Constants of damped parts, and the drag of their patches' nodes.
+/// Constants of damped parts, and the drag of their blocks' nodes.
 DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
                              const std::vector<const scene::Part*>& parts,
                              const std::vector<const scene::Material*>& materials) {
@@ -231,12 +231,12 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
                          part.linear_bulk_viscosity * density * materials[r]->dilatational_speed(),
                          part.quadratic_bulk_viscosity * density});
   }
-  const auto row = to_host(group.patches.material);
-  std::vector<double> mass(static_cast<std::size_t>(group.patches.count) * group.patches.node_stride, 0.0);
-  for (int p = 0; p < group.patches.count; ++p) {
+  const auto row = to_host(group.blocks.material);
+  std::vector<double> mass(static_cast<std::size_t>(group.blocks.count) * group.blocks.node_stride, 0.0);
+  for (int p = 0; p < group.blocks.count; ++p) {
     std::unordered_map<int, std::size_t> place;
     for (std::size_t l = 0; l < nodes[p].size(); ++l)
-      place[nodes[p][l]] = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+      place[nodes[p][l]] = static_cast<std::size_t>(p) * group.blocks.node_stride + l;
     for (int e = group.first_element[p]; e < group.first_element[p] + group.element_count[p]; ++e) {
       const auto& corners = model.assembly.elements[e];
       const auto integrals = hexahedron_shape_integrals(corners_of(model.assembly.nodes, corners));
@@ -245,14 +245,14 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
   }
   std::vector<double> drag(mass.size(), 0.0);
   const auto& layers = model.absorbing.rate;
-  for (int p = 0; p < group.patches.count; ++p)
+  for (int p = 0; p < group.blocks.count; ++p)
     for (std::size_t l = 0; l < nodes[p].size(); ++l) {
-      const std::size_t at = static_cast<std::size_t>(p) * group.patches.node_stride + l;
+      const std::size_t at = static_cast<std::size_t>(p) * group.blocks.node_stride + l;
       drag[at] = (parts[row(p)]->mass_damping + (layers.empty() ? 0.0 : layers[nodes[p][l]])) * mass[at];
     }
-  return {to_device("damping constants", constants), to_device("drag of patches' nodes", drag),
-          Array<double*>("damping energy", group.patches.count),
-          group.first_partial + group.patches.count * group.patches.node_stride};
+  return {to_device("damping constants", constants), to_device("drag of blocks' nodes", drag),
+          Array<double*>("damping energy", group.blocks.count),
+          group.first_partial + group.blocks.count * group.blocks.node_stride};
 }
 
 /// Whether elements [first, end) have a node that an absorbing layer damps.
@@ -265,8 +265,8 @@ bool in_absorbing_layer(const Model& model, int first, int end) {
                      });
 }
 
-/// The patches' numbers, level by level, so that groups ascend by it.
-std::vector<int> patches_by_level(const PatchOrder& order) {
+/// The blocks' numbers, level by level, so that groups ascend by it.
+std::vector<int> blocks_by_level(const BlockOrder& order) {
   std::vector<int> numbers(order.level.size());
   for (std::size_t p = 0; p < numbers.size(); ++p) numbers[p] = static_cast<int>(p);
   std::stable_sort(numbers.begin(), numbers.end(), [&](int a, int b) { return order.level[a] < order.level[b]; });
@@ -293,14 +293,14 @@ void build_elements(Model& model) {
 
   const bool single = model.scene.solver.elements_in_single();
   const int lanes = single ? lane_count<float> : lane_count<double>;
-  std::vector<PatchLists> lists;
+  std::vector<BlockLists> lists;
   std::vector<std::vector<const scene::Material*>> materials;
   std::vector<std::vector<const scene::Part*>> parts;
   std::vector<GroupKind> kinds;
   std::size_t part = 0;
   std::map<std::array<int, 3>, std::array<int, 2>>
       rows_of;  // by level, part and damping: group, and row of constants in it
-  for (const int p : patches_by_level(model.order)) {
+  for (const int p : blocks_by_level(model.order)) {
     const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
     part = 0;
     while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
@@ -319,9 +319,9 @@ void build_elements(Model& model) {
       parts[group].push_back(&of_scene);
       found->second[1] = static_cast<int>(materials[group].size()) - 1;
     }
-    append_patch(assembly, model.order, first, end, lanes, lists[group]);
+    append_block(assembly, model.order, first, end, lanes, lists[group]);
     lists[group].material.push_back(found->second[1]);
-    for (int slot = 0; slot < patch_size; ++slot) {
+    for (int slot = 0; slot < elements_of_block; ++slot) {
       // Slots that only fill up must not dissipate.
       lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);
       lists[group].settling.push_back(slot < end - first ? settling[first + slot] : 0.0f);
@@ -332,9 +332,9 @@ void build_elements(Model& model) {
   int rows = 0;
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& elements = model.elements[g];
-    elements.patches = arrays_of(lists[g], single);
-    elements.patch_energy = unset_array<double* [2]>("patch energy", elements.patches.count);
-    elements.patch_energy_fetched = PinnedArray<double* [2]>("patch energy fetched", elements.patches.count);
+    elements.blocks = arrays_of(lists[g], single);
+    elements.block_energy = unset_array<double* [2]>("block energy", elements.blocks.count);
+    elements.block_energy_fetched = PinnedArray<double* [2]>("block energy fetched", elements.blocks.count);
     elements.material = material_arrays(kinds[g].material, materials[g], reference_volumes(model, elements));
     elements.first_partial = rows;
     if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
@@ -342,9 +342,9 @@ void build_elements(Model& model) {
   }
   model.partial.single_precision = single;
   if (single)
-    model.partial.narrow = Array<PartialForce<float>*>("partial forces", rows);
+    model.partial.in_single = Array<PartialForce<float>*>("partial forces", rows);
   else
-    model.partial.wide = Array<PartialForce<double>*>("partial forces", rows);
+    model.partial.in_double = Array<PartialForce<double>*>("partial forces", rows);
 }
 
 }  // namespace railwave

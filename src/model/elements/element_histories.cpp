@@ -5,9 +5,9 @@
 #include "kernels/elements/logarithmic_strain.hpp"
 #include "model/build_steps.hpp"
 #include "model/element_precision.hpp"
+#include "model/elements/block_launch.hpp"
 #include "model/elements/history_sets.hpp"
 #include "model/elements/materials.hpp"
-#include "model/elements/patch_launch.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -57,9 +57,9 @@ struct ElementMeanSum {
 template <class S>
 auto& stress_tiles(const ListedElements& listed) {
   if constexpr (sizeof(S) == sizeof(double))
-    return listed.stress_wide;
+    return listed.stress_double;
   else
-    return listed.stress_narrow;
+    return listed.stress_single;
 }
 
 template <class S>
@@ -67,14 +67,14 @@ void evaluate(const Model& model, const ElementHistories& histories) {
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
     const ListedElements& listed = histories.listed[g];
-    const int patches = static_cast<int>(listed.patches.extent(0)), count = static_cast<int>(listed.places.extent(0));
+    const int blocks = static_cast<int>(listed.blocks.extent(0)), count = static_cast<int>(listed.places.extent(0));
     if (count == 0) continue;
     if (histories.wants_stress) {
       with_material(group, [&](const auto& material) {
-        using State = PatchState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
-        launch_teams(patches, State::scratch_size(group.patches),
-                     State{material, group.patches, group.patches.hourglass_scale, model.nodes, stress_tiles<S>(listed),
-                           listed.energy, listed.patches});
+        using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
+        launch_teams(blocks, State::scratch_size(group.blocks),
+                     State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, stress_tiles<S>(listed),
+                           listed.energy, listed.blocks});
       });
       Kokkos::parallel_for("take_stress", Range(0, count),
                            TakeStress<S>{listed.places, stress_tiles<S>(listed), histories.stress});
@@ -95,28 +95,29 @@ void evaluate(const Model& model, const ElementHistories& histories) {
 
 /// The listed elements of one group.
 ListedElements list_of(const Model& model, const ElementGroup& group, const std::vector<int>& elements) {
-  std::vector<int> patches;
+  std::vector<int> blocks;
   std::vector<std::array<int, 3>> places;
-  for (int p = 0; p < group.patches.count; ++p) {
+  for (int p = 0; p < group.blocks.count; ++p) {
     const int first = group.first_element[p], end = first + group.element_count[p];
     const auto from = std::lower_bound(elements.begin(), elements.end(), first),
                to = std::lower_bound(from, elements.end(), end);
     if (from == to) continue;
     for (auto e = from; e != to; ++e)
       places.push_back({static_cast<int>(e - elements.begin()),
-                        static_cast<int>(patches.size()) * patch_size + *e - first, p * patch_size + *e - first});
-    patches.push_back(p);
+                        static_cast<int>(blocks.size()) * elements_of_block + *e - first,
+                        p * elements_of_block + *e - first});
+    blocks.push_back(p);
   }
   ListedElements listed;
-  if (patches.empty()) return listed;
-  listed.patches = to_device("listed patches", patches);
+  if (blocks.empty()) return listed;
+  listed.blocks = to_device("listed blocks", blocks);
   listed.places = to_device("places of listed elements", places);
-  const std::size_t slots = 6 * patches.size() * patch_size;
+  const std::size_t slots = 6 * blocks.size() * elements_of_block;
   if (model.scene.solver.elements_in_single())
-    listed.stress_narrow = unset_array<float*>("listed stress", slots);
+    listed.stress_single = unset_array<float*>("listed stress", slots);
   else
-    listed.stress_wide = unset_array<double*>("listed stress", slots);
-  listed.energy = unset_array<double* [2]>("energy of listed patches", patches.size());
+    listed.stress_double = unset_array<double*>("listed stress", slots);
+  listed.energy = unset_array<double* [2]>("energy of listed blocks", blocks.size());
   return listed;
 }
 

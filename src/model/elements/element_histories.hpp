@@ -8,13 +8,13 @@
 
 namespace railwave {
 
-/// Elements of one group whose histories are written. Patches that hold some of them are evaluated, no others.
+/// Elements of one group whose histories are written. Blocks that hold some of them are evaluated, no others.
 struct ListedElements {
-  Array<int*> patches;     ///< of the group, ascending
-  Array<int* [3]> places;  ///< of each element: number in the list, slot among the listed patches, slot in the group
-  Array<double*> stress_wide;   ///< Pa, tiled, of the listed patches, where elements are in double precision
-  Array<float*> stress_narrow;  ///< the same in single precision
-  Array<double* [2]> energy;    ///< J, by listed patch; nobody reads it
+  Array<int*> blocks;      ///< of the group, ascending
+  Array<int* [3]> places;  ///< of each element: number in the list, slot among the listed blocks, slot in the group
+  Array<double*> stress_double;  ///< Pa, tiled, of the listed blocks, where elements are in double precision
+  Array<float*> stress_single;   ///< the same in single precision
+  Array<double* [2]> energy;     ///< J, by listed block; nobody reads it
 };
 
 /// Sets of scene.output.history_sets whose stress or strain is written.

@@ -107,7 +107,7 @@ void take_buffer(const Assembly& assembly, const std::vector<double>& steps, dou
 }  // namespace
 
 std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assembly) {
-  // As much of a model as tells the stable steps; it has no patches yet.
+  // As much of a model as tells the stable steps; it has no blocks yet.
   Model model;
   model.scene = scene;
   model.assembly = assembly;

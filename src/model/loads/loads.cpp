@@ -129,14 +129,14 @@ void build_load(Collector& collector, const scene::Load& load) {
 void build_connectors(Collector& collector) {
   Model& model = collector.model;
   const auto& nodes = model.assembly.nodes;
-  ConnectorStage& stage = model.connectors;
-  stage.cells = connector_cells(model.scene, model.assembly, model.mass);
-  const int count = static_cast<int>(stage.cells.size());
+  ConnectorModel& built = model.connectors;
+  built.cells = connector_cells(model.scene, model.assembly, model.mass);
+  const int count = static_cast<int>(built.cells.size());
   std::vector<std::array<int, 2>> ends;
   std::vector<Vec3> rest, stiffness, damping, preload;
-  stage.first = collector.contributions();
+  built.first = collector.contributions();
   for (int c = 0; c < count; ++c) {
-    const ConnectorCell& cell = stage.cells[c];
+    const ConnectorCell& cell = built.cells[c];
     const scene::Connector& connector = model.scene.connectors[cell.connector];
     ends.push_back({collector.set(cell.from), collector.set(cell.to)});
     const Vec3 a = mean_place(cell.from, nodes), b = mean_place(cell.to, nodes);
@@ -147,11 +147,11 @@ void build_connectors(Collector& collector) {
     for (const auto& [end, sign] : {std::pair{&cell.from, -1.0}, std::pair{&cell.to, 1.0}})
       for (std::size_t k = 0; k < end->nodes.size(); ++k) {
         collector.contribution_node.push_back(end->nodes[k]);
-        stage.cell.push_back(c);
-        stage.share.push_back(sign * end->weight[k]);
+        built.cell.push_back(c);
+        built.share.push_back(sign * end->weight[k]);
       }
   }
-  ConnectorArrays& arrays = stage.arrays;
+  ConnectorArrays& arrays = built.arrays;
   arrays.count = count;
   arrays.set = to_device("connector ends", ends);
   arrays.rest = to_device("connector rest", rest);
@@ -162,7 +162,7 @@ void build_connectors(Collector& collector) {
   const auto axes = Kokkos::create_mirror_view(arrays.axes);
   for (int c = 0; c < count; ++c)
     for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 3; ++i) axes(c, a, i) = model.scene.connectors[stage.cells[c].connector].axes[a][i];
+      for (int i = 0; i < 3; ++i) axes(c, a, i) = model.scene.connectors[built.cells[c].connector].axes[a][i];
   Kokkos::deep_copy(arrays.axes, axes);
   arrays.force = Array<double* [3]>("connector force", count);
   arrays.energy = Array<double* [2]>("connector energy", count);

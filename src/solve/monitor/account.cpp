@@ -8,9 +8,9 @@
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/contact/contact_law.hpp"
 #include "model/element_precision.hpp"
+#include "model/elements/block_launch.hpp"
 #include "model/elements/element_histories.hpp"
 #include "model/elements/materials.hpp"
-#include "model/elements/patch_launch.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "solve/monitor/load_totals.hpp"
@@ -35,8 +35,8 @@ struct NodalEnergy {
   }
 };
 
-/// Elastic energy of the patches, and what their hourglass control has stored or dissipated.
-struct PatchEnergy {
+/// Elastic energy of the blocks, and what their hourglass control has stored or dissipated.
+struct BlockEnergy {
   static constexpr int values = 2;
   Array<const double* [2]> energy;
   Array<const double*> dissipated;
@@ -52,24 +52,24 @@ template <class S, class Material>
 struct FlowWork {
   static constexpr int values = 1;
   Material material;
-  Array<const int*> row;  ///< of the patches' materials
+  Array<const int*> row;  ///< of the blocks' materials
   Array<const double*> volume;
   KOKKOS_INLINE_FUNCTION void operator()(int slot, double* sum) const {
     constexpr int kept = Material::history_values;
     double history[kept];
     for (int c = 0; c < kept; ++c) history[c] = material.history[tiled_slot<S>(slot, kept, c)];
-    sum[0] += volume(slot) * Material::work(material.constants[row(slot / patch_size)], history);
+    sum[0] += volume(slot) * Material::work(material.constants[row(slot / elements_of_block)], history);
   }
 };
 
-/// Adds the work of plastic flow of a patch's slots to what the patch has stored.
+/// Adds the work of plastic flow of a block's slots to what the block has stored.
 template <class FlowWork>
 struct AddFlowWork {
   FlowWork of_slot;
   Array<double* [2]> energy;
   KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
     double sum = 0;
-    for (int slot = p * patch_size; slot < (p + 1) * patch_size; ++slot) of_slot(slot, &sum);
+    for (int slot = p * elements_of_block; slot < (p + 1) * elements_of_block; ++slot) of_slot(slot, &sum);
     energy(p, 0) += sum;
   }
 };
@@ -162,20 +162,20 @@ struct ConnectorEnergy {
   }
 };
 
-/// Shares a group's energies, fetched, out among its parts: a patch lies in one.
+/// Shares a group's energies, fetched, out among its parts: a block lies in one.
 void share_out(const Model& model, const ElementGroup& group, std::vector<PartEnergy>& by_part) {
-  const auto& energy = group.patch_energy_fetched;
+  const auto& energy = group.block_energy_fetched;
   const auto& parts = model.assembly.parts;
   std::size_t p = 0;
-  for (int patch = 0; patch < group.patches.count; ++patch) {
+  for (int block = 0; block < group.blocks.count; ++block) {
     const auto holds = [&](std::size_t part) {
-      const int within = group.first_element[patch] - parts[part].first_element;
+      const int within = group.first_element[block] - parts[part].first_element;
       return within >= 0 && within < parts[part].element_count;
     };
     if (!holds(p))
       for (p = 0; p + 1 < parts.size() && !holds(p);) ++p;
-    by_part[p].internal += energy(patch, 0);
-    by_part[p].hourglass += energy(patch, 1);
+    by_part[p].internal += energy(block, 0);
+    by_part[p].hourglass += energy(block, 1);
   }
 }
 
@@ -185,36 +185,36 @@ void with_flow_work(const ElementGroup& group, const Work& work) {
   with_material(group, [&](const auto& material) {
     using Material = std::decay_t<decltype(material)>;
     if constexpr (Material::history_values > 0)
-      work(FlowWork<S, Material>{material, group.patches.material, group.material.volume});
+      work(FlowWork<S, Material>{material, group.blocks.material, group.material.volume});
   });
 }
 
 template <class S, class Hourglass>
 void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part,
                           Reductions& sums) {
-  const int count = group.patches.count;
+  const int count = group.blocks.count;
   with_material(group, [&](const auto& material) {
-    using State = PatchState<S, std::decay_t<decltype(material)>, Hourglass>;
-    launch_patches(group.patches,
-                   State{material, group.patches, group.patches.hourglass_scale, model.nodes, {}, group.patch_energy});
+    using State = ElementState<S, std::decay_t<decltype(material)>, Hourglass>;
+    launch_blocks(group.blocks,
+                  State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, {}, group.block_energy});
   });
-  sums.sum(PatchEnergy{group.patch_energy, group.patches.hourglass_energy}, count, [&energy](const double* sum) {
+  sums.sum(BlockEnergy{group.block_energy, group.blocks.hourglass_energy}, count, [&energy](const double* sum) {
     energy.internal += sum[0];
     energy.hourglass += sum[1];
   });
   if (by_part) {
     Kokkos::parallel_for("add_dissipated", Range(0, count),
-                         AddDissipated{group.patch_energy, group.patches.hourglass_energy, power_sums});
+                         AddDissipated{group.block_energy, group.blocks.hourglass_energy, power_sums});
     with_flow_work<S>(group, [&](const auto& flow_work) {
       Kokkos::parallel_for("add_flow_work", Range(0, count),
-                           AddFlowWork<std::decay_t<decltype(flow_work)>>{flow_work, group.patch_energy});
+                           AddFlowWork<std::decay_t<decltype(flow_work)>>{flow_work, group.block_energy});
     });
-    Kokkos::deep_copy(ExecutionSpace(), group.patch_energy_fetched, group.patch_energy);
+    Kokkos::deep_copy(ExecutionSpace(), group.block_energy_fetched, group.block_energy);
   }
   if (group.damping.active())
     sums.sum(ArraySum{group.damping.energy}, count, [&energy](const double* sum) { energy.damping += *sum; });
   with_flow_work<S>(group, [&](const auto& flow_work) {
-    sums.sum(flow_work, count * patch_size, [&energy](const double* sum) { energy.plastic += *sum; });
+    sums.sum(flow_work, count * elements_of_block, [&energy](const double* sum) { energy.plastic += *sum; });
   });
 }
 

@@ -49,8 +49,9 @@ std::vector<double> relaxation_masses(const Model& model) {
     for (double k : pair.segment_stiffness) stiffest = std::max(stiffest, pair.growth * k);
     for (int n : pair.slave_nodes) mass[n] += spring_share * stiffest;
     // Several slave nodes can press on one master node where the slave is the finer one.
-    const double crowd = std::max(1.0, static_cast<double>(pair.slave_nodes.size()) / pair.master_nodes.size());
-    for (int n : pair.master_nodes) mass[n] += spring_share * stiffest * crowd;
+    const double slaves_of_master =
+        std::max(1.0, static_cast<double>(pair.slave_nodes.size()) / pair.master_nodes.size());
+    for (int n : pair.master_nodes) mass[n] += spring_share * stiffest * slaves_of_master;
   }
   const auto& cell = model.connectors.cell;
   const auto& share = model.connectors.share;

@@ -5,13 +5,13 @@
 namespace railwave {
 
 Task beam_task(Model& model, StepKind kind) {
-  const BeamStage& stage = *model.beams;
-  return {stage.moments.empty() ? "beams" : "beams, torques on points", "a",
-          [&model, &stage, settling = kind == StepKind::settling](const Instant& instant) {
-            BeamForce force{stage.arrays, model.nodes.position, model.extra.contribution, settling, instant.elapsed};
-            for (std::size_t l = 0; l < stage.moments.size(); ++l)
-              force.given[l] = curve_value(stage.moments[l]->curve, instant.time) * stage.moments[l]->load->moment;
-            Kokkos::parallel_for("beam_force", SpreadRange(0, stage.arrays.count + stage.arrays.moment_count), force);
+  const BeamModel& built = *model.beams;
+  return {built.moments.empty() ? "beams" : "beams, torques on points", "a",
+          [&model, &built, settling = kind == StepKind::settling](const Instant& instant) {
+            BeamForce force{built.arrays, model.nodes.position, model.extra.contribution, settling, instant.elapsed};
+            for (std::size_t l = 0; l < built.moments.size(); ++l)
+              force.given[l] = curve_value(built.moments[l]->curve, instant.time) * built.moments[l]->load->moment;
+            Kokkos::parallel_for("beam_force", SpreadRange(0, built.arrays.count + built.arrays.moment_count), force);
           }};
 }
 
@@ -31,14 +31,14 @@ void queue_beam_energies(const Model& model, double step, EnergyAccount& energy,
 }
 
 std::vector<BeamResultants> beam_resultants(const Model& model) {
-  const BeamStage& stage = *model.beams;
-  const auto result = unset_array<double* [6]>("beam section forces", stage.arrays.count);
-  Kokkos::parallel_for("beam_section_forces", Range(0, stage.arrays.count),
-                       BeamSectionForces{stage.arrays, model.nodes.position, result});
+  const BeamModel& built = *model.beams;
+  const auto result = unset_array<double* [6]>("beam section forces", built.arrays.count);
+  Kokkos::parallel_for("beam_section_forces", Range(0, built.arrays.count),
+                       BeamSectionForces{built.arrays, model.nodes.position, result});
   const auto host = to_host(result);
   std::vector<BeamResultants> all(model.scene.beams.size());
   for (std::size_t b = 0; b < all.size(); ++b)
-    for (int e = stage.first_of_beam[b]; e < stage.first_of_beam[b + 1]; ++e)
+    for (int e = built.first_of_beam[b]; e < built.first_of_beam[b + 1]; ++e)
       for (int i = 0; i < 3; ++i) {
         all[b].force.push_back(host(e, i));
         all[b].moment.push_back(host(e, 3 + i));
@@ -55,9 +55,9 @@ void relax_rotations(const Model& model, double damping) {
 void stop_rotations(const Model& model) { Kokkos::deep_copy(model.beams->arrays.spin, 0.0); }
 
 BeamRelaxationState relaxation_state(const Model& model) {
-  const BeamStage& stage = *model.beams;
+  const BeamModel& built = *model.beams;
   double sum[3];
-  block_sum(BeamRelaxationSums{{stage.arrays}, stage.relaxation_inertia, stage.arm}, stage.arrays.node_count, sum,
+  block_sum(BeamRelaxationSums{{built.arrays}, built.relaxation_inertia, built.arm}, built.arrays.node_count, sum,
             *model.reduction_space);
   return {sum[0], sum[1], sum[2]};
 }

@@ -55,13 +55,13 @@ void run_phase(const char* name, const AnyMultiplier& any, bool by_node = false)
 
 void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
   for (const auto& pair : pairs) run_phase<Multiplier::Begin>("multipliers_begin", pair);
-  for (const auto& pair : pairs) run_phase<Multiplier::Foresee>("multipliers_foresee", pair, true);
-  for (const auto& pair : pairs) run_phase<Multiplier::Push>("multipliers_push", pair);
+  for (const auto& pair : pairs) run_phase<Multiplier::Predict>("multipliers_predict", pair, true);
+  for (const auto& pair : pairs) run_phase<Multiplier::Scatter>("multipliers_scatter", pair);
   for (int sweep = 1; sweep <= sweeps; ++sweep)
     for (const auto& pair : pairs) {
       run_phase<Multiplier::Correct>("multipliers_correct", pair);
       if (sweep < sweeps)
-        run_phase<Multiplier::Push>("multipliers_push", pair);
+        run_phase<Multiplier::Scatter>("multipliers_scatter", pair);
       else
         run_phase<Multiplier::Finish>("multipliers_finish", pair);
     }

@@ -282,7 +282,7 @@ std::vector<std::string> late_contacts(const Model& model) {
           pair.reversed ? pair.contact->slave : pair.contact->master.text()));
     if (const int late = to_host(pair.missed)(0); late > 0)
       lines.push_back(fmt::format(
-          "contact {}: {} nodes met the master faster than was foreseen, so that their forces began up to {} "
+          "contact {}: {} nodes met the master faster than was predicted, so that their forces began up to {} "
           "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
           pair.contact->name, late, steps_between_near_looks));
   }

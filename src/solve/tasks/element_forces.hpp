@@ -16,7 +16,7 @@ struct ElementLaunch {
   bool with_sets = false;     ///< and sets of nodes that move as one, connectors and torques
 };
 
-/// Forces of a group's elements at an instant, to `model.partial`, or to the nodes themselves where patches may move
+/// Forces of a group's elements at an instant, to `model.partial`, or to the nodes themselves where blocks may move
 /// them.
 /// @tparam S number type of the elements
 /// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance

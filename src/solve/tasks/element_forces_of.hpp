@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
-#include "model/elements/patch_launch.hpp"
 #include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
 
@@ -13,18 +13,18 @@ namespace railwave {
 /// Of 32 slave nodes each: a GPU has about as many multiprocessors.
 inline constexpr int most_contact_teams = 128;
 
-template <class Patch, bool Friction>
-void forces_together(const Model& model, const PatchArrays& patches, const Patch& functor, const Instant& instant,
+template <class Block, bool Friction>
+void forces_together(const Model& model, const ElementBlocks& blocks, const Block& functor, const Instant& instant,
                      const ElementLaunch& launch) {
   const ContactPair& pair = model.contacts.front();
-  using Together = ForcesTogether<Patch, Friction>;
+  using Together = ForcesTogether<Block, Friction>;
   const int set_teams = launch.with_sets ? 1 : 0;
   // How many nodes can touch is known on the device only; should they be more, teams take several turns.
   const int contact_teams =
       launch.with_contact
           ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
-  launch_teams(set_teams + contact_teams + patches.count, Patch::scratch_size(patches),
+  launch_teams(set_teams + contact_teams + blocks.count, Block::scratch_size(blocks),
                Together{set_loads(model, instant, launch.kind, 0),
                         contact_force<Friction>(model, pair, instant, LinearPenalty{pair.arrays.friction}, {}), functor,
                         set_teams, contact_teams});
@@ -33,30 +33,30 @@ void forces_together(const Model& model, const PatchArrays& patches, const Patch
 template <class S>
 const Array<PartialForce<S>*>& partial_forces(const Model& model) {
   if constexpr (sizeof(S) == sizeof(double))
-    return model.partial.wide;
+    return model.partial.in_double;
   else
-    return model.partial.narrow;
+    return model.partial.in_single;
 }
 
 template <class S, class Hourglass, bool Advance, class Nodes, class Material>
-void patch_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
+void block_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
                   const ElementLaunch& launch, const Material& material) {
   const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
   const Array<float*>& scale =
-      launch.kind == StepKind::settling ? group.patches.settling_hourglass : group.patches.hourglass_scale;
-  using Force = PatchForce<S, Material, Hourglass, Advance, Nodes>;
-  const Force force{material,           group.patches, scale, nodes, pace * instant.step, partial_forces<S>(model),
+      launch.kind == StepKind::settling ? group.blocks.settling_hourglass : group.blocks.hourglass_scale;
+  using Force = ElementForce<S, Material, Hourglass, Advance, Nodes>;
+  const Force force{material,           group.blocks, scale, nodes, pace * instant.step, partial_forces<S>(model),
                     group.first_partial};
   if constexpr (on_device && Advance) {
     if (launch.with_contact || launch.with_sets) {
       if (model.contacts.front().arrays.friction > 0)
-        forces_together<Force, true>(model, group.patches, force, instant, launch);
+        forces_together<Force, true>(model, group.blocks, force, instant, launch);
       else
-        forces_together<Force, false>(model, group.patches, force, instant, launch);
+        forces_together<Force, false>(model, group.blocks, force, instant, launch);
       return;
     }
   }
-  launch_patches(group.patches, force);
+  launch_blocks(group.blocks, force);
 }
 
 inline NodeAdvance advance_of(const Model& model, const ElementGroup& group, double step, const NodeAdvance* /*kind*/) {
@@ -79,13 +79,13 @@ void element_forces_of(const Model& model, const ElementGroup& group, const Inst
   const bool viscous = group.hourglass == scene::HourglassType::viscous && launch.kind != StepKind::settling;
   const bool advancing = launch.kind == StepKind::advancing;
   if (viscous && advancing)
-    patch_forces<S, ViscousHourglass, true>(model, group, nodes, instant, launch, material);
+    block_forces<S, ViscousHourglass, true>(model, group, nodes, instant, launch, material);
   else if (viscous)
-    patch_forces<S, ViscousHourglass, false>(model, group, nodes, instant, launch, material);
+    block_forces<S, ViscousHourglass, false>(model, group, nodes, instant, launch, material);
   else if (advancing)
-    patch_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, launch, material);
+    block_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, launch, material);
   else
-    patch_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, launch, material);
+    block_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, launch, material);
 }
 
 }  // namespace railwave

@@ -1,4 +1,4 @@
-#include "kernels/nodes/listed_nodes.hpp"
+#include "kernels/nodes/shared_nodes.hpp"
 #include "model/contact/contact_law.hpp"
 #include "model/elements/materials.hpp"
 #include "solve/tasks.hpp"
@@ -10,13 +10,13 @@ namespace railwave {
 namespace {
 
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which
-/// costs strain a few parts in 1e9. Whole rounds of any levels, so that every patch is evaluated when its frame is due.
+/// costs strain a few parts in 1e9. Whole rounds of any levels, so that every block is evaluated when its frame is due.
 constexpr long steps_between_frames = 64;
 static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
 
 /// Nodes in single precision need frames only for what the account and the outputs compute from the double ones.
 std::vector<Task> frame_tasks(const Model& model, const ElementGroup& group, StepKind kind, long every) {
-  if (group.patches.frame.extent(0) == 0) return {};
+  if (group.blocks.frame.extent(0) == 0) return {};
   const bool carried = model.carried.active() && kind != StepKind::settling;
   if (carried && kind == StepKind::advancing) return {};
   Task task{"reference frames of " + group.parts, "j",
@@ -80,7 +80,7 @@ std::vector<Task> element_tasks(Model& model, StepKind kind) {
     tasks.push_back(force_task(model, group, kind));
     tasks.back().every = pace;
   }
-  // Statics know no damping: while the scene settles its rows stay empty. No patch moves nodes of damped elements.
+  // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.
   for (const ElementGroup& group : model.elements)
     if (group.damping.active() && !settling) append(tasks, damping_tasks(model, group));
   return tasks;

@@ -1,7 +1,7 @@
-#include "kernels/nodes/listed_nodes.hpp"
+#include "kernels/nodes/shared_nodes.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
+#include "model/elements/block_launch.hpp"
 #include "model/elements/carriers.hpp"
-#include "model/elements/patch_launch.hpp"
 #include "solve/tasks.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "solve/tasks/contributions.hpp"
@@ -22,37 +22,37 @@ Task paced_task(const Model& model, bool listed) {
             const int phase = model.subcycling.phase(model.step);
             PacedNodeUpdate update{model.paced_acceleration(), node_advance(model, instant.step), {}};
             update.acceleration.phase = phase;
-            if (listed) update.listed = model.listed_nodes;
-            const int count = listed ? model.subcycling.listed_end[phase] : model.nodes.count;
+            if (listed) update.listed = model.shared_nodes;
+            const int count = listed ? model.subcycling.shared_end[phase] : model.nodes.count;
             if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
           }};
 }
 
-/// Nodes in single precision that belong to one patch alone.
-Task carried_patches_task(const Model& model) {
-  return {"inner nodes of the elements' patches", "f to j", [&model](const Instant& instant) {
+/// Nodes in single precision that belong to one block alone.
+Task carried_blocks_task(const Model& model) {
+  return {"inner nodes of the elements' blocks", "f to j", [&model](const Instant& instant) {
             for (const ElementGroup& group : model.elements)
-              launch_patches(group.patches,
-                             CarriedPatchUpdate{group.patches, carried_advance(model, group.carried, instant.step),
-                                                model.partial.narrow, group.first_partial});
+              launch_blocks(group.blocks,
+                            CarriedBlockUpdate{group.blocks, carried_advance(model, group.carried, instant.step),
+                                               model.partial.in_single, group.first_partial});
           }};
 }
 
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
 Task carried_listed_task(const Model& model, bool rows_are_due) {
-  return {"nodes that patches share", "f to j", [&model, rows_are_due](const Instant& instant) {
+  return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
             Kokkos::parallel_for(
-                "listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
-                CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.listed_nodes,
-                                    model.carried.listed_arm, row_loads(model, instant.elapsed), rows_are_due});
+                "shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
+                CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.shared_nodes,
+                                    model.carried.shared_arm, row_loads(model, instant.elapsed), rows_are_due});
           }};
 }
 
 Task listed_task(const Model& model, bool rows_are_due) {
-  return {"nodes that patches share", "f to j", [&model, rows_are_due](const Instant& instant) {
-            Kokkos::parallel_for("listed_nodes", Range(0, static_cast<int>(model.listed_nodes.extent(0))),
-                                 ListedNodeUpdate{model.acceleration(), node_advance(model, instant.step),
-                                                  model.listed_nodes, row_loads(model, instant.elapsed), rows_are_due});
+  return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
+            Kokkos::parallel_for("shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
+                                 SharedNodeUpdate{model.acceleration(), node_advance(model, instant.step),
+                                                  model.shared_nodes, row_loads(model, instant.elapsed), rows_are_due});
           }};
 }
 
@@ -96,7 +96,7 @@ std::vector<Task> motion_tasks(Model& model, StepKind kind) {
   if (model.subcycling.levels > 1) {
     tasks.push_back(paced_task(model, inner_have_moved));
   } else if (model.carried.active()) {
-    if (!inner_have_moved) tasks.push_back(carried_patches_task(model));
+    if (!inner_have_moved) tasks.push_back(carried_blocks_task(model));
     tasks.push_back(carried_listed_task(model, rows_are_due));
   } else {
     tasks.push_back(inner_have_moved ? listed_task(model, rows_are_due) : node_task(model));

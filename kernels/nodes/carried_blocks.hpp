@@ -5,13 +5,13 @@
 
 namespace railwave {
 
-/// A patch's nodes in scratch memory where they are kept in single precision: displacements are what the carrier
-/// leaves, positions are told from the patch's own point.
+/// A block's nodes in scratch memory where they are kept in single precision: displacements are what the carrier
+/// leaves, positions are told from the block's own point.
 template <bool WithVelocity, bool WithMass>
 struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   float* position;
   float* displacement;
-  float* velocity;  ///< m/s, but for that of the patch's point, which deforms nothing
+  float* velocity;  ///< m/s, but for that of the block's point, which deforms nothing
   float* inverse_mass;
   int stride;
 
@@ -28,7 +28,7 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   }
 
   /// The turn that displacements leave out.
-  KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const PatchArrays& /*patches*/, int p,
+  KOKKOS_FORCEINLINE_FUNCTION static const Matrix3<float>& turn(const ElementBlocks& /*blocks*/, int p,
                                                                 const CarriedArrays& nodes) {
     return nodes.carrier(nodes.arm(p).carrier).turn;
   }
@@ -44,9 +44,9 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   };
 
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p,
+  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const ElementBlocks& blocks, int p,
                                     const CarriedArrays& nodes) const {
-    const int* number = patches.node.data() + static_cast<long>(p) * stride;
+    const int* number = blocks.node.data() + static_cast<long>(p) * stride;
     const float* local = nodes.local.data() + static_cast<long>(p) * 3 * stride;
     const CarrierStep& carrier = nodes.carrier(nodes.arm(p).carrier);
     if constexpr (on_device) {
@@ -75,7 +75,7 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
     if constexpr (WithMass) inverse_mass[l] = fetched.node.inverse_mass;
   }
 
-  /// The same for all nodes of a host's patch: what follows the fetching goes a pack at a time.
+  /// The same for all nodes of a host's block: what follows the fetching goes a pack at a time.
   KOKKOS_INLINE_FUNCTION void put_all(const int* number, const float* local, const CarriedArrays& nodes,
                                       const CarrierStep& carrier) const {
     const int count = stride;
@@ -122,25 +122,25 @@ struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   }
 };
 
-/// Moves the nodes that are a patch's alone under forces that it has left in the partial ones, to the very bit as
-/// PatchForce would have moved them.
-struct CarriedPatchUpdate {
-  PatchArrays patches;
+/// Moves the nodes that are a block's alone under forces that it has left in the partial ones, to the very bit as
+/// ElementForce would have moved them.
+struct CarriedBlockUpdate {
+  ElementBlocks blocks;
   CarriedAdvance nodes;
   Array<const PartialForce<float>*> partial;
   int first_partial;
 
   using Staged = StagedNodes<float, false, true, CarriedAdvance>;
 
-  static std::size_t scratch_size(const PatchArrays& patches) { return Staged::scratch_size(patches.node_stride); }
+  static std::size_t scratch_size(const ElementBlocks& blocks) { return Staged::scratch_size(blocks.node_stride); }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
     const int p = team.league_rank();
-    const Staged staged(team, patches.node_stride);
-    staged.bring(team, patches, p, nodes.nodes);
+    const Staged staged(team, blocks.node_stride);
+    staged.bring(team, blocks, p, nodes.nodes);
     team.team_barrier();
-    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, patches.node_count(p)), [&](const int l) {
-      const int place = p * patches.node_stride + l, n = patches.node(place);
+    Kokkos::parallel_for(Kokkos::TeamThreadRange(team, blocks.node_count(p)), [&](const int l) {
+      const int place = p * blocks.node_stride + l, n = blocks.node(place);
       if (n >= 0) return;
       const PartialForce<float> f = partial(first_partial + place);
       staged.advance(nodes, p, n & ~advance_bit, l, {{f.x[0], f.x[1], f.x[2]}});

@@ -4,17 +4,17 @@
 
 namespace railwave {
 
-/// Step 3 of the thesis's table 2.1 for the nodes that the patches have left. Where the laws of torques and connectors
+/// Step 3 of the thesis's table 2.1 for the nodes that the blocks have left. Where the laws of torques and connectors
 /// have been evaluated but not yet shared out, a node works out its own loads here, beside the many that have none.
-struct ListedNodeUpdate {
+struct SharedNodeUpdate {
   NodalAcceleration acceleration;
   NodeAdvance advance;
-  Array<const ListedNode*> listed;
+  Array<const SharedNode*> shared;
   RowLoads rows;
   bool rows_here;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const ListedNode node = listed(i);
+    const SharedNode node = shared(i);
     const int n = node.node & ~special_bit;
     const double inverse_mass = 1.0 / advance.nodes.mass(n);
     const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);

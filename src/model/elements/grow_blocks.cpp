@@ -1,21 +1,21 @@
-#include "model/elements/divide_into_patches.hpp"
+#include "model/elements/divide_into_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-#include "kernels/elements/patches.hpp"
+#include "kernels/elements/element_blocks.hpp"
 
 namespace railwave {
 namespace {
 
-/// What an element's freedom and distance weigh against a node that it shares with the patch. Of the values tried
-/// (freedom 0 to 0.15, distance 0.05 to 1) these left the fewest patches of the rolling scene, with 50 thousand
+/// What an element's freedom and distance weigh against a node that it shares with the block. Of the values tried
+/// (freedom 0 to 0.15, distance 0.05 to 1) these left the fewest blocks of the rolling scene, with 50 thousand
 /// elements and a million.
 constexpr double freedom_weight = 0.06, distance_weight = 0.2;
 
-constexpr int no_patch = -1, not_asked_for = -2;
+constexpr int no_block = -1, not_asked_for = -2;
 
 class Grower {
  public:
@@ -23,13 +23,13 @@ class Grower {
       : assembly_(assembly),
         first_around_(assembly.nodes.size() + 1, 0),
         centre_(assembly.elements.size()),
-        patch_(assembly.elements.size(), not_asked_for),
+        block_(assembly.elements.size(), not_asked_for),
         shared_(assembly.elements.size(), 0),
-        considered_by_(assembly.elements.size(), no_patch),
-        staged_by_(assembly.nodes.size(), no_patch) {
+        considered_by_(assembly.elements.size(), no_block),
+        staged_by_(assembly.nodes.size(), no_block) {
     for (int k = begin; k < end; ++k) {
       const int e = elements[k];
-      patch_[e] = no_patch;
+      block_[e] = no_block;
       centre_[e] = {0, 0, 0};
       for (int n : assembly.elements[e]) {
         ++first_around_[n + 1];
@@ -47,7 +47,7 @@ class Grower {
 
   void divide(std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
     const std::vector<int> all(elements.begin() + begin, elements.begin() + end);
-    // Patches begin where the least room is left, so that no scraps stay behind.
+    // Blocks begin where the least room is left, so that no scraps stay behind.
     std::set<std::pair<int, int>> edge;  // freedom when it was last looked at, element
     auto next = all.begin();
     int place = begin;
@@ -56,24 +56,24 @@ class Grower {
       while (seed < 0 && !edge.empty()) {
         const auto [freedom_before, e] = *edge.begin();
         edge.erase(edge.begin());
-        if (patch_[e] != no_patch) continue;
+        if (block_[e] != no_block) continue;
         const int now = freedom(e);
         if (now == freedom_before)
           seed = e;
         else
           edge.insert({now, e});
       }
-      if (seed < 0) seed = *(next = std::find_if(next, all.end(), [&](int e) { return patch_[e] == no_patch; }));
+      if (seed < 0) seed = *(next = std::find_if(next, all.end(), [&](int e) { return block_[e] == no_block; }));
       first.push_back(place);
       for (int e : grow(seed, p)) elements[place++] = e;
       std::sort(elements.begin() + first.back(), elements.begin() + place);
       for (int e : considered_)
-        if (patch_[e] == no_patch) edge.insert({freedom(e), e});
+        if (block_[e] == no_block) edge.insert({freedom(e), e});
     }
   }
 
  private:
-  /// Elements that lie around an element's corners and are in no patch yet.
+  /// Elements that lie around an element's corners and are in no block yet.
   int freedom(int e) const {
     int sum = 0;
     for (int n : assembly_.elements[e]) sum += left_[n];
@@ -87,22 +87,22 @@ class Grower {
   }
 
   std::vector<int> grow(int seed, int number) {
-    std::vector<int> patch;
+    std::vector<int> block;
     considered_.clear();
     node_count_ = 0;
     Vec3 sum{0, 0, 0};
     const double scale = distance_weight / size(seed);
-    for (int e = seed; e >= 0; e = best(number, sum, static_cast<double>(patch.size()), scale)) {
+    for (int e = seed; e >= 0; e = best(number, sum, static_cast<double>(block.size()), scale)) {
       take(e, number);
-      patch.push_back(e);
+      block.push_back(e);
       for (int i = 0; i < 3; ++i) sum[i] += centre_[e][i];
-      if (patch.size() == patch_size) break;
+      if (block.size() == elements_of_block) break;
     }
-    return patch;
+    return block;
   }
 
   void take(int e, int number) {
-    patch_[e] = number;
+    block_[e] = number;
     for (int n : assembly_.elements[e]) {
       --left_[n];
       if (staged_by_[n] == number) continue;
@@ -110,7 +110,7 @@ class Grower {
       ++node_count_;
       for (int k = first_around_[n]; k < first_around_[n + 1]; ++k) {
         const int other = around_[k];
-        if (patch_[other] != no_patch) continue;
+        if (block_[other] != no_block) continue;
         if (considered_by_[other] != number) {
           considered_by_[other] = number;
           shared_[other] = 0;
@@ -121,15 +121,15 @@ class Grower {
     }
   }
 
-  /// The element that brings the fewest new nodes, fills a gap, and lies near the patch's middle; -1: none has room.
+  /// The element that brings the fewest new nodes, fills a gap, and lies near the block's middle; -1: none has room.
   int best(int number, const Vec3& sum, double count, double scale) {
     int chosen = -1;
     double highest = std::numeric_limits<double>::lowest();
     std::size_t kept = 0;
     for (int e : considered_) {
-      if (patch_[e] == number) continue;
+      if (block_[e] == number) continue;
       considered_[kept++] = e;
-      if (node_count_ + 8 - shared_[e] > patch_nodes) continue;
+      if (node_count_ + 8 - shared_[e] > nodes_of_block) continue;
       double squared = 0;
       for (int i = 0; i < 3; ++i) squared += (centre_[e][i] - sum[i] / count) * (centre_[e][i] - sum[i] / count);
       const double score = shared_[e] - freedom_weight * freedom(e) - scale * std::sqrt(squared);
@@ -144,18 +144,18 @@ class Grower {
 
   const Assembly& assembly_;
   std::vector<int> first_around_, around_;  ///< elements around each node, of those to divide
-  std::vector<int> left_;                   ///< how many of them are in no patch yet
+  std::vector<int> left_;                   ///< how many of them are in no block yet
   std::vector<Vec3> centre_;                ///< m
-  std::vector<int> patch_;                  ///< of each element
-  std::vector<int> shared_;                 ///< nodes of a considered element that are the growing patch's
+  std::vector<int> block_;                  ///< of each element
+  std::vector<int> shared_;                 ///< nodes of a considered element that are the growing block's
   std::vector<int> considered_by_, considered_;
-  std::vector<int> staged_by_;  ///< last patch that took a node
+  std::vector<int> staged_by_;  ///< last block that took a node
   int node_count_ = 0;
 };
 
 }  // namespace
 
-void grow_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
   Grower(assembly, elements, begin, end).divide(elements, begin, end, first);
 }
 

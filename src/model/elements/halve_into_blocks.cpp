@@ -1,15 +1,15 @@
-#include "model/elements/divide_into_patches.hpp"
+#include "model/elements/divide_into_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/elements/patches.hpp"
+#include "kernels/elements/element_blocks.hpp"
 
 namespace railwave {
 namespace {
 
-/// Splits a part's elements into compact patches by halving: across the direction in which the group counts most
-/// elements, between two layers of elements where that leaves both halves room in their patches.
+/// Splits a part's elements into compact blocks by halving: across the direction in which the group counts most
+/// elements, between two layers of elements where that leaves both halves room in their blocks.
 class Divider {
  public:
   Divider(const Assembly& assembly, const std::vector<int>& elements, int begin, int end)
@@ -32,10 +32,10 @@ class Divider {
     }
   }
 
-  /// Orders elements[begin, end) and appends the first place of each patch.
+  /// Orders elements[begin, end) and appends the first place of each block.
   void divide(std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
     const int count = end - begin;
-    if (count <= patch_size && node_count(elements, begin, end) <= patch_nodes) {
+    if (count <= elements_of_block && node_count(elements, begin, end) <= nodes_of_block) {
       std::sort(elements.begin() + begin, elements.begin() + end);
       first.push_back(begin);
       return;
@@ -72,9 +72,10 @@ class Divider {
       if ((high[i] - low[i]) * size[axis] > (high[axis] - low[axis]) * size[i]) axis = i;
 
     // A little room to spare lets large groups be cut between layers.
-    const int patches = std::max(2, static_cast<int>(std::ceil((count > 1500 ? 1.04 : 1.0) * count / patch_size)));
-    const int left_patches = patches / 2;
-    const int target = static_cast<int>(static_cast<long>(count) * left_patches / patches);
+    const int blocks =
+        std::max(2, static_cast<int>(std::ceil((count > 1500 ? 1.04 : 1.0) * count / elements_of_block)));
+    const int left_blocks = blocks / 2;
+    const int target = static_cast<int>(static_cast<long>(count) * left_blocks / blocks);
     const int layers = std::clamp(static_cast<int>((high[axis] - low[axis]) / size[axis] + 1.5), 2, 4096);
     const double thickness = (high[axis] - low[axis]) / (layers - 1);
     const auto layer_of = [&](int e) { return static_cast<int>((centre_[e][axis] - low[axis]) / thickness + 0.5); };
@@ -83,7 +84,8 @@ class Divider {
     int below = 0, best = -1, best_layer = 0;
     for (int layer = 0; layer < layers; ++layer) {
       below += in_layer[layer];
-      const bool fits = below <= left_patches * patch_size && count - below <= (patches - left_patches) * patch_size;
+      const bool fits =
+          below <= left_blocks * elements_of_block && count - below <= (blocks - left_blocks) * elements_of_block;
       if (below == 0 || below == count || !fits) continue;
       if (best < 0 || std::abs(below - target) < std::abs(best - target)) {
         best = below;
@@ -113,8 +115,8 @@ class Divider {
 
 }  // namespace
 
-void halve_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
-                        std::vector<int>& first) {
+void halve_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                       std::vector<int>& first) {
   if (end > begin) Divider(assembly, elements, begin, end).divide(elements, begin, end, first);
 }
 

@@ -7,27 +7,29 @@
 
 namespace railwave {
 
-/// Elements lie in patches: compact groups of at most `patch_size` elements that share at most `patch_nodes` nodes. One
-/// team works on a patch: it brings the patch's nodes into scratch memory once, computes its elements from there, and
-/// sums the forces of their corners there, so that only what the patch's nodes feel in sum leaves it.
-inline constexpr int patch_size = 128;
-inline constexpr int patch_nodes = 240;  // with these, a patch's scratch memory stays below the 48 KiB that any GPU has
-/// A patch's node that no other patch touches and no load, contact or constraint concerns can be advanced by the
-/// patch's own team: its number in the patch's list then carries this bit.
+/// Elements lie in blocks: compact groups of at most `elements_of_block` elements that share at most `nodes_of_block`
+/// nodes. One team works on a block: it brings the block's nodes into scratch memory once, computes its elements from
+/// there, and sums the forces of their corners there, so that only what the block's nodes feel in sum leaves it.
+inline constexpr int elements_of_block = 128;
+inline constexpr int nodes_of_block =
+    240;  // with these, a block's scratch memory stays below the 48 KiB that any GPU has
+/// A block's node that no other block touches and no load, contact or constraint concerns can be advanced by the
+/// block's own team: its number in the block's list then carries this bit.
 inline constexpr int advance_bit = static_cast<int>(0x80000000u);
 /// Corner forces lie in scratch memory component by component; one place after them holds a zero, for the packs of a
 /// host.
-inline constexpr int component_stride = 8 * patch_size + (on_device ? 0 : 16), zero_place = 8 * patch_size;
-/// The power that hourglass control dissipates is added up in so many parts of a patch.
+inline constexpr int component_stride = 8 * elements_of_block + (on_device ? 0 : 16),
+                     zero_place = 8 * elements_of_block;
+/// The power that hourglass control dissipates is added up in so many parts of a block.
 inline constexpr int power_sums = 16;
 
 /// Where a group of values that a thread reads at once begins and how long it is: 16 bytes of place numbers.
 inline constexpr int places_at_once = 8;
 
-/// The rigid motion from which single precision measures a patch's displacements: u = (x - now) - turn (X - before).
-/// Any turn and any point near the patch's own will do, so the frames are renewed only now and then; what they take out
+/// The rigid motion from which single precision measures a block's displacements: u = (x - now) - turn (X - before).
+/// Any turn and any point near the block's own will do, so the frames are renewed only now and then; what they take out
 /// is what would cost digits.
-struct PatchFrame {
+struct BlockFrame {
   static constexpr int values = 15;  ///< turn by rows, now, before (m)
   const double* value;
 
@@ -41,41 +43,41 @@ struct PatchFrame {
   }
 };
 
-/// The patches of one group of elements; slot s of patch p is element p patch_size + s. Slots beyond a patch's elements
-/// repeat its last one and are gathered by nobody. Lists have the same length for every patch, so that a team finds its
-/// own without looking up where they begin.
-struct PatchArrays {
+/// The blocks of one group of elements; slot s of block p is element p elements_of_block + s. Slots beyond a block's
+/// elements repeat its last one and are gathered by nobody. Lists have the same length for every block, so that a team
+/// finds its own without looking up where they begin.
+struct ElementBlocks {
   int count = 0;
-  int node_stride = 0;   ///< room for the nodes of any patch, a multiple of the pack width
+  int node_stride = 0;   ///< room for the nodes of any block, a multiple of the pack width
   int pack_stride = 0;   ///< room for first_place
   int place_stride = 0;  ///< room for the corner places
   Array<int*> element_count;
   Array<int*> node_count;
   Array<int*> material;        ///< row of the constants
-  Array<int*> node;            ///< node_stride for each patch: model node numbers, by how many corners meet there;
-                               ///< filled up with the patch's first
-  Array<int* [3]> frame_node;  ///< three of a patch's nodes (model numbers) that span a plane
-  Array<double * [PatchFrame::values]> frame;  ///< empty in double precision
-  Array<std::uint8_t*> corner;                 ///< by batch: eight places in the patch's nodes, corner by corner
-  Array<std::uint16_t*> first_place;  ///< pack_stride for each patch, by pack of nodes: where its corner places begin
-  Array<std::uint16_t*> place;    ///< place_stride for each patch: the corner forces that meet at a pack's nodes, its
+  Array<int*> node;            ///< node_stride for each block: model node numbers, by how many corners meet there;
+                               ///< filled up with the block's first
+  Array<int* [3]> frame_node;  ///< three of a block's nodes (model numbers) that span a plane
+  Array<double * [BlockFrame::values]> frame;  ///< empty in double precision
+  Array<std::uint8_t*> corner;                 ///< by batch: eight places in the block's nodes, corner by corner
+  Array<std::uint16_t*> first_place;  ///< pack_stride for each block, by pack of nodes: where its corner places begin
+  Array<std::uint16_t*> place;    ///< place_stride for each block: the corner forces that meet at a pack's nodes, its
                                   ///< lanes together
   Array<float*> hourglass_scale;  ///< by slot: c (kg/s) or k (N/m) of the hourglass control
   Array<float*> settling_hourglass;  ///< by slot, N/m: stiffness control while settling, whatever the run's own control
-  Array<double*> hourglass_energy;   ///< power_sums for each patch: J dissipated so far
+  Array<double*> hourglass_energy;   ///< power_sums for each block: J dissipated so far
 };
 
-/// The turn that a patch's frame takes out, by rows.
+/// The turn that a block's frame takes out, by rows.
 struct FrameTurn {
-  const PatchArrays& patches;
+  const ElementBlocks& blocks;
   int p;
 
-  KOKKOS_FORCEINLINE_FUNCTION double operator()(int i, int j) const { return patches.frame(p, 3 * i + j); }
+  KOKKOS_FORCEINLINE_FUNCTION double operator()(int i, int j) const { return blocks.frame(p, 3 * i + j); }
 };
 
-/// Lays the frames along three of each patch's nodes as they stand now.
+/// Lays the frames along three of each block's nodes as they stand now.
 struct RenewFrames {
-  PatchArrays patches;
+  ElementBlocks blocks;
   Array<const double*[3]> position, reference;
 
   struct Axes {
@@ -83,8 +85,8 @@ struct RenewFrames {
   };
 
   KOKKOS_INLINE_FUNCTION Axes axes(const Array<const double* [3]>& x, int p) const {
-    const Vector3 origin = row(x, patches.frame_node(p, 0));
-    Vector3 u = row(x, patches.frame_node(p, 1)) - origin, w = row(x, patches.frame_node(p, 2)) - origin;
+    const Vector3 origin = row(x, blocks.frame_node(p, 0));
+    Vector3 u = row(x, blocks.frame_node(p, 1)) - origin, w = row(x, blocks.frame_node(p, 2)) - origin;
     u = (1 / norm(u)) * u;
     w = w - dot(w, u) * u;
     w = (1 / norm(w)) * w;
@@ -95,10 +97,10 @@ struct RenewFrames {
     const Axes now = axes(position, p), before = axes(reference, p);
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j)
-        patches.frame(p, 3 * i + j) =
+        blocks.frame(p, 3 * i + j) =
             now.a[0][i] * before.a[0][j] + now.a[1][i] * before.a[1][j] + now.a[2][i] * before.a[2][j];
-      patches.frame(p, 9 + i) = position(patches.frame_node(p, 0), i);
-      patches.frame(p, 12 + i) = reference(patches.frame_node(p, 0), i);
+      blocks.frame(p, 9 + i) = position(blocks.frame_node(p, 0), i);
+      blocks.frame(p, 12 + i) = reference(blocks.frame_node(p, 0), i);
     }
   }
 };
@@ -111,48 +113,48 @@ KOKKOS_FORCEINLINE_FUNCTION void corner_modes(const S* component, const BatchCor
   modes_of(u, m);
 }
 
-/// A patch's nodes in scratch memory, component by component.
+/// A block's nodes in scratch memory, component by component.
 /// @tparam Nodes what moves them: NodeAdvance, or CarriedAdvance where nodes are in single precision
-/// (carried_patches.hpp)
+/// (carried_blocks.hpp)
 template <class S, bool WithVelocity, bool WithMass, class Nodes = NodeAdvance>
 struct StagedNodes {
   S* position;           ///< m; in single precision from the frame's point
   S* displacement;       ///< m, from the reference, in single precision from the frame's rigid motion
   S* velocity;           ///< m/s
   double* inverse_mass;  ///< 1/kg
-  double* frame;         ///< of PatchFrame, in single precision
+  double* frame;         ///< of BlockFrame, in single precision
   int stride;
-  static constexpr bool narrow = sizeof(S) < sizeof(double);
+  static constexpr bool in_single = sizeof(S) < sizeof(double);
 
   static std::size_t scratch_size(int stride) {
     return sizeof(S) * (WithVelocity ? 9u : 6u) * stride + (WithMass ? sizeof(double) * stride : 0) +
-           (narrow ? sizeof(double) * PatchFrame::values : 0) + 3 * scratch_alignment;
+           (in_single ? sizeof(double) * BlockFrame::values : 0) + 3 * scratch_alignment;
   }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION StagedNodes(const Member& team, int stride_) : stride(stride_) {
     inverse_mass = WithMass ? scratch_values<double>(team, stride) : nullptr;
-    frame = narrow ? scratch_values<double>(team, PatchFrame::values) : nullptr;
+    frame = in_single ? scratch_values<double>(team, BlockFrame::values) : nullptr;
     position = scratch_values<S>(team, (WithVelocity ? 9u : 6u) * stride);
     displacement = position + 3 * stride;
     velocity = position + 6 * stride;
   }
 
   template <class Member>
-  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const PatchArrays& patches, int p,
+  KOKKOS_INLINE_FUNCTION void bring(const Member& team, const ElementBlocks& blocks, int p,
                                     const NodeArrays& nodes) const {
-    if constexpr (narrow)
-      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, PatchFrame::values),
-                           [&](const int k) { frame[k] = patches.frame(p, k); });
-    const int* number = patches.node.data() + static_cast<long>(p) * stride;
+    if constexpr (in_single)
+      Kokkos::parallel_for(Kokkos::TeamThreadRange(team, BlockFrame::values),
+                           [&](const int k) { frame[k] = blocks.frame(p, k); });
+    const int* number = blocks.node.data() + static_cast<long>(p) * stride;
     if constexpr (on_device) {
       // Two nodes at a time: what the second asks of memory is under way while the first waits.
-      static_assert(patch_nodes <= 2 * patch_size, "a thread brings two nodes");
+      static_assert(nodes_of_block <= 2 * elements_of_block, "a thread brings two nodes");
       // Threads beyond the last node bring that one again.
       const int last = stride - 1, l = team.team_rank() < last ? team.team_rank() : last;
       const int m = l + team.team_size() < last ? l + team.team_size() : last;
       const Fetched first(nodes, number[l] & ~advance_bit), second(nodes, number[m] & ~advance_bit);
-      if constexpr (narrow) team.team_barrier();
+      if constexpr (in_single) team.team_barrier();
       put(l, first);
       put(m, second);
     } else {
@@ -161,8 +163,8 @@ struct StagedNodes {
   }
 
   /// The turn that displacements leave out, in single precision.
-  KOKKOS_FORCEINLINE_FUNCTION static FrameTurn turn(const PatchArrays& patches, int p, const NodeArrays& /*nodes*/) {
-    return {patches, p};
+  KOKKOS_FORCEINLINE_FUNCTION static FrameTurn turn(const ElementBlocks& blocks, int p, const NodeArrays& /*nodes*/) {
+    return {blocks, p};
   }
 
   struct Fetched {
@@ -181,8 +183,8 @@ struct StagedNodes {
     if constexpr (WithVelocity)
       for (int i = 0; i < 3; ++i) velocity[i * stride + l] = static_cast<S>(node.velocity[i]);
     if constexpr (WithMass) inverse_mass[l] = 1.0 / node.mass;
-    if constexpr (narrow) {
-      const PatchFrame motion{frame};
+    if constexpr (in_single) {
+      const BlockFrame motion{frame};
       for (int i = 0; i < 3; ++i) now[i] -= motion.now(i);
       before = motion.turned(before);
     }
@@ -196,7 +198,7 @@ struct StagedNodes {
   KOKKOS_FORCEINLINE_FUNCTION void advance(const NodeAdvance& nodes, int /*p*/, int n, int l,
                                            const Vector3& force) const {
     const Vector3 a = nodes.acceleration(inverse_mass[l], force);
-    if constexpr (!narrow && WithVelocity)
+    if constexpr (!in_single && WithVelocity)
       nodes.move(n, a, {{position[l], position[stride + l], position[2 * stride + l]}},
                  {{velocity[l], velocity[stride + l], velocity[2 * stride + l]}});
     else

@@ -1,25 +1,25 @@
-#include "model/elements/patch_order.hpp"
+#include "model/elements/block_order.hpp"
 
 #include <algorithm>
 
-#include "kernels/elements/patches.hpp"
-#include "model/elements/divide_into_patches.hpp"
+#include "kernels/elements/element_blocks.hpp"
+#include "model/elements/divide_into_blocks.hpp"
 
 namespace railwave {
 namespace {
 
-/// A few patches less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 %
+/// A few blocks less do not make up for the rows that grown ones leave ragged: a block of 4 million elements is 9 %
 /// slower.
 constexpr double worthwhile_share = 0.95;
 
-void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
-                         std::vector<int>& first) {
+void divide_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                        std::vector<int>& first) {
   std::vector<int> grown = elements, first_grown = first;
-  halve_into_patches(assembly, elements, begin, end, first);
+  halve_into_blocks(assembly, elements, begin, end, first);
   // Full ones all of them: growing cannot do better, and takes a second for a million elements.
-  const std::size_t fewest = first_grown.size() + (end - begin + patch_size - 1) / patch_size;
+  const std::size_t fewest = first_grown.size() + (end - begin + elements_of_block - 1) / elements_of_block;
   if (fewest >= worthwhile_share * first.size()) return;
-  grow_patches(assembly, grown, begin, end, first_grown);
+  grow_blocks(assembly, grown, begin, end, first_grown);
   if (first_grown.size() >= worthwhile_share * first.size()) return;
   std::copy(grown.begin() + begin, grown.begin() + end, elements.begin() + begin);
   first = std::move(first_grown);
@@ -27,18 +27,18 @@ void divide_into_patches(const Assembly& assembly, std::vector<int>& elements, i
 
 /// New number of each node.
 std::vector<int> node_order(const Assembly& assembly, const std::vector<int>& elements, const std::vector<int>& first) {
-  const int patches = static_cast<int>(first.size()) - 1;
-  std::vector<int> last_patch(assembly.nodes.size(), -1), number(assembly.nodes.size(), -1);
+  const int blocks = static_cast<int>(first.size()) - 1;
+  std::vector<int> last_block(assembly.nodes.size(), -1), number(assembly.nodes.size(), -1);
   std::vector<char> shared(assembly.nodes.size(), 0);
-  for (int p = 0; p < patches; ++p)
+  for (int p = 0; p < blocks; ++p)
     for (int k = first[p]; k < first[p + 1]; ++k)
       for (int n : assembly.elements[elements[k]]) {
-        if (last_patch[n] >= 0 && last_patch[n] != p) shared[n] = 1;
-        last_patch[n] = p;
+        if (last_block[n] >= 0 && last_block[n] != p) shared[n] = 1;
+        last_block[n] = p;
       }
   for (const auto& part : assembly.parts) {
     int next = part.first_node;
-    for (int p = 0; p < patches; ++p) {
+    for (int p = 0; p < blocks; ++p) {
       const bool own = first[p] >= part.first_element && first[p] < part.first_element + part.element_count;
       if (!own) continue;
       std::vector<int> fresh;
@@ -83,9 +83,9 @@ void renumber(Assembly& assembly, const std::vector<int>& elements, const std::v
 
 }  // namespace
 
-PatchOrder order_in_patches(Assembly& assembly, const std::vector<int>& levels) {
+BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels) {
   std::vector<int> elements(assembly.elements.size());
-  PatchOrder order;
+  BlockOrder order;
   auto& first = order.first_element;
   for (std::size_t e = 0; e < elements.size(); ++e) elements[e] = static_cast<int>(e);
   const auto level_of = [&](int e) { return levels.empty() ? 0 : levels[e]; };
@@ -95,8 +95,8 @@ PatchOrder order_in_patches(Assembly& assembly, const std::vector<int>& levels) 
     for (auto same = begin; same != end;) {
       const int level = level_of(*same);
       const auto next = std::find_if(same, end, [&](int e) { return level_of(e) != level; });
-      divide_into_patches(assembly, elements, static_cast<int>(same - elements.begin()),
-                          static_cast<int>(next - elements.begin()), first);
+      divide_into_blocks(assembly, elements, static_cast<int>(same - elements.begin()),
+                         static_cast<int>(next - elements.begin()), first);
       order.level.resize(first.size(), level);
       same = next;
     }

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "model/assembly.hpp"
+
+namespace railwave {
+
+/// Puts an assembly's elements and nodes into the order in which the solver works: elements block by block (see
+/// kernels/elements/element_blocks.hpp), nodes in the order in which the blocks first need them, those that several
+/// blocks share before those of a single one. Parts stay ranges; point masses stay last. Sets, surfaces and ranges
+/// follow.
+struct BlockOrder {
+  std::vector<int> first_element;  ///< of each block, and the number of elements at the end; no block spans two parts
+  std::vector<int> mesh_number;    ///< of each node: its number before
+  std::vector<int> level;          ///< of each block: its elements' level (see model/subcycling.hpp)
+};
+/// @param levels of each element; empty: all 0. No block holds elements of two levels.
+BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels = {});
+
+}  // namespace railwave

@@ -14,6 +14,7 @@ using scene::FileMesh;
 using scene::FishplateMesh;
 using scene::MeshSource;
 using scene::RailPadMesh;
+using scene::RingMesh;
 using scene::RollerMesh;
 using scene::WheelMesh;
 using scene::WheelsetMesh;
@@ -241,6 +242,21 @@ std::vector<Key> rail_pad_keys() {
   };
 }
 
+std::vector<Key> ring_keys() {
+  using Ring = RingMesh;
+  const auto any = [](auto name, auto field, auto help) { return key(name, &MeshSource::ring, field, help); };
+  const auto length = [=](auto name, auto field, auto help) { return any(name, field, help).in("m").within(above(0)); };
+  return {
+      length("inner_radius", &Ring::inner_radius, "of the hollow").mostly(between(1e-5, 10)),
+      length("outer_radius", &Ring::outer_radius, "of the ring, whose axis is y").mostly(between(1e-5, 10)),
+      length("width", &Ring::width, "along y, half of it to each side of y = 0"),
+      any("round_divisions", &Ring::round_divisions, "elements round the ring").within(between(8, 100000)),
+      any("wall_divisions", &Ring::wall_divisions, "elements from the inner to the outer side")
+          .within(between(1, 1000)),
+      any("width_divisions", &Ring::width_divisions, "layers of elements along y").within(between(1, 100000)),
+  };
+}
+
 std::vector<Key> file_keys() {
   const auto file = &MeshSource::file;
   return {
@@ -270,6 +286,7 @@ Section mesh_section() {
   section.add_keys("fishplate", fishplate_keys());
   section.add_keys("rail_pad", rail_pad_keys());
   section.add_keys("wheelset", wheelset_keys());
+  section.add_keys("ring", ring_keys());
   section.rule = check_mesh;
   return section;
 }
@@ -280,6 +297,7 @@ std::vector<MeshSets> mesh_sets() {
       {"crowned_block", "`x_min`, `x_max`, `y_min`, `y_max`, `bottom`, `top`", "the same six, `zone`", ""},
       {"roller", "`y_min`, `y_max`, `tread`, `bore`; unless it is a ring, `arc_min`, `arc_max`", "the same, `zone`",
        ""},
+      {"ring", "`y_min`, `y_max`, `inner`, `outer`", "the same four", ""},
       {"cylinder", "`z_min`, `z_max`, `skin`", "the same three", ""},
       {"wheel", "`bore`, `centre_section`", "`tread`, `running_surface`", "`zone`"},
       {"wheelset", "as `wheel`, `middle`", "as `wheel`, `middle`, `axle_end`, `journal`, `skin` of the axle",

@@ -174,6 +174,16 @@ struct WheelsetMesh : WheelMesh {
   double axle_size = 0.05;                  ///< m, largest element size along the axle beside the hub
 };
 
+/// A hollow cylinder of equal cells, its axis along y through the origin, its middle in y = 0; see mesh/ring.cpp.
+struct RingMesh {
+  double inner_radius = 0.40;  ///< m
+  double outer_radius = 0.46;  ///< m
+  double width = 0.08;         ///< m, along y
+  int round_divisions = 90;    ///< elements round it
+  int wall_divisions = 2;      ///< elements from the inner to the outer side
+  int width_divisions = 3;     ///< elements along y
+};
+
 /// Every mesh that a case can name: its `type`, and the struct of its parameters. MeshType and MeshSource below, the
 /// case file's choices of `type` and the generators that src/mesh expects (mesh/build_mesh.hpp) are made of this list.
 /// New ones come last.
@@ -187,7 +197,8 @@ struct WheelsetMesh : WheelMesh {
   RAILWAVE_MESH(cylinder, CylinderMesh)          \
   RAILWAVE_MESH(fishplate, FishplateMesh)        \
   RAILWAVE_MESH(rail_pad, RailPadMesh)           \
-  RAILWAVE_MESH(wheelset, WheelsetMesh)
+  RAILWAVE_MESH(wheelset, WheelsetMesh)          \
+  RAILWAVE_MESH(ring, RingMesh)
 
 #define RAILWAVE_TYPE(type, Parameters) type,
 #define RAILWAVE_NAME(type, Parameters) #type,

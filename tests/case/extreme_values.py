@@ -215,6 +215,7 @@ SCENES = {
     "rail": one_mesh(f'type = "rail"\n{RAIL}\nheight_map = "heights.csv"\nheight_map_depth = 0.01'),
     "crowned_block": one_mesh('type = "crowned_block"\nzone_size = 0.005\nradius_along = 0.5\nradius_across = 0.5'),
     "roller": one_mesh('type = "roller"\nzone_size = 0.005\ncrown_radius = 1'),
+    "ring": one_mesh('type = "ring"\nround_divisions = 24'),
     "cylinder": one_mesh('type = "cylinder"\nlength_divisions = 4'),
     "file": one_mesh('type = "file"\npath = "cube.inp"'),
     "wheelset": one_mesh(f'type = "wheelset"\nhalf = true\n{WHEEL}'),

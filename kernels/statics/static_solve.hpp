@@ -107,7 +107,7 @@ struct TurnAlong {
 };
 
 /// The diagonal blocks of the elements' stiffness, node by node.
-struct ElementBlocks {
+struct StiffnessBlocks {
   Array<const int*> first_corner, corner;  ///< see GatherTangent
   Array<const int* [8]> corners;
   Array<const double* [3]> position;

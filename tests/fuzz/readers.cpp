@@ -5,8 +5,8 @@
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
-#include "mesh/abaqus_file.hpp"
-#include "mesh/gmsh_file.hpp"
+#include "mesh/files/abaqus_file.hpp"
+#include "mesh/files/gmsh_file.hpp"
 #include "mesh/height_map.hpp"
 #include "tests/temporary_folder.hpp"
 

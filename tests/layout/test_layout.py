@@ -41,9 +41,6 @@ class MadeUp(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = pathlib.Path(temporary.name)
         shutil.copy(ROOT / ".clang-format", self.folder)
-        for name in RULES.KNOWN_TWICE:
-            self.write(f"src/case/{name}", "")
-            self.write(f"src/mesh/{name}", "")
 
     def write(self, name, text):
         path = self.folder / name
@@ -104,14 +101,8 @@ class MadeUp(unittest.TestCase):
         self.write("kernels/rail.hpp", "")
         self.assert_faults(("kernels/rail.hpp and src/model/rail.hpp", "files of one name"))
 
-    def test_names_that_are_no_longer_twice(self):
-        name = min(RULES.KNOWN_TWICE)
-        (self.folder / "src" / "mesh" / name).unlink()
-        self.assert_faults(("KNOWN_TWICE", f"{name} is no longer the name of two files"))
-
     def test_too_many_short_files(self):
-        have = 2 * len(RULES.KNOWN_TWICE)
-        for number in range(RULES.MOST_SHORT_FILES - have):
+        for number in range(RULES.MOST_SHORT_FILES):
             self.write(f"src/model/part_{number}.hpp", "#pragma once\n")
         self.write("src/model/long.hpp", "#pragma once\n" * RULES.SHORT)
         self.assert_faults()

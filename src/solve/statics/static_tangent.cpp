@@ -36,7 +36,7 @@ StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
   Kokkos::parallel_for(
       "element_blocks", Range(0, static_cast<int>(nodes)),
       StiffnessBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
-                    to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
+                      to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
   const auto host = to_host(blocks);
   // Slaves' blocks are felt by their masters: what one slave has to do with another is left out.
   std::vector<Eigen::Matrix3d> sum(unknowns.rows(), Eigen::Matrix3d::Zero());

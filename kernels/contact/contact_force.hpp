@@ -94,25 +94,28 @@ struct ContactForce {
       contact.place(s, 1) = now.place.eta;
     }
     contact.gap(s) = now.gap;
-    if (!law.touches(search, s, now)) {
+    LawState<Law> state = law.state_of(search, s);
+    if (!law.touches(search, now, state)) {
       if (touched) {
         part(s, entry.node, slave, previous, place, now);
-        law.part(search, s, entry.node, now);
+        law.part(search, first_touch.last, entry.node, now, state);
+        law.keep(search, s, state);
       }
       return;
     }
 
     const double stiffness = law.stiffness(search, now.segment);
-    const double pressing = law.pressing(search, s, entry.node, now, stiffness);
+    const double pressing = law.pressing(search, first_touch.last, entry.node, now, stiffness, state);
     Vector3 force = pressing * now.normal;
     for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = force[k];
     int status = status_slips;
     if constexpr (Friction) {
       const Vector3 tangential =
-          friction_force(s, entry.node, slave, previous, place, now, stiffness, pressing, status);
+          friction_force(s, entry.node, slave, previous, place, now, stiffness, pressing, state, status);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
       force = force + tangential;
     }
+    law.keep(search, s, state);
     contact.status(s) = status;
     if constexpr (Normals::curved)
       scatter_curved(entry.node, now, force);
@@ -139,7 +142,7 @@ struct ContactForce {
 
   KOKKOS_INLINE_FUNCTION Vector3 friction_force(int s, int node, const Vector3& slave, int previous,
                                                 const SegmentPlace& place, const Projection& now, double stiffness,
-                                                double pressing, int& status) const {
+                                                double pressing, LawState<Law>& state, int& status) const {
     const ContactArrays& contact = search.contact;
     Vector3 moved{{0, 0, 0}};
     Vector3 held{{0, 0, 0}};
@@ -150,7 +153,7 @@ struct ContactForce {
     Vector3 trial = held - stiffness * moved;
     // The force carried over lies in last step's tangent plane; what has turned out of the present one is dropped.
     trial = trial - dot(trial, now.normal) * now.normal;
-    const double size = norm(trial), bound = law.friction(search, s, moved) * std::fmax(0.0, pressing);
+    const double size = norm(trial), bound = law.friction(first_touch.last, moved, state) * std::fmax(0.0, pressing);
     status = size > bound ? status_slips : status_sticks;
     if (size > bound) trial = (bound / size) * trial;
     contact.friction_energy(s) -=

@@ -19,6 +19,16 @@ void for_each_type(TypeList<Types...> /*list*/, const Work& work) {
   (work(number++, TypeOf<Types>{}), ...);
 }
 
+/// The number of the first type of a list for which `is(TypeOf<...>)` holds; -1: none.
+template <class List, class Is>
+int first_type(List list, const Is& is) {
+  int first = -1;
+  for_each_type(list, [&](int number, auto type) {
+    if (first < 0 && is(type)) first = number;
+  });
+  return first;
+}
+
 /// Calls `work(TypeOf<...>)` for the type that has the number in the list.
 template <class List, class Work>
 void with_type(List list, int number, const Work& work) {

@@ -9,7 +9,7 @@
 /// | member | what |
 /// |---|---|
 /// | `state_values` | doubles that each slave node keeps from step to step, zero at the start; 0: none |
-/// | `asks_approach()` | whether it is told `approach`, `inverse_mass` and `elapsed`, if it has a state |
+/// | `asks_approach()` | whether it wants `approach`, `inverse_mass` and `elapsed`; only a law with a state gets them |
 /// | `spring(k)` | N/m, of the springs of a segment whose penalty has k |
 /// | `touches(point, state)` | whether there is contact |
 /// | `pressing(point, state)` | N, the normal force, never a pull unless the law is one of adhesion |
@@ -19,7 +19,7 @@
 /// | `dissipated(state)` | J that the law has taken out so far, beside friction |
 namespace railwave {
 
-/// What a law is told of a node.
+/// The place where a node nears or presses on the other body, in numbers.
 struct ContactPoint {
   double gap;               ///< m; negative: penetration
   double stiffness;         ///< N/m, of the springs there

@@ -41,11 +41,8 @@ std::pair<int, int> friction_values(const scene::Contact& contact, const Contact
 
 ContactLawArrays make_contact_law(const scene::Contact& contact, int slaves) {
   ContactLawArrays law;
-  law.number = -1;
-  for_each_type(ContactLaws{}, [&](int number, auto type) {
-    if (law.number < 0 && ContactLawTrait<typename decltype(type)::type>::is_of(contact)) law.number = number;
-  });
-  law.damping = contact.damping;
+  law.number = first_type(ContactLaws{},
+                          [&](auto type) { return ContactLawTrait<typename decltype(type)::type>::is_of(contact); });
   with_type(ContactLaws{}, law.number, [&](auto type) {
     constexpr int values = decltype(type)::type::state_values;
     if (values == 0) return;

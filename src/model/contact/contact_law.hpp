@@ -43,9 +43,12 @@ struct ContactLawTrait<GrowingPenalty> {
             contact.dynamic_friction.value_or(contact.friction),
             contact.friction_decay,
             contact.falling_friction(),
-            settling ? 0 : arrays.damping};
+            settling ? 0 : contact.damping};
   }
 };
+
+/// Whether that is the linear penalty, by which contact can be in one launch with the elements.
+inline bool is_linear(const ContactLawArrays& arrays) { return arrays.number == 0; }
 
 /// Calls `work(law)` with a pair's law.
 template <class Work>

@@ -100,7 +100,7 @@ void add_pair(const Model& model, const ContactPair& pair, ContactOnNodes& sum) 
   std::vector<double> stiffness(model.mass.size(), 0), damping(model.mass.size(), 0);
   const auto put = [&](int n, double k, double springs) {
     stiffness[n] = std::fmax(stiffness[n], springs * k);
-    damping[n] = std::fmax(damping[n], springs * 2 * pair.law.damping * std::sqrt(k * model.mass[n]));
+    damping[n] = std::fmax(damping[n], springs * 2 * pair.contact->damping * std::sqrt(k * model.mass[n]));
   };
   double stiffest = 0;
   for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, pair.growth * k);
@@ -158,7 +158,7 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
     ContactSpring spring{
         static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);
-    spring.damping = damping_of(model, pair.law.damping, spring);
+    spring.damping = damping_of(model, pair.contact->damping, spring);
     springs.push_back(spring);
   }
   return springs;

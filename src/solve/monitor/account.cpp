@@ -63,9 +63,9 @@ struct FlowWork {
 };
 
 /// Adds the work of plastic flow of a block's slots to what the block has stored.
-template <class FlowWork>
+template <class OfSlot>
 struct AddFlowWork {
-  FlowWork of_slot;
+  OfSlot of_slot;
   Array<double* [2]> energy;
   KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
     double sum = 0;
@@ -82,10 +82,8 @@ struct ContactEnergy {
   Law law;
   Array<const double*> state;
   KOKKOS_INLINE_FUNCTION void operator()(int s, double* sum) const {
-    double own_state[Law::state_values + 1];
-    for (int k = 0; k < Law::state_values; ++k) own_state[k] = state(k * contact.slave_count + s);
     sum[1] += contact.friction_energy(s);
-    sum[2] += law.dissipated(own_state);
+    sum[2] += law.dissipated(LawState<Law>::of_node(state, contact.slave_count, s).values);
     if (contact.status(s) == status_apart) return;
     const Vector3 n = row(contact.normal_force, s), t = row(contact.tangential_force, s);
     sum[0] += law.stored({contact.gap(s), contact.segment_stiffness(contact.tracked(s))}, dot(n, n), dot(t, t));

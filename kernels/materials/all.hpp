@@ -8,8 +8,8 @@
 
 namespace railwave {
 
-/// Every material of elements. CMake reads this line and compiles the kernels of each in files of their own
-/// (src/CMakeLists.txt).
-using Materials = TypeList<Elastic, Bilinear, KinematicBilinear, Chaboche>;
+/// Every material of elements; a case's material is the first that is for it (src/model/elements/materials.hpp). CMake
+/// reads this line and compiles the kernels of each in files of their own (src/CMakeLists.txt).
+using Materials = TypeList<Elastic, Chaboche, KinematicBilinear, Bilinear>;
 
 }  // namespace railwave

@@ -6,24 +6,7 @@ namespace railwave {
 
 /// Elastic up to a yield stress, then linear isotropic hardening (kernels/materials/plastic_flow.hpp). A batch in which
 /// no element yields now pays for a yield test and for no update.
-struct Bilinear : FlowHistory<7> {
-  using Constants = BilinearConstants;
-
-  const Constants* constants;  ///< by row
-
-  template <class S>
-  using OfBlock = FlowingBlock<Constants, S>;
-
-  template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
-    return flowing_block<S>(constants[row], turn);
-  }
-
-  template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
-    return block.constants.elastic;
-  }
-
+struct Bilinear : FlowHistory<BilinearConstants, 7> {
   template <class S, class T>
   KOKKOS_FORCEINLINE_FUNCTION void stress(const OfBlock<S>& block, int batch, const T (&K)[3][3], T (&e)[6],
                                           T (&tau)[6]) const {

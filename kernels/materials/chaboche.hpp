@@ -19,25 +19,9 @@ struct ChabocheConstants {
 /// The return is backward Euler. With N the direction of s - b at its end, q(N) = 1, and t = 1/(1 + gamma dp),
 ///   b' = t (b + C dp N),  s' = s - 3 mu dp N,  so that  q(s - t b) - (3 mu + t C) dp = k(p + dp),
 /// which Newton's method solves for dp.
-struct Chaboche : BackStressHistory<14> {
-  using Constants = ChabocheConstants;
+struct Chaboche : BackStressHistory<ChabocheConstants, 14> {
   static constexpr int flow_work = 13;  ///< of the history: work of the flow so far, J/m3
   static constexpr int iterations = 6;  ///< from the tangent at no flow; steps that flow by a yield strain take four
-
-  const Constants* constants;  ///< by row
-
-  template <class S>
-  using OfBlock = FlowingBlock<Constants, S>;
-
-  template <class S, class Turn>
-  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
-    return flowing_block<S>(constants[row], turn);
-  }
-
-  template <class S>
-  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
-    return block.constants.elastic;
-  }
 
   template <class S, class T>
   KOKKOS_FORCEINLINE_FUNCTION void stress(const OfBlock<S>& block, int batch, const T (&K)[3][3], T (&e)[6],
@@ -57,14 +41,14 @@ struct Chaboche : BackStressHistory<14> {
       load_back<S>(batch, turned, back);
     }
     for (int c = 0; c < 6; ++c) xi[c] = s[c] - back[c];
-    const T mises_square = mises_product<S>(xi, xi), limit = flow_stress<S>(material, flowed);
-    const auto yields = mises_square > limit * limit;
+    const T trial_square = mises_square<S>(xi), limit = flow_stress<S>(material, flowed);
+    const auto yields = trial_square > limit * limit;
     if (!any_lane(yields)) return;
 
-    const T increment = flow_increment<S>(material, yields, s, back, flowed, limit);
+    const T increment = flow_increment<S>(material, yields, s, back, trial_square, flowed, limit);
     const T left = S(1) / (S(1) + S(material.recall) * increment);  // t
     for (int c = 0; c < 6; ++c) xi[c] = s[c] - left * back[c];
-    const T size = choose(yields, square_root(mises_product<S>(xi, xi)), T(S(1)));
+    const T size = choose(yields, square_root(mises_square<S>(xi)), T(S(1)));
     T lost[6], added[6];
     const T along = S(1.5) * increment / size;
     for (int c = 0; c < 6; ++c) {
@@ -115,12 +99,12 @@ struct Chaboche : BackStressHistory<14> {
   /// dp; zero in lanes that do not yield.
   template <class S, class T, class Mask>
   KOKKOS_FORCEINLINE_FUNCTION static T flow_increment(const Constants& material, const Mask& yields, const T (&s)[6],
-                                                      const T (&back)[6], const T& flowed, const T& limit) {
+                                                      const T (&back)[6], const T& trial_square, const T& flowed,
+                                                      const T& limit) {
     const S three_mu = S(3 * material.elastic.mu), modulus = S(material.back_modulus), recall = S(material.recall);
     const T ss = mises_product<S>(s, s), sb = mises_product<S>(s, back), bb = mises_product<S>(back, back);
-    const T size = square_root(T(ss - S(2) * sb + bb));
     // Ahead of where straight lines would lead, for hardening only slows: Newton's method comes from one side.
-    T dp = choose(yields, T((size - limit) / (three_mu + modulus)), T(S(0)));
+    T dp = choose(yields, T((square_root(trial_square) - limit) / (three_mu + modulus)), T(S(0)));
     for (int k = 0; k < iterations; ++k) {
       const T left = S(1) / (S(1) + recall * dp);
       const T q = choose(yields, square_root(T(ss - S(2) * left * sb + left * left * bb)), T(S(1)));

@@ -13,25 +13,36 @@ struct FlowingBlock {
   S turn[3][3];  ///< R, which single precision leaves out of displacements
 };
 
-/// @param turn see StagedNodes::turn
-template <class S, class Constants, class Turn>
-KOKKOS_FORCEINLINE_FUNCTION FlowingBlock<Constants, S> flowing_block(const Constants& constants, const Turn& turn) {
-  FlowingBlock<Constants, S> result;
-  result.constants = constants;
-  if constexpr (sizeof(S) < sizeof(double))
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(turn(i, j));
-  return result;
-}
-
 /// What every material that flows keeps of an element: plastic Green strain (xx, yy, zz, xy, yz, zx) in the reference
 /// configuration, equivalent plastic strain, and from value 7 on what is the material's own
 /// (kernels/materials/plastic_flow.hpp). A batch in which no element has ever yielded pays for one value.
-template <int Values>
+/// @tparam Constants_ of the material: has `elastic`
+template <class Constants_, int Values>
 struct FlowHistory {
+  using Constants = Constants_;
   static constexpr int history_values = Values, plastic_strain = 6;
 
-  double* history;  ///< see MaterialArrays
+  double* history;             ///< see MaterialArrays
+  const Constants* constants;  ///< by row
+
+  template <class S>
+  using OfBlock = FlowingBlock<Constants, S>;
+
+  /// @param turn see StagedNodes::turn
+  template <class S, class Turn>
+  KOKKOS_FORCEINLINE_FUNCTION OfBlock<S> of_block(int row, const Turn& turn) const {
+    OfBlock<S> result;
+    result.constants = constants[row];
+    if constexpr (sizeof(S) < sizeof(double))
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result.turn[i][j] = static_cast<S>(turn(i, j));
+    return result;
+  }
+
+  template <class S>
+  KOKKOS_FORCEINLINE_FUNCTION static ElasticConstants elastic(const FlowingBlock<Constants, S>& block) {
+    return block.constants.elastic;
+  }
 
   template <class S>
   KOKKOS_FORCEINLINE_FUNCTION double* value(int batch, int number) const {
@@ -91,15 +102,15 @@ struct FlowHistory {
 /// The same with a back stress b, Kirchhoff's, a deviator, which turns with the material: what is kept is a = R^T b R
 /// in the axes of the reference, R the rotation of F = R U (Green and Naghdi's rate), which no rotation of the body
 /// touches and which does not swing to and fro in large shear.
-template <int Values>
-struct BackStressHistory : FlowHistory<Values> {
+template <class Constants, int Values>
+struct BackStressHistory : FlowHistory<Constants, Values> {
   static constexpr int back_stress = 7;  ///< first of the history's values of a: xx, yy, zz, xy, yz, zx; Pa
 
   /// R^T: the inverse deformation gradient is U^-1 R^T.
   template <class S, class Block, class T>
   KOKKOS_FORCEINLINE_FUNCTION static void turn_back(const Block& block, const T (&K)[3][3], T (&turned)[3][3]) {
     T G[3][3];
-    FlowHistory<Values>::template inverse_gradient<S>(block, K, G);
+    FlowHistory<Constants, Values>::template inverse_gradient<S>(block, K, G);
     polar_rotation<S>(G, turned);
   }
 

@@ -36,10 +36,10 @@ Material material_of(const MaterialArrays& arrays) {
   using Constants = typename Material::Constants;
   static_assert(sizeof(Constants) % sizeof(double) == 0 && alignof(Constants) == alignof(double));
   const auto* constants = reinterpret_cast<const Constants*>(arrays.constants.data());
-  if constexpr (Material::history_values > 0)
-    return Material{{arrays.history.data()}, constants};
-  else
-    return Material{constants};
+  Material material;
+  material.constants = constants;
+  if constexpr (Material::history_values > 0) material.history = arrays.history.data();
+  return material;
 }
 
 }  // namespace railwave

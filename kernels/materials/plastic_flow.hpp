@@ -76,7 +76,13 @@ KOKKOS_FORCEINLINE_FUNCTION void inverse(const T (&G)[3][3], T (&F)[3][3]) {
     for (int j = 0; j < 3; ++j) F[i][j] *= scale;
 }
 
-/// Deviator of a stress; returns the square of its von Mises stress, 3/2 s : s.
+/// 3/2 s : s of a deviator: the square of its von Mises stress.
+template <class S, class T>
+KOKKOS_FORCEINLINE_FUNCTION T mises_square(const T (&s)[6]) {
+  return S(1.5) * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + S(3) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+}
+
+/// Deviator of a stress; returns the square of its von Mises stress.
 template <class S, class T>
 KOKKOS_FORCEINLINE_FUNCTION T deviator(const T (&tau)[6], T (&s)[6]) {
   const T mean = S(1.0 / 3) * (tau[0] + tau[1] + tau[2]);
@@ -84,7 +90,7 @@ KOKKOS_FORCEINLINE_FUNCTION T deviator(const T (&tau)[6], T (&s)[6]) {
     s[c] = tau[c] - mean;
     s[3 + c] = tau[3 + c];
   }
-  return S(1.5) * (s[0] * s[0] + s[1] * s[1] + s[2] * s[2]) + S(3) * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]);
+  return mises_square<S>(s);
 }
 
 template <class S, class T>

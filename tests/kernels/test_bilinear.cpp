@@ -87,7 +87,7 @@ std::vector<Matrix> follow(const Element& element, const std::vector<Matrix>& pa
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(element.turn(i, j));
   Kokkos::parallel_for("follow_path", Range(0, 1),
-                       FollowPath<S>{{{element.history.data()}, nullptr}, block, plastic, gradient, share, stress});
+                       FollowPath<S>{{{element.history.data(), nullptr}}, block, plastic, gradient, share, stress});
   const auto values = Kokkos::create_mirror_view(stress);
   Kokkos::deep_copy(values, stress);
   std::vector<Matrix> result(path.size());

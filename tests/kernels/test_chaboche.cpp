@@ -73,7 +73,7 @@ struct Element {
     block.constants = constants;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(turn(i, j));
-    return follow_path<S>(Chaboche{{{history.data()}}, nullptr}, block, path);
+    return follow_path<S>(Chaboche{{{history.data(), nullptr}}}, block, path);
   }
   template <class S = double>
   double value(int number) const {
@@ -170,7 +170,7 @@ TEST_CASE("without recall and without saturation it is the bilinear law with a m
     path.push_back(H);
   }
   const auto stress = element.follow(path);
-  const auto expected = follow_path<double>(KinematicBilinear{{{history.data()}}, nullptr}, block, path);
+  const auto expected = follow_path<double>(KinematicBilinear{{{history.data(), nullptr}}}, block, path);
   double worst = 0;
   for (std::size_t k = 0; k < path.size(); ++k)
     worst = std::max(worst, (stress[k] - expected[k]).norm() / constants.yield_stress);

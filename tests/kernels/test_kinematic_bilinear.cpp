@@ -43,7 +43,7 @@ struct Element {
     block.constants = {constants, beta};
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) block.turn[i][j] = static_cast<S>(turn(i, j));
-    return follow_path<S>(KinematicBilinear{{history.data()}, nullptr}, block, path);
+    return follow_path<S>(KinematicBilinear{{{history.data(), nullptr}}}, block, path);
   }
 
   double value(int number) const {
@@ -219,7 +219,7 @@ TEST_CASE("without a kinematic share the stress is Bilinear's") {
   const auto path = sampled(winding(0.01), 2000);
   const Element element(constants, 1);
   const Array<double*> history("history", Bilinear::history_values * tile_width<double>);
-  const Bilinear plain{{history.data()}, nullptr};
+  const Bilinear plain{{history.data(), nullptr}};
   Bilinear::OfBlock<double> block;
   block.constants = constants;
   const auto mixed = element.follow(path), isotropic = follow_path<double>(plain, block, path);

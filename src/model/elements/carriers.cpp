@@ -76,10 +76,10 @@ void set_arms(Model& model) {
     }
     Kokkos::deep_copy(group.carried.arm, arm);
   }
-  const auto listed = to_host(model.shared_nodes);
+  const auto shared = to_host(model.shared_nodes);
   const auto arm = Kokkos::create_mirror_view(model.carried.shared_arm);
-  for (std::size_t i = 0; i < listed.extent(0); ++i) {
-    const int node = listed(i).node & ~special_bit;
+  for (std::size_t i = 0; i < shared.extent(0); ++i) {
+    const int node = shared(i).node & ~special_bit;
     arm(i) = arm_of(model, node, carrier_of(model.carried, node));
   }
   Kokkos::deep_copy(model.carried.shared_arm, arm);

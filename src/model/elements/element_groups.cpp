@@ -335,7 +335,10 @@ void build_elements(Model& model) {
     elements.blocks = arrays_of(lists[g], single);
     elements.block_energy = unset_array<double* [2]>("block energy", elements.blocks.count);
     elements.block_energy_fetched = PinnedArray<double* [2]>("block energy fetched", elements.blocks.count);
-    elements.material = material_arrays(kinds[g].material, materials[g], reference_volumes(model, elements));
+    elements.material =
+        material_arrays(kinds[g].material, materials[g], elements.first_element.size() * elements_of_block);
+    if (elements.material.flows())
+      elements.material.volume = to_device("reference volume", reference_volumes(model, elements));
     elements.first_partial = rows;
     if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
     rows = elements.rows_end();

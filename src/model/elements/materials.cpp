@@ -7,8 +7,7 @@
 
 namespace railwave {
 
-MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials,
-                               const std::vector<double>& volume) {
+MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials, std::size_t slots) {
   MaterialArrays arrays;
   arrays.number = number;
   with_material_type(arrays, [&](auto type) {
@@ -24,9 +23,7 @@ MaterialArrays material_arrays(int number, const std::vector<const scene::Materi
     arrays.constants = to_device("material constants", rows);
     arrays.history_values = Material::history_values;
   });
-  if (!arrays.flows()) return arrays;
-  arrays.history = Array<double*>("material history", arrays.history_values * volume.size());
-  arrays.volume = to_device("reference volume", volume);
+  if (arrays.flows()) arrays.history = Array<double*>("material history", arrays.history_values * slots);
   return arrays;
 }
 

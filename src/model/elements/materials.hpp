@@ -22,8 +22,9 @@ struct MaterialTrait;
 
 template <>
 struct MaterialTrait<Elastic> {
-  static constexpr const char* words = "";             ///< in the name of its task
-  static constexpr const char* left_out_as = nullptr;  ///< told where something flows, but nothing by this material
+  static constexpr const char* words = "";  ///< in the name of its task
+  static constexpr const char* left_out_as =
+      nullptr;  ///< for the summary, where something flows, but nothing by this material
   static bool is_of(const scene::Material& material) { return !material.yield_stress; }
   static ElasticConstants constants(const scene::Material& material) { return elastic_constants(material); }
 };
@@ -32,7 +33,7 @@ template <>
 struct MaterialTrait<Bilinear> {
   static constexpr const char* words = ", elastoplastic";
   static constexpr const char* left_out_as = nullptr;
-  static bool is_of(const scene::Material& material) { return material.yield_stress && material.hardening_beta == 1; }
+  static bool is_of(const scene::Material& /*material*/) { return true; }
   static BilinearConstants constants(const scene::Material& material) { return bilinear_constants(material); }
 };
 
@@ -40,7 +41,7 @@ template <>
 struct MaterialTrait<KinematicBilinear> {
   static constexpr const char* words = ", elastoplastic with back stress";
   static constexpr const char* left_out_as = "back stress: hardening is isotropic everywhere";
-  static bool is_of(const scene::Material& material) { return material.yield_stress && material.hardening_beta < 1; }
+  static bool is_of(const scene::Material& material) { return material.hardening_beta < 1; }
   static KinematicConstants constants(const scene::Material& material) {
     return {bilinear_constants(material), material.hardening_beta};
   }
@@ -51,7 +52,7 @@ struct MaterialTrait<Chaboche> {
   static constexpr const char* words = ", elastoplastic with hardening that saturates";
   static constexpr const char* left_out_as = nullptr;
   static bool is_of(const scene::Material& material) {
-    return material.yield_stress && (material.isotropic_saturation != 0 || material.back_stress_modulus > 0);
+    return material.isotropic_saturation != 0 || material.back_stress_modulus > 0;
   }
   static ChabocheConstants constants(const scene::Material& material) {
     return {elastic_constants(material), *material.yield_stress,       material.isotropic_saturation,
@@ -59,13 +60,10 @@ struct MaterialTrait<Chaboche> {
   }
 };
 
-/// Which of `Materials` a case's material is: the last that says so.
+/// Which of `Materials` a case's material is: the first that is for it.
 inline int material_number(const scene::Material& material) {
-  int found = -1;
-  for_each_type(Materials{}, [&](int number, auto type) {
-    if (MaterialTrait<typename decltype(type)::type>::is_of(material)) found = number;
-  });
-  return found;
+  return first_type(Materials{},
+                    [&](auto type) { return MaterialTrait<typename decltype(type)::type>::is_of(material); });
 }
 
 /// Calls `work(TypeOf<...>)` with the type of a group's material.
@@ -81,12 +79,11 @@ void with_material(const ElementGroup& group, const Work& work) {
                      [&](auto type) { work(material_of<typename decltype(type)::type>(group.material)); });
 }
 
-/// The arrays of a group whose elements are of case materials that all have the number `number`.
-/// @param volume m3, of the reference, by slot
-MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials,
-                               const std::vector<double>& volume);
+/// The arrays, but for `volume`, of a group whose elements are of case materials that all have the number `number`.
+/// @param slots of its blocks
+MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials, std::size_t slots);
 
-/// What is told of a material's being absent.
+/// For the summary: what of materials the scene leaves out.
 std::vector<std::string> materials_left_out(const scene::Scene& scene);
 
 }  // namespace railwave

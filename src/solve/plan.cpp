@@ -31,17 +31,22 @@ void append(std::vector<Task>& tasks, std::vector<Task> more) {
   tasks.insert(tasks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-Plan make_plan(Model& model, StepKind kind) {
-  Plan plan;
-  append(plan.forces, load_tasks(model, kind));
-  append(plan.forces, contact_tasks(model, kind));
-  append(plan.forces, element_tasks(model, kind));
-  append(plan.forces, tie_tasks(model));
-  append(plan.forces, non_reflecting_tasks(model));
-  append(plan.forces, multiplier_tasks(model, kind));
-  plan.motion = motion_tasks(model, kind);
-  return plan;
+std::vector<Task> own_force_tasks(Model& model, StepKind kind) {
+  std::vector<Task> tasks = load_tasks(model, kind);
+  append(tasks, contact_tasks(model, kind));
+  append(tasks, element_tasks(model, kind));
+  return tasks;
 }
+
+std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
+  std::vector<Task> tasks = own_force_tasks(model, kind);
+  append(tasks, tie_tasks(model));
+  append(tasks, non_reflecting_tasks(model, kind));
+  append(tasks, multiplier_tasks(model, kind, relaxation));
+  return tasks;
+}
+
+Plan make_plan(Model& model, StepKind kind) { return {force_tasks(model, kind), motion_tasks(model, kind)}; }
 
 StepPlans::StepPlans(Model& model)
     : model_(model), advancing_(make_plan(model, StepKind::advancing)), sampled_(make_plan(model, StepKind::sampled)) {}

@@ -24,8 +24,16 @@ std::vector<Task> multiplier_tasks(Model& model, StepKind kind, const Relaxation
 /// (a) Forces on tied nodes go to their masters: after all others on them.
 std::vector<Task> tie_tasks(Model& model);
 
-/// (a) After all other forces on their nodes.
-std::vector<Task> non_reflecting_tasks(Model& model);
+/// (a) Dashpots, after all other forces on their nodes. None while a scene settles.
+std::vector<Task> non_reflecting_tasks(Model& model, StepKind kind);
+
+/// Forces that follow from where the nodes are and how they move, not from other forces: loads, contact by springs,
+/// elements. Every way of evaluating forces begins with them.
+std::vector<Task> own_force_tasks(Model& model, StepKind kind);
+
+/// All forces of an instant.
+/// @param relaxation see multiplier_tasks
+std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation = nullptr);
 
 /// (a) Beams, and torques on points.
 Task beam_task(Model& model, StepKind kind);

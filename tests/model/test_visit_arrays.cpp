@@ -68,31 +68,13 @@ struct Bytes {
 
 /// Every kind of array that there is.
 scene::Scene scene_of_everything() {
-  TwoBlocks blocks;
-  blocks.friction = 0.3;
-  scene::Scene scene = blocks.scene(1e-5);
-  hold(scene, "lower.z_min", {true, true, true});
-  scene.parts[1].stiffness_damping = 1e-8;
-  scene::Load torque;
-  torque.name = "turn";
-  torque.type = scene::LoadType::torque;
-  torque.target = "upper.z_max";
-  torque.moment = 40;
-  torque.axis = {0, 0, 1};
-  scene.loads.push_back(torque);
-  add_force(scene, "upper.z_max", {0, 0, -1e4}, "");
+  scene::Scene scene = busy_blocks();
   scene::Load pressure;
   pressure.name = "pressure";
   pressure.type = scene::LoadType::pressure;
   pressure.target = "upper.z_max";
   pressure.pressure = 1e6;
   scene.loads.push_back(pressure);
-  scene::Connector spring;
-  spring.name = "spring";
-  spring.from = "ground";
-  spring.to = "upper.z_max";
-  spring.stiffness = {1e6, 2e6, 3e6};
-  scene.connectors.push_back(spring);
   scene::NonReflecting end;
   end.name = "end";
   end.target = "lower.x_max";

@@ -57,29 +57,6 @@ class Profiler {
   Kokkos::Tools::Experimental::EventSet before_;
 };
 
-/// Friction, a torque, a spring, a pressure and damping.
-scene::Scene busy_scene(TwoBlocks blocks = {}) {
-  blocks.friction = 0.3;
-  scene::Scene scene = blocks.scene(1e-4);
-  hold(scene, "lower.z_min", {true, true, true});
-  scene.parts[1].stiffness_damping = 1e-8;
-  scene::Load torque;
-  torque.name = "turn";
-  torque.type = scene::LoadType::torque;
-  torque.target = "upper.z_max";
-  torque.moment = 40;
-  torque.axis = {0, 0, 1};
-  scene.loads.push_back(torque);
-  add_force(scene, "upper.z_max", {0, 0, -1e4}, "");
-  scene::Connector spring;
-  spring.name = "spring";
-  spring.from = "ground";
-  spring.to = "upper.z_max";
-  spring.stiffness = {1e6, 2e6, 3e6};
-  scene.connectors.push_back(spring);
-  return scene;
-}
-
 std::vector<std::string> due_names(const Plan& plan, long step) {
   std::vector<std::string> names;
   for (const auto* tasks : {&plan.forces, &plan.motion})
@@ -123,7 +100,7 @@ bool has(const Plan& plan, const std::string& name) {
 }  // namespace
 
 TEST_CASE("a profiler sees the tasks of the plans, and nothing beside them") {
-  scene::Scene scene = busy_scene();
+  scene::Scene scene = busy_blocks();
   SECTION("double") {}
   SECTION("mixed") { scene.solver.precision = scene::Precision::mixed; }
   SECTION("single") {
@@ -147,7 +124,7 @@ TEST_CASE("a profiler sees the tasks that are due with subcycling") {
   blocks.lower_size = {0.3, 0.3, 0.2};
   blocks.lower_divisions = {10, 10, 7};
   blocks.upper_divisions = {16, 16, 4};
-  scene::Scene scene = busy_scene(blocks);
+  scene::Scene scene = busy_blocks(blocks);
   scene.solver.subcycling = true;
   Model model;
   build_model(scene, model);
@@ -156,7 +133,7 @@ TEST_CASE("a profiler sees the tasks that are due with subcycling") {
 }
 
 TEST_CASE("plans hold what the scene needs, and a fused launch is a task of its own") {
-  scene::Scene scene = busy_scene();
+  scene::Scene scene = busy_blocks();
   scene.parts[1].stiffness_damping = 0;
   Model model;
   build_model(scene, model);

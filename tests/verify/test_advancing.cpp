@@ -50,20 +50,8 @@ TEST_CASE("nodes that blocks advance at once move as all others do, bit by bit")
   motion.parts = {"upper"};
   motion.velocity = {3, 1, -2};
   scene.initial_motions.push_back(motion);
-  scene::Load torque;
-  torque.name = "turn";
-  torque.type = scene::LoadType::torque;
-  torque.target = "upper.z_max";
-  torque.moment = 40;
-  torque.axis = {0, 1, 0};
-  scene.loads.push_back(torque);
-  scene::Connector spring;
-  spring.name = "spring";
-  spring.from = "ground";
-  spring.to = "upper.z_max";
-  spring.stiffness = {1e6, 2e6, 3e6};
-  spring.damping = {10, 20, 30};
-  scene.connectors.push_back(spring);
+  add_torque(scene, "upper.z_max", 40, {0, 1, 0});
+  add_ground_spring(scene, "upper.z_max", {1e6, 2e6, 3e6}).damping = {10, 20, 30};
   for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
     for (auto precision :
          {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {

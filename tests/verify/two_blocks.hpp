@@ -61,6 +61,39 @@ inline scene::Load& add_force(scene::Scene& scene, const std::string& target, co
   return scene.loads.back();
 }
 
+inline scene::Load& add_torque(scene::Scene& scene, const std::string& target, double moment, const Vec3& axis) {
+  scene::Load load;
+  load.name = "torque on " + target;
+  load.type = scene::LoadType::torque;
+  load.target = target;
+  load.moment = moment;
+  load.axis = axis;
+  scene.loads.push_back(load);
+  return scene.loads.back();
+}
+
+inline scene::Connector& add_ground_spring(scene::Scene& scene, const std::string& target, const Vec3& stiffness) {
+  scene::Connector spring;
+  spring.name = "spring of " + target;
+  spring.from = "ground";
+  spring.to = target;
+  spring.stiffness = stiffness;
+  scene.connectors.push_back(spring);
+  return scene.connectors.back();
+}
+
+/// Two blocks with friction, damping, a torque, a force and a spring: most of what a step can have.
+inline scene::Scene busy_blocks(TwoBlocks blocks = {}) {
+  blocks.friction = 0.3;
+  scene::Scene scene = blocks.scene(1e-4);
+  hold(scene, "lower.z_min", {true, true, true});
+  scene.parts[1].stiffness_damping = 1e-8;
+  add_torque(scene, "upper.z_max", 40, {0, 0, 1});
+  add_force(scene, "upper.z_max", {0, 0, -1e4}, "");
+  add_ground_spring(scene, "upper.z_max", {1e6, 2e6, 3e6});
+  return scene;
+}
+
 inline void add_ramp(scene::Scene& scene, const std::string& name, double start, double duration) {
   scene::Curve curve;
   curve.name = name;

@@ -187,7 +187,7 @@ GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_
   }
   for (const scene::Connector& connector : model.scene.connectors)
     damped = damped || connector.damping != Vec3{0, 0, 0};
-  for (const ContactPair& pair : model.contacts) damped = damped || pair.law.damping > 0;
+  for (const ContactPair& pair : model.contacts) damped = damped || pair.contact->damping > 0;
   const double enough = at_most_guess ? 4 / (guess * guess) : 0;
   if (!damped) {
     const double eigenvalue = largest_eigenvalue(model, 0, tolerance, enough, result);

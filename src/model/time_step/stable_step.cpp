@@ -197,8 +197,9 @@ bool strikes_undamped(const Model& model) {
   const bool viscous = std::all_of(model.scene.parts.begin(), model.scene.parts.end(), [](const scene::Part& part) {
     return part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0;
   });
-  return !viscous && std::any_of(model.contacts.begin(), model.contacts.end(),
-                                 [](const ContactPair& pair) { return pair.has_springs() && !(pair.law.damping > 0); });
+  return !viscous && std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) {
+    return pair.has_springs() && !(pair.contact->damping > 0);
+  });
 }
 
 void estimate_by_elements(Model& model) {

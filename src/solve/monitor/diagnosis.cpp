@@ -171,8 +171,9 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
                                          "parts or choose other surfaces",
                                          contact.name, evidence.deepest[c]),
                              45});
-    if (fault.kind == FaultKind::energy && model.contacts[c].has_springs() && !(model.contacts[c].law.damping > 0) &&
-        c < evidence.deepest.size() && evidence.deepest[c] > 0 && !(evidence.first.penetration[c].value > 0))
+    if (fault.kind == FaultKind::energy && model.contacts[c].has_springs() &&
+        !(model.contacts[c].contact->damping > 0) && c < evidence.deepest.size() && evidence.deepest[c] > 0 &&
+        !(evidence.first.penetration[c].value > 0))
       causes.push_back(Cause{"blow on springs",
                              fmt::format("bodies strike the undamped springs of contact {} with few elements behind "
                                          "them, and each node that touches or parts errs by "

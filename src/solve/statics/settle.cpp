@@ -97,12 +97,7 @@ struct Unbalance {
 /// Forces and motion in pseudo-time. The update must outlive the plan.
 Plan relaxation_plan(Model& model, const RelaxationUpdate& update) {
   constexpr StepKind kind = StepKind::settling;
-  Plan plan;
-  append(plan.forces, load_tasks(model, kind));
-  append(plan.forces, contact_tasks(model, kind));
-  append(plan.forces, element_tasks(model, kind));
-  append(plan.forces, tie_tasks(model));
-  append(plan.forces, multiplier_tasks(model, kind, &update));
+  Plan plan{force_tasks(model, kind, &update), {}};
   plan.motion.push_back({"relaxation of nodes", "f to j", [&model, &update](const Instant&) {
                            Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
                          }});

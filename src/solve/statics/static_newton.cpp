@@ -258,9 +258,7 @@ class Newton {
 
 std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
   constexpr StepKind kind = StepKind::settling;
-  std::vector<Task> tasks = load_tasks(model, kind);
-  append(tasks, contact_tasks(model, kind));
-  append(tasks, element_tasks(model, kind));
+  std::vector<Task> tasks = own_force_tasks(model, kind);
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& pair) { return !pair.has_springs(); }))
     tasks.push_back({"contact by augmented multipliers", "d", [press](const Instant&) { press(); }});
   append(tasks, tie_tasks(model));

@@ -1,5 +1,7 @@
 #include "solve/tasks/contributions.hpp"
 
+#include "model/contact/contact_law.hpp"
+
 namespace railwave {
 
 bool few_sets(const Model& model) {
@@ -14,7 +16,7 @@ bool few_rows(const Model& model) {
 
 bool contact_goes_along(const Model& model, StepKind kind) {
   if (!on_device || kind != StepKind::advancing || model.contacts.size() != 1) return false;
-  if (model.contacts.front().law.number != 0) return false;
+  if (!is_linear(model.contacts.front().law)) return false;
   // Multipliers come later, and must predict what loads do to their nodes.
   return model.elements.front().level == 0 && (model.contacts.front().has_springs() || !model.contacts.front().loaded);
 }

@@ -32,8 +32,7 @@ template <bool Friction, class Normals = FacetNormals, class Law>
 ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Instant& instant,
                                                    const Law& law, const Array<double*>& state) {
   LawAtNodes<Law, Normals> at_nodes{law, {}};
-  if constexpr (has_surroundings<Law>)
-    at_nodes.around = {state, model.nodes.velocity, model.nodes.mass, instant.elapsed};
+  if constexpr (at_nodes.has_state) at_nodes.arrays = {state, model.nodes.mass};
   return {ContactSearch{{pair.arrays, model.nodes.position}},
           pair.window,
           model.extra.sum,

@@ -68,8 +68,8 @@ std::vector<Task> load_tasks(Model& model, StepKind kind) {
   return tasks;
 }
 
-std::vector<Task> non_reflecting_tasks(Model& model) {
-  if (model.ends.arrays.count == 0) return {};
+std::vector<Task> non_reflecting_tasks(Model& model, StepKind kind) {
+  if (model.ends.arrays.count == 0 || kind == StepKind::settling) return {};
   return {
       {"non-reflecting ends", "a", [&model](const Instant& instant) {
          NonReflectingForce force{model.ends.arrays, model.paced_acceleration(), model.velocity_lag, instant.elapsed};

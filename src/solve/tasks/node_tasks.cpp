@@ -17,13 +17,13 @@ NodeAdvance node_advance(const Model& model, double step) {
 namespace {
 
 /// With subcycling: the nodes whose own step begins now.
-Task paced_task(const Model& model, bool listed) {
-  return {"nodes in phase", "f to j", [&model, listed](const Instant& instant) {
+Task paced_task(const Model& model, bool shared_alone) {
+  return {"nodes in phase", "f to j", [&model, shared_alone](const Instant& instant) {
             const int phase = model.subcycling.phase(model.step);
             PacedNodeUpdate update{model.paced_acceleration(), node_advance(model, instant.step), {}};
             update.acceleration.phase = phase;
-            if (listed) update.listed = model.shared_nodes;
-            const int count = listed ? model.subcycling.shared_end[phase] : model.nodes.count;
+            if (shared_alone) update.shared = model.shared_nodes;
+            const int count = shared_alone ? model.subcycling.shared_end[phase] : model.nodes.count;
             if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
           }};
 }
@@ -39,16 +39,16 @@ Task carried_blocks_task(const Model& model) {
 }
 
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
-Task carried_listed_task(const Model& model, bool rows_are_due) {
+Task carried_shared_task(const Model& model, bool rows_are_due) {
   return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
             Kokkos::parallel_for(
                 "shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
-                CarriedListedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.shared_nodes,
+                CarriedSharedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.shared_nodes,
                                     model.carried.shared_arm, row_loads(model, instant.elapsed), rows_are_due});
           }};
 }
 
-Task listed_task(const Model& model, bool rows_are_due) {
+Task shared_task(const Model& model, bool rows_are_due) {
   return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
             Kokkos::parallel_for("shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
                                  SharedNodeUpdate{model.acceleration(), node_advance(model, instant.step),
@@ -97,9 +97,9 @@ std::vector<Task> motion_tasks(Model& model, StepKind kind) {
     tasks.push_back(paced_task(model, inner_have_moved));
   } else if (model.carried.active()) {
     if (!inner_have_moved) tasks.push_back(carried_blocks_task(model));
-    tasks.push_back(carried_listed_task(model, rows_are_due));
+    tasks.push_back(carried_shared_task(model, rows_are_due));
   } else {
-    tasks.push_back(inner_have_moved ? listed_task(model, rows_are_due) : node_task(model));
+    tasks.push_back(inner_have_moved ? shared_task(model, rows_are_due) : node_task(model));
   }
   if (model.ties.arrays.active()) tasks.push_back(tied_nodes_task(model, kind));
   return tasks;

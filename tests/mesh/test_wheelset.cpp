@@ -59,11 +59,7 @@ void check_sound(const Mesh& mesh, double zone_size, int euler) {
   CHECK(quality.jacobian_ratio.value > 0.09);
   CHECK(quality.step.value > 0.48 * zone_size);
   const Topology found = topology(mesh);
-  CHECK(found.crowded_faces == 0);
-  CHECK(found.open_edges == 0);
-  CHECK(found.components == 1);
-  CHECK(found.euler == euler);
-  CHECK(found.unused_nodes == 0);
+  check_solid(found, euler);
 }
 
 }  // namespace

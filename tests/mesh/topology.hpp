@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -87,6 +88,16 @@ inline std::pair<double, double> edge_range(const Mesh& mesh, const std::vector<
         range.second = std::max(range.second, length);
       }
   return range;
+}
+
+/// Whether a mesh is one conforming solid that uses all its nodes.
+/// @param euler of its outside
+inline void check_solid(const Topology& found, int euler) {
+  CHECK(found.crowded_faces == 0);
+  CHECK(found.open_edges == 0);
+  CHECK(found.components == 1);
+  CHECK(found.euler == euler);
+  CHECK(found.unused_nodes == 0);
 }
 
 }  // namespace railwave

@@ -47,8 +47,8 @@ if(Kokkos_ENABLE_CUDA AND Kokkos_VERSION VERSION_LESS_EQUAL 4.7.0)
     "SHELL:-include ${CMAKE_SOURCE_DIR}/cmake/cuda13_overloads.hpp")
 endif()
 
-# railwave_library(NAME LINK...): library railwave_NAME of all sources in the folder NAME and those in it. A folder that has
-# headers only, or nothing yet, is an interface library.
+# railwave_library(NAME LINK...): library railwave_NAME of all sources in the folder NAME and in its subfolders. A folder
+# that has headers only, or nothing yet, is an interface library.
 function(railwave_library name)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp")
   if(sources)

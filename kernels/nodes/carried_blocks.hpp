@@ -5,8 +5,8 @@
 
 namespace railwave {
 
-/// A block's nodes in scratch memory where they are kept in single precision: displacements are what the carrier
-/// leaves, positions are told from the block's own point.
+/// A block's nodes in scratch memory where they are kept in single precision: displacements are those
+/// relative to the carrier, positions those relative to the block's own point.
 template <bool WithVelocity, bool WithMass>
 struct StagedNodes<float, WithVelocity, WithMass, CarriedAdvance> {
   float* position;

@@ -75,7 +75,7 @@ struct CarriedAdvance {
 
 /// SharedNodeUpdate for nodes in single precision. Those that extra forces or constraints concern get their positions
 /// and velocities in double precision too: contact, loads and connectors know no other.
-struct CarriedListedUpdate {
+struct CarriedSharedUpdate {
   NodalAcceleration acceleration;
   CarriedAdvance advance;
   Array<const SharedNode*> shared;

@@ -48,10 +48,10 @@ struct PacedAcceleration {
 struct PacedNodeUpdate {
   PacedAcceleration acceleration;
   NodeAdvance advance;              ///< of the finest nodes
-  Array<const SharedNode*> listed;  ///< the nodes concerned; empty: all
+  Array<const SharedNode*> shared;  ///< the nodes concerned; empty: all
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const int n = listed.extent(0) == 0 ? i : listed(i).node & ~special_bit;
+    const int n = shared.extent(0) == 0 ? i : shared(i).node & ~special_bit;
     if (acceleration.paces.level(n) > acceleration.phase) return;
     const int pace = acceleration.paces.pace(n);
     const NodeAdvance own{advance.nodes, advance.gravity, pace * advance.velocity_step, pace * advance.step};

@@ -84,9 +84,8 @@ Section material_section() {
           "between is mixed")
           .within(between(0, 1)),
       key("isotropic_saturation", &Material::isotropic_saturation,
-          "Q of a flow stress that grows, or with Q < 0 falls, by Q (1 - exp(-b p)) with the equivalent plastic strain "
-          "p "
-          "(Voce)")
+          "Q of a flow stress that grows, or with Q < 0 falls, by Q (1 - exp(-b p)) with the equivalent plastic "
+          "strain p (Voce)")
           .in("Pa"),
       key("isotropic_rate", &Material::isotropic_rate, "b of that").within(at_least(0)),
       key("back_stress_modulus", &Material::back_stress_modulus,

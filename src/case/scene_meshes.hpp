@@ -174,7 +174,8 @@ struct WheelsetMesh : WheelMesh {
   double axle_size = 0.05;                  ///< m, largest element size along the axle beside the hub
 };
 
-/// A hollow cylinder of equal cells, its axis along y through the origin, its middle in y = 0; see mesh/ring.cpp.
+/// A hollow cylinder of equal cells, its axis along y through the origin, its middle in y = 0; see
+/// mesh/generators/ring.cpp.
 struct RingMesh {
   double inner_radius = 0.40;  ///< m
   double outer_radius = 0.46;  ///< m

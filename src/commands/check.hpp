@@ -11,7 +11,7 @@ namespace railwave {
 void tell(const char* kind, const std::vector<std::string>& lines, std::ostream& out);
 
 /// `railwave check`: what a run of this model would be: parts, meshes and their worst elements, step and what sets it,
-/// number of steps, memory, the stages of a step, and what the scene leaves out.
+/// number of steps, memory, the tasks of a step, and what the scene leaves out.
 void describe_run(Model& model, std::ostream& out);
 
 }  // namespace railwave

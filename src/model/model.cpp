@@ -20,6 +20,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   refuse_unknown_methods(scene);
   model.scene = scene;
   model.assembly = assembly;
+  model.gravity = {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
   expect_model_room(model.assembly);
   Activity laying("ordering the elements");
   check_elements(model);

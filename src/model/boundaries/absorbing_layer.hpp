@@ -3,9 +3,26 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
 
 namespace railwave {
+
+struct Model;
+
+/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see
+/// model/boundaries/absorbing_layer.hpp.
+struct AbsorbingLayers {
+  struct Zone {
+    int layer = 0;           ///< position in scene.absorbing_layers
+    int part = 0;            ///< position in assembly.parts
+    Vec3 end{}, outwards{};  ///< m, a point of the end's plane; its normal, of length 1
+    double rate = 0;         ///< 1/s, at the end
+    double element = 0;      ///< m, the longest element along the normal at the end
+    int nodes = 0;           ///< of the part that it damps
+  };
+  std::vector<Zone> zones;   ///< in the order of the scene's layers
+  std::vector<double> rate;  ///< 1/s by node; empty: there are none
+};
 
 /// Where a scene's absorbing layers lie, and the rate alpha (1/s) by which they damp each node, a force - alpha m v:
 ///   alpha(d) = alpha_end (1 - d/L)^3,  d the distance from the end's plane, up to the layer's length L.

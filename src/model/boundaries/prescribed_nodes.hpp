@@ -1,9 +1,24 @@
 #pragma once
 
+#include "case/scene.hpp"
 #include "kernels/boundaries/prescribed_motion.hpp"
-#include "model/model.hpp"
+#include "kernels/support/spaces.hpp"
+#include "model/nodal_state.hpp"
 
 namespace railwave {
+
+struct Model;
+
+/// A node set that moves as a rigid motion says, in the directions that are prescribed.
+struct PrescribedSet {
+  const scene::PrescribedMotion* motion = nullptr;
+  const scene::Curve* curve = nullptr;  ///< of the velocities; null: constant 1
+  const scene::Curve* displacement_curve = nullptr;
+  double held[3][3] = {};  ///< sum of d d^T over the prescribed directions d
+  Vec3 centre{};           ///< m, of the rotation, undeformed
+  Array<int*> nodes;
+  Array<double*> work;  ///< J, by node of the set
+};
 
 /// Where a prescribed motion has its set at a time: moved by the velocity's, turned by the angular velocity's integral
 /// over time, both times its curve; moved by its displacement besides.

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/model.hpp"
+#include "model/loads/load_model.hpp"
 
 namespace railwave {
 

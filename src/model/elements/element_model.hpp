@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "kernels/elements/damping_arrays.hpp"
+#include "kernels/elements/element_force.hpp"
+#include "kernels/materials/material.hpp"
+#include "kernels/nodes/carried_nodes.hpp"
+#include "kernels/support/reduction_space.hpp"
+#include "model/elements/block_order.hpp"
+
+namespace railwave {
+
+/// What blocks have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
+struct CarriedBlocks {
+  Array<float*> local;
+  Array<CarriedArm*> arm;
+};
+
+/// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control,
+/// damped or not.
+struct ElementGroup {
+  std::string parts;  ///< their names, for the summary
+  scene::HourglassType hourglass = scene::HourglassType::viscous;
+  int level = 0;  ///< evaluated every 2^level steps; groups ascend by it
+  ElementBlocks blocks;
+  MaterialArrays material;
+  DampingArrays damping;
+  CarriedBlocks carried;
+  int first_partial = 0;            ///< row of the first block's first node in the partial forces
+  std::vector<int> first_element;   ///< of each block, in the assembly's numbering
+  std::vector<int> element_count;   ///< of each block
+  Array<double* [2]> block_energy;  ///< J, elastic and hourglass, of each block: where the account works
+  PinnedArray<double* [2]> block_energy_fetched;
+
+  /// Rows of the partial forces up to the group's last.
+  int rows_end() const {
+    return (damping.active() ? damping.first_partial : first_partial) + blocks.count * blocks.node_stride;
+  }
+};
+
+struct ElementHistories;
+
+/// The elements of a model with their materials.
+struct ElementModel {
+  BlockOrder order;
+  std::vector<ElementGroup> elements;
+  std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
+};
+
+}  // namespace railwave

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "case/scene.hpp"
+#include "kernels/loads/set_loads.hpp"
+#include "kernels/support/spaces.hpp"
+#include "model/loads/connector_cells.hpp"
+
+namespace railwave {
+
+/// A load of fixed direction, a pressure or a torque: its contributions, and the curve it follows.
+struct LoadArrays {
+  const scene::Load* load = nullptr;
+  const scene::Curve* curve = nullptr;  ///< null: constant 1
+  int first = 0;                        ///< its first contribution
+  int count = 0;                        ///< contributions (dead loads), facets (pressure)
+  Array<double* [3]> amplitude;         ///< dead loads, N
+  Array<int* [4]> facets;               ///< pressure
+  int set = -1;                         ///< torque
+  int torque = -1;                      ///< its number among the torques
+  int beam_node = -1;                   ///< of a torque on a node where beams end: its number among those
+};
+
+/// Connectors of a scene, with the contributions by which their ends feel them.
+struct ConnectorModel {
+  std::vector<ConnectorCell> cells;  ///< one for each of the arrays' entries
+  ConnectorArrays arrays;
+  int first = 0;              ///< contribution
+  std::vector<int> cell;      ///< of each contribution
+  std::vector<double> share;  ///< weight, negative at `from`
+};
+
+/// Loads, connectors, and the node sets that both act on or that histories follow.
+struct LoadModel {
+  NodeSets sets;
+  std::vector<int> first_of_set;  ///< host copy of sets.first
+  std::vector<int> history_sets;  ///< set numbers of those of scene.output.history_sets whose motion is written
+  std::vector<LoadArrays> loads;
+  ConnectorModel connectors;
+  TorqueArrays torques;
+};
+
+/// The scene's curve of that name; null for an empty name.
+const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name);
+
+/// Value of a curve at a time; 1 without a curve.
+double curve_value(const scene::Curve* curve, double time);
+
+/// Its integral from 0 to a time of 0 or later, s.
+double curve_integral(const scene::Curve* curve, double time);
+
+}  // namespace railwave

@@ -179,5 +179,5 @@ def draw_cut(axes, cut, half, top, legend=True):
     axes.set_xlim(-half, half)
     lowest = min(0.0, cut["shear_along"].min()) if len(cut["distance"]) else 0.0
     axes.set_ylim(1.1 * lowest, top)
-    if legend:
-        axes.legend(fontsize=style.SMALL, loc="best")
+    if legend:  # above, where it hides no letter
+        axes.legend(fontsize=style.SMALL, loc="lower right", bbox_to_anchor=(1, 1), ncols=3, frameon=False)

@@ -69,7 +69,7 @@ def draw_patch(title, contact, patch):
     draw_cut(line, cut, half[0], top_of(cut))
     line.set_ylabel("stress, MPa")
     line.set_xlabel("rolling direction, mm")
-    line.set_title("along the centre line; A adhesion, S slip (eq. 3.6)", fontsize=style.TEXT)
+    line.set_title("along the centre line; A adhesion, S slip (eq. 3.6)", fontsize=style.TEXT, loc="left")
 
     colours = draw_pressure(stress, fine, pressure_levels(patch.pressure.max()))
     figure.colorbar(colours, ax=stress, label="pressure, MPa", shrink=0.9)

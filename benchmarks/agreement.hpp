@@ -60,7 +60,7 @@ inline Agreement compare_on_a_bar_wave() {
   };
   std::vector<int> all(model.assembly.nodes.size());
   for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<int>(n);
-  const auto product = node_field(model, NodeField::displacement, all).values;
+  const auto product = node_field(model, model.ties, NodeField::displacement, all).values;
   const auto place = to_host(b.position);
   const double time = static_cast<double>(model.step_count) * model.step_size;
   double square = 0, exact_square = 0, apart = 0, off_product = 0, off_baseline = 0;

@@ -91,7 +91,7 @@ std::unique_ptr<Prepared> prepare(const Options& options, const std::vector<std:
     return nullptr;
   }
   settle(prepared->model, [](const SettleReport&) { return true; });
-  set_initial_motion(prepared->model);
+  set_initial_motion(prepared->model, prepared->model.nodes, prepared->model.beams);
   prepared->loop = std::make_unique<Loop>(prepared->model);
   return prepared;
 }

@@ -35,7 +35,7 @@ Predicted predicted_of(Model& model) {
   model.scene.time.step_scale = 1;
   const auto used = [&](double limit) {
     model.stable_step.limit = limit;
-    return largest_step(model);
+    return largest_step(model.scene.time, model.stable_step);
   };
   const Predicted predicted{used(stable.by_elements), used(stable.by_eigenvalues), used(stable.global)};
   model.stable_step.limit = stable.limit;
@@ -189,9 +189,9 @@ Known known_pressed(const Pressing& pressing, const Control& control, double sca
              !(left < 5 * slow)) {
     fmt::print("{}: the blocks do not come to rest, {:.3g} m/s after {} steps\n", pressing.name, left, model.step);
   }
-  renew_global_step(model);
+  renew_global_step(model.scene, model.contacts, model.time, model);
   Known known{predicted_of(model), 0, {}};
-  known.positions = node_field(model, NodeField::position,
+  known.positions = node_field(model, model.ties, NodeField::position,
                                [&] {
                                  std::vector<int> all(model.nodes.count);
                                  for (int n = 0; n < model.nodes.count; ++n) all[n] = n;
@@ -238,8 +238,8 @@ void rolling(Map& map) {
   const auto report = settle(model, [](const SettleReport&) { return true; });
   calm(model, 0.5 * model.stable_step.by_eigenvalues, 1e-3, 3000);
   // The springs that count are those of the wheel that is about to roll.
-  set_initial_motion(model);
-  renew_global_step(model);
+  set_initial_motion(model, model.nodes, model.beams);
+  renew_global_step(model.scene, model.contacts, model.time, model);
   Kokkos::deep_copy(model.nodes.velocity, 0.0);
   fmt::print("rolling: settled {} by {} evaluations; {} contact springs counted\n", report.settled, report.steps,
              model.stable_step.springs);

@@ -10,24 +10,15 @@
 #include "case/reference.hpp"
 #include "case/results_place.hpp"
 #include "commands/check.hpp"
-#include "commands/hammer_options.hpp"
-#include "commands/next_steps.hpp"
-#include "commands/option_checks.hpp"
-#include "commands/out_of_memory.hpp"
-#include "commands/reading_child.hpp"
-#include "commands/signal_options.hpp"
-#include "commands/signals.hpp"
-#include "commands/stack.hpp"
+#include "commands/command_line.hpp"
+#include "commands/process.hpp"
 #include "commands/standard_output.hpp"
-#include "commands/steady_memory.hpp"
-#include "commands/sudden_exit.hpp"
 #include "commands/threads.hpp"
-#include "commands/usage_error.hpp"
-#include "model/assemble_notes.hpp"
+#include "model/assembly.hpp"
 #include "modes/modes_command.hpp"
-#include "output/model_file.hpp"
+#include "output/checkpoint_file.hpp"
+#include "output/paraview_files.hpp"
 #include "output/progress.hpp"
-#include "output/restart.hpp"
 #include "output/results_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/run_places.hpp"
@@ -83,7 +74,7 @@ int run_case(const Arguments& arguments) {
   tell("note", notes, std::cout);
   check_run_places(scene, files);  // again, now that meshes have read what they include
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
-  results.check_room(model);
+  results.check_room(model, model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
   results.keep_checkpoints(checkpoint, arguments.keep_state);
   RunKeeping keeping;
@@ -122,7 +113,7 @@ int check_case(const Arguments& arguments) {
   build_model(scene, assemble(scene, notes), model);
   tell("note", notes, std::cout);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
-  results.check_room(model);
+  results.check_room(model, model);
   describe_run(model, std::cout);
   tell_what_gets_lost(scene, std::cout);
   return done;
@@ -140,7 +131,7 @@ int write_mesh(const Arguments& arguments) {
   tell("note", notes, std::cout);
   const Activity writing("writing " + path);
   make_own_folder(scene, path);
-  write_model_file(model, path);
+  write_model_file(model, model.absorbing, model.connectors.cells, path);
   std::cout << path << " and " << xdmf_path(path) << ": " << model.element_count() << " elements of "
             << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots";
   int beams = 0;

@@ -137,7 +137,7 @@ struct LineContact {
   double normal = 0, tangential = 0, centre = 0;  ///< N/m, N/m, m
 
   LineContact(const Model& model, double thickness) {
-    const ContactState state = contact_state(model, 0);
+    const ContactState state = contact_state(model, model.ties, model.contacts, 0);
     const std::size_t count = state.slave.nodes.size();
     for (std::size_t n = 0; n < count; ++n) {
       const double* f = &state.slave.normal_force[3 * n];

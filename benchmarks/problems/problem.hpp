@@ -70,7 +70,7 @@ inline std::vector<int> all_nodes(const Model& model) {
 
 /// Square root of sum m |u - exact|^2 over sum m |exact|^2, over all nodes. @param exact field by reference place
 inline double relative_error(const Model& model, NodeField field, const std::function<Vec3(const Vec3&)>& exact) {
-  const auto values = node_field(model, field, all_nodes(model)).values;
+  const auto values = node_field(model, model.ties, field, all_nodes(model)).values;
   double off = 0, size = 0;
   for (int n = 0; n < model.nodes.count; ++n) {
     const Vec3 right = exact(model.assembly.nodes[n]);

@@ -45,7 +45,7 @@ inline Outcome rayleigh_pulse(double element_size, const Method& method) {
   std::vector<int> surface;
   for (int n = 0; n < model.nodes.count; ++n)
     if (model.assembly.nodes[n][2] > depth - 1e-9) surface.push_back(n);
-  const auto values = node_field(model, NodeField::displacement, surface).values;
+  const auto values = node_field(model, model.ties, NodeField::displacement, surface).values;
   const auto misfit = [&](double speed) {
     double off = 0;
     for (std::size_t k = 0; k < surface.size(); ++k) {

@@ -7,7 +7,7 @@
 #include "benchmarks/common/loop.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
-#include "model/time_step/lanczos.hpp"
+#include "model/time_step/global_step.hpp"
 
 namespace railwave::bench {
 
@@ -56,7 +56,7 @@ class ExactLimit {
     Kokkos::deep_copy(model_.nodes.velocity, v);
     model_.velocity_lag = 0;
     Loop(model_).forces();
-    return node_field(model_, NodeField::acceleration, nodes_).values;
+    return node_field(model_, model_.ties, NodeField::acceleration, nodes_).values;
   }
 
   /// M^-1 (K + rate C) q

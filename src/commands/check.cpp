@@ -8,11 +8,9 @@
 #include "case/activity.hpp"
 #include "kernels/support/lanes.hpp"
 #include "mesh/quality.hpp"
-#include "model/boundaries/absorbing_layer.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/checks/doubts.hpp"
 #include "model/contact/initial_overlap.hpp"
-#include "model/output_times.hpp"
-#include "model/sets/place_element_sets.hpp"
 #include "model/sets/place_sets.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "solve/plan.hpp"
@@ -34,10 +32,10 @@ Mesh mesh_of(const Assembly& assembly, const Assembly::PartRange& part) {
   return mesh;
 }
 
-double part_mass(const Model& model, const Assembly::PartRange& part) {
-  double mass = 0;
-  for (int n = part.first_node; n < part.first_node + part.node_count; ++n) mass += model.mass[n];
-  return mass;
+double part_mass(const std::vector<double>& mass, const Assembly::PartRange& part) {
+  double sum = 0;
+  for (int n = part.first_node; n < part.first_node + part.node_count; ++n) sum += mass[n];
+  return sum;
 }
 
 /// The first part after `first` that isn't the same mesh of the same material: a track's sleepers are told once.
@@ -59,20 +57,23 @@ std::string indented(const std::string& text) {
 
 void describe_step(const Model& model, std::ostream& out) {
   out << "Step\n";
-  for (const std::string& line : describe_stable_step(model)) out << "  " << line << '\n';
+  for (const std::string& line : describe_stable_step(model, model.stable_step, model.beams))
+    out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count,
                      model.scene.time.end);
-  for (const std::string& line : describe_output_times(model)) out << "  " << line << '\n';
-  for (const std::string& line : describe_subcycling(model)) out << "  subcycling: " << line << '\n';
+  for (const std::string& line : describe_output_times(model.scene.output, model, model.subcycling.round()))
+    out << "  " << line << '\n';
+  for (const std::string& line : describe_subcycling(model.scene, model.subcycling))
+    out << "  subcycling: " << line << '\n';
 }
 
-void describe_places(const Model& model, std::ostream& out) {
-  const auto placed = placed_sets(model.scene, model.assembly);
-  const auto elements = placed_element_sets(model.scene, model.assembly);
+void describe_places(const AssembledScene& assembled, std::ostream& out) {
+  const auto placed = placed_sets(assembled.scene, assembled.assembly);
+  const auto elements = placed_element_sets(assembled.scene, assembled.assembly);
   if (placed.empty() && elements.empty()) return;
   out << "Sets by position, hammers and probes\n";
   for (const PlacedSet& one : placed) {
-    const Vec3& at = model.assembly.nodes[one.nearest];
+    const Vec3& at = assembled.assembly.nodes[one.nearest];
     out << fmt::format("  {}.{}: {} node{}, the nearest at [{:.6g}, {:.6g}, {:.6g}], {:.3g} mm away\n", one.set->part,
                        one.set->name, one.count, one.count == 1 ? "" : "s", at[0], at[1], at[2], 1e3 * one.distance);
     if (!one.warning.empty()) out << "    warning: " << one.warning << '\n';
@@ -87,15 +88,16 @@ void describe_places(const Model& model, std::ostream& out) {
 }
 
 /// Where waves leave, and which do not.
-void describe_ends(const Model& model, std::ostream& out) {
-  for (const std::string& line : describe_absorbing_layers(model)) out << line << '\n';
-  for (const std::string& line : describe_slender_ends(model)) out << "note: " << line << '\n';
+void describe_ends(const AssembledScene& assembled, const AbsorbingLayers& absorbing, std::ostream& out) {
+  for (const std::string& line : describe_absorbing_layers(assembled, absorbing)) out << line << '\n';
+  for (const std::string& line : describe_slender_ends(assembled, absorbing)) out << "note: " << line << '\n';
 }
 
 /// Small overlaps of contacts, as cases have that press bodies together by their places: the deep ones are doubts.
-void describe_overlaps(const Model& model, std::ostream& out) {
-  for (const InitialOverlap& overlap : initial_overlaps(model))
-    if (!overlap.deep) out << "note: " << describe(model, overlap) << '\n';
+void describe_overlaps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, double step_size,
+                       std::ostream& out) {
+  for (const InitialOverlap& overlap : initial_overlaps(assembled, contacts, step_size))
+    if (!overlap.deep) out << "note: " << describe(assembled.scene, overlap) << '\n';
 }
 
 /// What rolls, and at what rate; then all that may be a mistake.
@@ -106,7 +108,8 @@ void describe_motions(const Model& model, std::ostream& out) {
       out << fmt::format("[initial_motion.{}] rolls at [{:.6g}, {:.6g}, {:.6g}] rad/s\n", motion.name, w[0], w[1],
                          w[2]);
     }
-  for (const std::string& doubt : scene_doubts(model)) out << "warning: " << doubt << '\n';
+  for (const std::string& doubt : scene_doubts(model, model.contacts, model.absorbing, model.step_size))
+    out << "warning: " << doubt << '\n';
 }
 
 void describe_tasks(const std::string& title, const std::vector<std::string>& lines, std::ostream& out) {
@@ -133,7 +136,7 @@ void describe_run(Model& model, std::ostream& out) {
                                            : fmt::format("{} to {}, {} alike, each", part.name,
                                                          model.assembly.parts[next - 1].name, next - p);
     out << fmt::format("  {}: {} elements, {} nodes, {:.5g} kg of {}\n", name, part.element_count, part.node_count,
-                       part_mass(model, part), material.name);
+                       part_mass(model.mass, part), material.name);
     out << indented(describe(mesh_quality(mesh_of(model.assembly, part), material.dilatational_speed())));
     p = next;
   }
@@ -142,8 +145,8 @@ void describe_run(Model& model, std::ostream& out) {
     out << fmt::format("Connectors: {}, of {} springs and dashpots\n", model.scene.connectors.size(),
                        model.connectors.cells.size());
   describe_places(model, out);
-  describe_ends(model, out);
-  describe_overlaps(model, out);
+  describe_ends(model, model.absorbing, out);
+  describe_overlaps(model, model.contacts, model.step_size, out);
   describe_motions(model, out);
   describe_step(model, out);
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;

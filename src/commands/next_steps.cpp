@@ -1,4 +1,4 @@
-#include "commands/next_steps.hpp"
+#include "commands/check.hpp"
 
 #include <filesystem>
 #include <ostream>

@@ -1,4 +1,4 @@
-#include "commands/option_checks.hpp"
+#include "commands/command_line.hpp"
 
 #include <fmt/format.h>
 

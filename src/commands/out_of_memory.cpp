@@ -1,4 +1,3 @@
-#include "commands/out_of_memory.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -11,7 +10,7 @@
 #include <system_error>
 
 #include "case/memory.hpp"
-#include "commands/steady_memory.hpp"
+#include "commands/process.hpp"
 #include "output/room.hpp"
 
 namespace {

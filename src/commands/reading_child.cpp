@@ -1,4 +1,3 @@
-#include "commands/reading_child.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,9 +16,8 @@
 
 #include "case/error.hpp"
 #include "case/memory.hpp"
-#include "commands/out_of_memory.hpp"
-#include "commands/signals.hpp"
-#include "output/call_limit.hpp"
+#include "commands/process.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "commands/signal_options.hpp"
+#include "commands/command_line.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "commands/signals.hpp"
+#include "commands/process.hpp"
 
 #include <signal.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <csignal>
 #include <cstring>
 
-#include "output/unfinished.hpp"
+#include "output/atomic_file.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {

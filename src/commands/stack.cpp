@@ -1,4 +1,4 @@
-#include "commands/stack.hpp"
+#include "commands/process.hpp"
 
 #include <pthread.h>
 #include <sys/resource.h>

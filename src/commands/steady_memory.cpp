@@ -1,4 +1,4 @@
-#include "commands/steady_memory.hpp"
+#include "commands/process.hpp"
 
 #include <alloca.h>
 #include <malloc.h>

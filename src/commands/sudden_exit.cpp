@@ -1,4 +1,4 @@
-#include "commands/sudden_exit.hpp"
+#include "commands/process.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "output/unfinished.hpp"
+#include "output/atomic_file.hpp"
 
 namespace railwave {
 namespace {

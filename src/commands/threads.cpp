@@ -19,7 +19,7 @@
 #include "case/error.hpp"
 #include "case/memory.hpp"
 #include "case/number_text.hpp"
-#include "commands/stack.hpp"
+#include "commands/process.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "commands/usage_error.hpp"
+#include "commands/command_line.hpp"
 
 #include <fmt/format.h>
 

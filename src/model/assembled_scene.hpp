@@ -17,4 +17,22 @@ struct AssembledScene {
   long element_count() const { return static_cast<long>(assembly.elements.size()); }
 };
 
+/// Centre of mass of a set of nodes, m. @param place place(n, i): component i of where node n lies
+template <class Place>
+Vec3 centre_of_mass(const AssembledScene& assembled, const std::vector<int>& nodes, const Place& place) {
+  Vec3 centre{};
+  double mass = 0;
+  for (int n : nodes) {
+    mass += assembled.mass[n];
+    for (int i = 0; i < 3; ++i) centre[i] += assembled.mass[n] * place(n, i);
+  }
+  for (double& c : centre) c /= mass;
+  return centre;
+}
+
+/// The same where the nodes lie undeformed.
+inline Vec3 centre_of_mass(const AssembledScene& assembled, const std::vector<int>& nodes) {
+  return centre_of_mass(assembled, nodes, [&](int n, int i) { return assembled.assembly.nodes[n][i]; });
+}
+
 }  // namespace railwave

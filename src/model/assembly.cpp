@@ -15,9 +15,7 @@
 #include "mesh/mirror.hpp"
 #include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
-#include "model/assemble_notes.hpp"
 #include "model/beams/beams.hpp"
-#include "model/sets/place_element_sets.hpp"
 #include "model/sets/place_sets.hpp"
 
 namespace railwave {

@@ -76,4 +76,7 @@ int part_of_node(const Assembly& assembly, int node);
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
                         const std::string& name, const std::vector<std::string>& known);
 
+/// assemble(), with a line in `notes` about each thing of a mesh file that was left out or renamed.
+Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes);
+
 }  // namespace railwave

@@ -5,23 +5,49 @@
 /// The steps of build_model, each in a file of its own.
 namespace railwave {
 
-void refuse_unknown_methods(
-    const scene::Scene& scene);           ///< solver_support.cpp: InputError for [solver] wishes that no code honours
-void check_elements(const Model& model);  ///< element_groups.cpp: InputError for an element that is inverted or flat
-void build_elements(Model& model);        ///< element_groups.cpp: blocks, hourglass scales, lengths, masses
-void build_node_arrays(Model& model);     ///< node_arrays.cpp: state, gather lists, constraints
-void build_carried_nodes(Model& model);   ///< carriers.cpp: nodes in single precision
-void build_beams(Model& model);           ///< beams.cpp: sections, masses, rotations
-void build_loads(Model& model);           ///< loads.cpp: loads, connectors, node sets, extra forces
-void build_prescribed_motions(Model& model);     ///< prescribed_motion.cpp
-void build_ties(Model& model);                   ///< ties.cpp: places of slave nodes on their masters' faces
-void build_non_reflecting(Model& model);         ///< non_reflecting.cpp: dashpots of the ends
-void build_element_histories(Model& model);      ///< element_histories.cpp: elements whose stress or strain is written
-void build_contacts(Model& model);               ///< contact_pairs.cpp
-void refuse_contradictions(const Model& model);  ///< contradictions.cpp: InputError for entries that cannot all hold
-void resolve_rolling(Model& model);              ///< rolling.cpp: angular velocities of initial motions that roll
-void build_stable_step(Model& model);            ///< stable_step.cpp
-void build_subcycling(Model& model);             ///< subcycling.cpp: paces of nodes; whole rounds of steps
-std::vector<std::string> what_is_left_out(const scene::Scene& scene);  ///< left_out.cpp
+/// solver_support.cpp: InputError for [solver] wishes that no code honours
+void refuse_unknown_methods(const scene::Scene& scene);
+/// model_room.cpp: InputError when the arrays of a model of these parts can't fit where the steps are computed, on the
+/// host or a GPU
+void expect_model_room(const Assembly& assembly);
+/// element_groups.cpp: InputError for an element that is inverted or flat
+void check_elements(const AssembledScene& assembled);
+/// element_groups.cpp: blocks, hourglass scales, lengths, masses
+void build_elements(AssembledScene& assembled, const AbsorbingLayers& absorbing, ElementModel& elements,
+                    PartialForces& partial);
+/// node_arrays.cpp: state, gather lists, constraints
+void build_node_arrays(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, const Ties& ties,
+                       NodalState& nodal);
+/// carriers.cpp: nodes in single precision
+void build_carried_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
+                         NodalState& nodal);
+/// beams.cpp: sections, masses, rotations
+void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);
+/// loads.cpp: loads, connectors, moments on beams, node sets
+Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads);
+/// extra_forces.cpp: the nodes that feel other forces than elements', and whose these are
+void build_extra_forces(const Assembly& assembly, const Contributions& contributions,
+                        std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
+/// prescribed_nodes.cpp: sets of nodes that move as rigid motions say
+void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed);
+/// ties.cpp: places of slave nodes on their masters' faces
+void build_ties(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, Ties& ties);
+/// non_reflecting_ends.cpp: dashpots of the ends
+void build_non_reflecting(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                          NonReflectingEnds& ends);
+/// element_histories.cpp: elements whose stress or strain is written
+void build_element_histories(const AssembledScene& assembled, ElementModel& elements);
+/// contact_pairs.cpp: surfaces, stiffnesses, and what is beyond their sides
+void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts);
+/// contradictions.cpp: InputError for entries that cannot all hold
+void refuse_contradictions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts);
+/// rolling.cpp: angular velocities of initial motions that roll
+void resolve_rolling(AssembledScene& assembled);
+/// stable_step.cpp: the stable step by each estimate, which may ask what all of the model does together
+void build_stable_step(Model& model);
+/// subcycling.cpp: paces of nodes
+void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);
+/// left_out.cpp: what the scene does not need and the run will not compute
+std::vector<std::string> what_is_left_out(const scene::Scene& scene);
 
 }  // namespace railwave

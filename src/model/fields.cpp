@@ -7,12 +7,13 @@
 
 #include "kernels/contact/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/boundaries/ties.hpp"
 #include "model/contact/contact_law.hpp"
-#include "model/element_precision.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
 #include "model/host_copy.hpp"
-#include "model/model.hpp"
+#include "model/nodal_state.hpp"
 
 namespace railwave {
 namespace {
@@ -63,13 +64,13 @@ void surface_geometry(ContactSide& side) {
   }
 }
 
-ContactSide bare_side(const Model& model, const std::vector<int>& nodes,
+ContactSide bare_side(const NodalState& nodal, const Ties& ties, const std::vector<int>& nodes,
                       const std::vector<std::array<int, 4>>& facets) {
   ContactSide side;
   side.nodes = nodes;
   side.facets = facets;
-  side.position = node_field(model, NodeField::position, nodes).values;
-  side.velocity = node_field(model, NodeField::velocity, nodes).values;
+  side.position = node_field(nodal, ties, NodeField::position, nodes).values;
+  side.velocity = node_field(nodal, ties, NodeField::velocity, nodes).values;
   side.normal_force.assign(3 * nodes.size(), 0);
   side.tangential_force.assign(3 * nodes.size(), 0);
   surface_geometry(side);
@@ -112,18 +113,17 @@ void fetch_elements(const FetchElements<S, Value>& fetch) {
 }
 
 template <class S>
-HostField stress_in(const Model& model, const std::vector<int>& elements) {
-  const auto result = unset_array<double*>("stress field", 6 * elements.size());
+HostField stress_in(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted) {
+  const auto result = unset_array<double*>("stress field", 6 * wanted.size());
   Kokkos::deep_copy(result, 0.0);
-  for (const ElementGroup& group : model.elements) {
-    const auto slots = wanted_slots(group, elements);
+  for (const ElementGroup& group : elements.elements) {
+    const auto slots = wanted_slots(group, wanted);
     if (slots.extent(0) == 0) continue;
     const auto stress = unset_array<S*>("stress", 6 * static_cast<std::size_t>(group.blocks.count) * elements_of_block);
     const auto unused = unset_array<double* [2]>("block energy", group.blocks.count);
     with_material(group, [&](const auto& material) {
       using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
-      launch_blocks(group.blocks,
-                    State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, stress, unused});
+      launch_blocks(group.blocks, State{material, group.blocks, group.blocks.hourglass_scale, nodes, stress, unused});
     });
     fetch_elements(FetchElements<S, S>{slots, stress, 6, 0, 6, result});
   }
@@ -131,14 +131,14 @@ HostField stress_in(const Model& model, const std::vector<int>& elements) {
 }
 
 template <class S>
-HostField plastic_strain_in(const Model& model, const std::vector<int>& elements) {
-  const auto result = unset_array<double*>("plastic strain field", elements.size());
+HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>& wanted) {
+  const auto result = unset_array<double*>("plastic strain field", wanted.size());
   Kokkos::deep_copy(result, 0.0);
-  for (const ElementGroup& group : model.elements)
+  for (const ElementGroup& group : elements.elements)
     with_material_type(group.material, [&](auto type) {
       using Material = typename decltype(type)::type;
       if constexpr (Material::history_values > 0)
-        fetch_elements(FetchElements<S, double>{wanted_slots(group, elements), group.material.history,
+        fetch_elements(FetchElements<S, double>{wanted_slots(group, wanted), group.material.history,
                                                 Material::history_values, Material::plastic_strain, 1, result});
     });
   return {1, to_vector(result)};
@@ -161,11 +161,11 @@ struct PresentGap {
   }
 };
 
-Array<double*>::HostMirror present_gaps(const Model& model, const ContactPair& pair) {
+Array<double*>::HostMirror present_gaps(const NodeArrays& nodes, const ContactPair& pair) {
   const auto gap = unset_array<double*>("present gap", pair.arrays.slave_count);
   Kokkos::deep_copy(gap, pair.arrays.gap);
   Kokkos::parallel_for("present_gap", Range(0, pair.window.count),
-                       PresentGap{ContactSearch{{pair.arrays, model.nodes.position}}, pair.window, gap});
+                       PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, gap});
   return to_host(gap);
 }
 
@@ -206,27 +206,27 @@ bool curved(const ContactPair& pair) {
   return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs();
 }
 
-void add_curved_forces(const Model& model, const ContactPair& pair, const Array<double* [3]>& force,
+void add_curved_forces(const NodalState& nodal, const ContactPair& pair, const Array<double* [3]>& force,
                        std::vector<double>& on_master) {
-  std::vector<int> place(model.nodes.count, -1);
+  std::vector<int> place(nodal.nodes.count, -1);
   for (std::size_t m = 0; m < pair.master_nodes.size(); ++m) place[pair.master_nodes[m]] = static_cast<int>(m);
   ExtraForceSum sum;
-  sum.quantum = model.extra.sum.quantum;
+  sum.quantum = nodal.extra.sum.quantum;
   sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
   Kokkos::parallel_for(
       "curved_shares", Range(0, pair.arrays.slave_count),
-      CurvedShares{ContactSearch{{pair.arrays, model.nodes.position}}, sum, to_device("place of node", place), force});
+      CurvedShares{ContactSearch{{pair.arrays, nodal.nodes.position}}, sum, to_device("place of node", place), force});
   const auto quanta = to_host(sum.contact);
   for (std::size_t m = 0; m < pair.master_nodes.size(); ++m)
     for (int i = 0; i < 3; ++i)
       on_master[3 * m + i] += sum.quantum * static_cast<double>(static_cast<std::int64_t>(quanta(m, i)));
 }
 
-void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& now, ContactSide& slave,
+void add_forces(const NodalState& nodal, const ContactPair& pair, const SlavesNow& now, ContactSide& slave,
                 ContactSide& master) {
   if (curved(pair)) {
-    add_curved_forces(model, pair, pair.arrays.normal_force, master.normal_force);
-    add_curved_forces(model, pair, pair.arrays.tangential_force, master.tangential_force);
+    add_curved_forces(nodal, pair, pair.arrays.normal_force, master.normal_force);
+    add_curved_forces(nodal, pair, pair.arrays.tangential_force, master.tangential_force);
   }
   for (int s = 0; s < pair.arrays.slave_count; ++s) {
     if (now.status(s) == status_apart) continue;
@@ -244,27 +244,28 @@ void add_forces(const Model& model, const ContactPair& pair, const SlavesNow& no
   }
 }
 
-HostField own_node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
+HostField own_node_field(const NodalState& nodal, NodeField field, const std::vector<int>& nodes) {
   const auto result = unset_array<double*>("node field", 3 * nodes.size());
   Kokkos::parallel_for(
       "fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-      FetchNodes{model.paced_acceleration(), model.velocity_lag, field, to_device("wanted", nodes), result});
+      FetchNodes{nodal.paced_acceleration(), nodal.velocity_lag, field, to_device("wanted", nodes), result});
   return {3, to_vector(result)};
 }
 
 /// Tied nodes have no acceleration of their own but that of the face they lie on.
-void follow_masters(const Model& model, NodeField field, const std::vector<int>& nodes, std::vector<double>& values) {
-  std::vector<int> place_of(model.nodes.count, -1), masters;
-  for (std::size_t s = 0; s < model.ties.places.size(); ++s) place_of[model.ties.places[s].slave] = static_cast<int>(s);
+void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes,
+                    std::vector<double>& values) {
+  std::vector<int> place_of(nodal.nodes.count, -1), masters;
+  for (std::size_t s = 0; s < ties.places.size(); ++s) place_of[ties.places[s].slave] = static_cast<int>(s);
   for (int n : nodes)
     if (place_of[n] >= 0)
-      masters.insert(masters.end(), model.ties.places[place_of[n]].face, model.ties.places[place_of[n]].face + 4);
+      masters.insert(masters.end(), ties.places[place_of[n]].face, ties.places[place_of[n]].face + 4);
   if (masters.empty()) return;
-  const auto of_masters = own_node_field(model, field, masters).values;
+  const auto of_masters = own_node_field(nodal, field, masters).values;
   std::size_t next = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (place_of[nodes[i]] < 0) continue;
-    const TiedPlace& tied = model.ties.places[place_of[nodes[i]]];
+    const TiedPlace& tied = ties.places[place_of[nodes[i]]];
     for (int c = 0; c < 3; ++c) values[3 * i + c] = 0;
     for (int k = 0; k < 4; ++k, ++next)
       for (int c = 0; c < 3; ++c) values[3 * i + c] += tied.weight[k] * of_masters[3 * next + c];
@@ -289,39 +290,41 @@ Vec3 slip_velocity(const ContactPair& pair, const SlavesNow& now, const ContactS
 
 }  // namespace
 
-HostField node_field(const Model& model, NodeField field, const std::vector<int>& nodes) {
-  HostField values = own_node_field(model, field, nodes);
+HostField node_field(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes) {
+  HostField values = own_node_field(nodal, field, nodes);
   const bool follows = field == NodeField::velocity || field == NodeField::acceleration;
-  if (follows && model.ties.arrays.active()) follow_masters(model, field, nodes, values.values);
+  if (follows && ties.arrays.active()) follow_masters(nodal, ties, field, nodes, values.values);
   return values;
 }
 
-HostField element_stress(const Model& model, const std::vector<int>& elements) {
-  return with_element_precision(model.scene, [&](auto number) { return stress_in<decltype(number)>(model, elements); });
+HostField element_stress(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted) {
+  return with_element_precision(elements,
+                                [&](auto number) { return stress_in<decltype(number)>(elements, nodes, wanted); });
 }
 
-HostField element_plastic_strain(const Model& model, const std::vector<int>& elements) {
-  return with_element_precision(model.scene,
-                                [&](auto number) { return plastic_strain_in<decltype(number)>(model, elements); });
+HostField element_plastic_strain(const ElementModel& elements, const std::vector<int>& wanted) {
+  return with_element_precision(elements,
+                                [&](auto number) { return plastic_strain_in<decltype(number)>(elements, wanted); });
 }
 
-ContactState contact_state(const Model& model, int contact) {
-  const ContactPair& pair = model.contacts[contact];
+ContactState contact_state(const NodalState& nodal, const Ties& ties, const std::vector<ContactPair>& contacts,
+                           int contact) {
+  const ContactPair& pair = contacts[contact];
   ContactState state;
   state.name = pair.contact->name;
   state.friction = pair.arrays.friction;
   state.friction_now = friction_now(*pair.contact, pair.law);
-  state.slave = bare_side(model, pair.slave_nodes, pair.slave_facets);
-  state.master = bare_side(model, pair.master_nodes, pair.master_segments);
+  state.slave = bare_side(nodal, ties, pair.slave_nodes, pair.slave_facets);
+  state.master = bare_side(nodal, ties, pair.master_nodes, pair.master_segments);
 
   const SlavesNow now(pair.arrays);
-  add_forces(model, pair, now, state.slave, state.master);
+  add_forces(nodal, pair, now, state.slave, state.master);
   if (pair.partner >= 0) {
     // Both halves of a symmetric contact number the nodes of each surface alike.
-    const ContactPair& other = model.contacts[pair.partner];
-    add_forces(model, other, SlavesNow(other.arrays), state.master, state.slave);
+    const ContactPair& other = contacts[pair.partner];
+    add_forces(nodal, other, SlavesNow(other.arrays), state.master, state.slave);
   }
-  const auto gap = present_gaps(model, pair);
+  const auto gap = present_gaps(nodal.nodes, pair);
   const int count = pair.arrays.slave_count;
   state.gap.assign(count, std::numeric_limits<double>::quiet_NaN());
   state.slip_velocity.assign(3 * static_cast<std::size_t>(count), 0);

@@ -5,11 +5,9 @@
 
 #include "case/activity.hpp"
 #include "model/beams/beams.hpp"
-#include "model/boundaries/absorbing_layer.hpp"
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_law.hpp"
-#include "model/model_room.hpp"
 #include "model/visit_arrays.hpp"
 
 namespace railwave {
@@ -27,32 +25,28 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.order =
       order_in_blocks(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
   model.absorbing = absorbing_layers(scene, model.assembly);
-  build_elements(model);
-  build_beams(model);
+  build_elements(model, model.absorbing, model, model.partial);
+  build_beams(model, model.beams);
   {
     const Activity looking("laying out contacts and ties");
-    build_contacts(model);
-    build_ties(model);
+    build_contacts(model, model.contacts);
+    build_ties(model, model.contacts, model.ties);
   }
-  build_non_reflecting(model);
-  build_loads(model);
-  build_prescribed_motions(model);
-  refuse_contradictions(model);
+  build_non_reflecting(model, model.contacts, model.ends);
+  const Contributions contributions = build_loads(model, model.beams, model);
+  build_extra_forces(model.assembly, contributions, model.contacts, model.ties, model.ends, model);
+  build_prescribed_motions(model, model.prescribed);
+  refuse_contradictions(model, model.contacts);
   resolve_rolling(model);
-  build_node_arrays(model);
-  build_carried_nodes(model);
-  build_element_histories(model);
+  build_node_arrays(model, model.elements, model.ties, model);
+  build_carried_nodes(model, model.elements, model.ties, model);
+  build_element_histories(model, model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   const Activity estimating("estimating the stable step");
   build_stable_step(model);
-  build_subcycling(model);
-}
-
-void renew_frames(const Model& model, const ElementGroup& group) {
-  if (group.blocks.frame.extent(0) == 0) return;
-  Kokkos::parallel_for("renew_frames", Range(0, group.blocks.count),
-                       RenewFrames{group.blocks, model.nodes.position, model.nodes.reference});
+  build_subcycling(model.elements, model.ends, model);
+  plan_steps(model.scene, model.subcycling.round(), model);
 }
 
 namespace {
@@ -84,9 +78,9 @@ void reset_to_start(Model& model) {
   ZeroState zero;
   visit_model_arrays(zero, model);
   Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
-  for (const ElementGroup& group : model.elements) renew_frames(model, group);
-  reset_beams(model);
-  hold_ends(model, {});
+  for (const ElementGroup& group : model.elements) renew_frames(model.nodes, group);
+  reset_beams(model.beams, model.nodes);
+  hold_ends(model.ends, model.nodes.position, {});
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.arrays.tracked, -1);
     Kokkos::deep_copy(pair.arrays.gap, beside_surface);

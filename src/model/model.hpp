@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "model/assembled_scene.hpp"
-#include "model/boundaries/absorbing_layer.hpp"
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/contact/contact_pair.hpp"
@@ -41,9 +40,6 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
 
 /// Bytes of all device arrays.
 std::size_t device_bytes(const Model& model);
-
-/// Lays the frames from which single precision measures a group's displacements where its blocks are now.
-void renew_frames(const Model& model, const ElementGroup& group);
 
 /// Puts nodes and history variables back to the undeformed start, at rest.
 void reset_to_start(Model& model);

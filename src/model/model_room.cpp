@@ -1,11 +1,10 @@
-#include "model/model_room.hpp"
-
 #include <fmt/format.h>
 
 #include <Kokkos_Core.hpp>
 
 #include "case/error.hpp"
 #include "case/memory.hpp"
+#include "model/build_steps.hpp"
 
 namespace railwave {
 namespace {

@@ -10,46 +10,47 @@ namespace railwave {
 namespace {
 
 /// Constraint row of each node, and the projections.
-void build_constraints(Model& model, std::vector<int>& row_of_node) {
-  auto constrained = held_directions(model.scene, model.assembly);
+void build_constraints(const AssembledScene& assembled, const Ties& ties, NodalState& nodal,
+                       std::vector<int>& row_of_node) {
+  auto constrained = held_directions(assembled.scene, assembled.assembly);
   // A tied node goes where its master does: forces of its own must not move it.
-  for (const TiedPlace& tied : model.ties.places) hold(constrained[tied.slave]);
+  for (const TiedPlace& tied : ties.places) hold(constrained[tied.slave]);
 
-  model.constraints = projections(constrained, row_of_node);
+  nodal.constraints = projections(constrained, row_of_node);
 }
 
 /// For each node the rows of the partial forces that are its own, in the order of blocks.
-void build_gather(Model& model) {
-  const int count = model.nodes.count;
+void build_gather(const std::vector<ElementGroup>& groups, NodeArrays& nodes) {
+  const int count = nodes.count;
   std::vector<int> first(count + 1, 0);
   std::vector<std::pair<int, int>> rows;  // node, row
-  for (const ElementGroup& group : model.elements) {
-    const auto nodes = to_host(group.blocks.node), node_count = to_host(group.blocks.node_count);
+  for (const ElementGroup& group : groups) {
+    const auto node_of = to_host(group.blocks.node), node_count = to_host(group.blocks.node_count);
     for (int p = 0; p < group.blocks.count; ++p)
       for (int l = 0; l < node_count(p); ++l) {
         const int k = p * group.blocks.node_stride + l;
-        rows.emplace_back(nodes(k), group.first_partial + k);
-        ++first[nodes(k) + 1];
+        rows.emplace_back(node_of(k), group.first_partial + k);
+        ++first[node_of(k) + 1];
         if (!group.damping.active()) continue;
-        rows.emplace_back(nodes(k), group.damping.first_partial + k);
-        ++first[nodes(k) + 1];
+        rows.emplace_back(node_of(k), group.damping.first_partial + k);
+        ++first[node_of(k) + 1];
       }
   }
   for (int n = 0; n < count; ++n) first[n + 1] += first[n];
   std::vector<int> filled(first.begin(), first.end() - 1), place(rows.size());
   for (const auto& [node, row] : rows) place[filled[node]++] = row;
-  model.nodes.first_partial = to_device("first partial force", first);
-  model.nodes.partial_place = to_device("partial forces of nodes", place);
+  nodes.first_partial = to_device("first partial force", first);
+  nodes.partial_place = to_device("partial forces of nodes", place);
 }
 
 /// A node of one block only, on which nothing else acts, is advanced by its block; the others are listed.
-void share_out_nodes(Model& model) {
-  const auto first = to_host(model.nodes.first_partial);
-  const auto extra = to_host(model.nodes.extra), constraint = to_host(model.nodes.constraint);
-  const auto place = to_host(model.nodes.partial_place);
+void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal) {
+  const auto first = to_host(nodal.nodes.first_partial);
+  const auto extra = to_host(nodal.nodes.extra), constraint = to_host(nodal.nodes.constraint);
+  const auto place = to_host(nodal.nodes.partial_place);
   std::vector<SharedNode> listed;
-  std::vector<char> alone(model.nodes.count, 1);
-  for (int n = 0; n < model.nodes.count; ++n) {
+  std::vector<char> alone(nodal.nodes.count, 1);
+  for (int n = 0; n < nodal.nodes.count; ++n) {
     const int count = first(n + 1) - first(n);
     const bool special = extra(n) >= 0 || constraint(n) >= 0;
     if (count == 1 && !special) continue;
@@ -58,36 +59,37 @@ void share_out_nodes(Model& model) {
                       {count > 0 ? place(first(n)) : -1, count > 1 ? place(first(n) + 1) : -1},
                       count > 2 ? 1 : 0});
   }
-  for (const ElementGroup& group : model.elements) {
+  for (const ElementGroup& group : groups) {
     const auto nodes = to_host(group.blocks.node);
     // The rows' fill carries the bit too; the kernels read no further than a block's nodes when they advance.
     for (std::size_t k = 0; k < nodes.extent(0); ++k)
       if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
     Kokkos::deep_copy(group.blocks.node, nodes);
   }
-  model.shared_nodes = to_device("shared nodes", listed);
+  nodal.shared_nodes = to_device("shared nodes", listed);
 }
 
 }  // namespace
 
-void build_node_arrays(Model& model) {
-  const Assembly& assembly = model.assembly;
-  NodeArrays& nodes = model.nodes;
+void build_node_arrays(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, const Ties& ties,
+                       NodalState& nodal) {
+  const Assembly& assembly = assembled.assembly;
+  NodeArrays& nodes = nodal.nodes;
   nodes.count = static_cast<int>(assembly.nodes.size());
   for (int n = 0; n < nodes.count; ++n)
-    if (!(model.mass[n] > 0))
+    if (!(assembled.mass[n] > 0))
       throw InputError(fmt::format(
           "{}: node at ({:.6g}, {:.6g}, {:.6g}) m belongs to no element and has no mass; remove it from the mesh",
-          model.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
+          assembled.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
   nodes.reference = to_device("reference", assembly.nodes);
   nodes.position = unset_array<double* [3]>("position", nodes.count);
   nodes.velocity = unset_array<double* [3]>("velocity", nodes.count);
-  nodes.mass = to_device("mass", masses_with_ties(model, model.mass));
+  nodes.mass = to_device("mass", masses_with_ties(ties, assembled.mass));
   std::vector<int> constraint(nodes.count, -1);
-  build_constraints(model, constraint);
+  build_constraints(assembled, ties, nodal, constraint);
   nodes.constraint = to_device("constraint", constraint);
-  build_gather(model);
-  share_out_nodes(model);
+  build_gather(groups, nodes);
+  share_out_nodes(groups, nodal);
 }
 
 }  // namespace railwave

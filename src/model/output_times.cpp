@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "model/model.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave {
@@ -84,28 +83,26 @@ StepPlan lay_steps(double end, double largest, double history, double fields, lo
   return plan;
 }
 
-void plan_steps(Model& model, long round) {
-  const scene::Scene& scene = model.scene;
-  const StepPlan plan = lay_steps(scene.time.end, largest_step(model), scene.output.history_interval,
-                                  scene.output.field_interval, round, scene.time.step > 0);
-  model.step_count = plan.count;
-  model.step_size = plan.size;
-  model.output_times = plan.times;
+void plan_steps(const scene::Scene& scene, long round, StepSizes& sizes) {
+  const StepPlan plan =
+      lay_steps(scene.time.end, largest_step(scene.time, sizes.stable_step), scene.output.history_interval,
+                scene.output.field_interval, round, scene.time.step > 0);
+  sizes.step_count = plan.count;
+  sizes.step_size = plan.size;
+  sizes.output_times = plan.times;
 }
 
-std::vector<std::string> describe_output_times(const Model& model) {
-  const long round = model.subcycling.round();
+std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long round) {
   const auto line = [&](const char* what, double interval, double asked, bool ends_only) {
-    const long every = whole_rounds(interval, model.step_size, round);
-    if (ends_only || every >= model.step_count) return fmt::format("{} at the beginning and the end", what);
-    const double apart = static_cast<double>(every) * model.step_size;
+    const long every = whole_rounds(interval, sizes.step_size, round);
+    if (ends_only || every >= sizes.step_count) return fmt::format("{} at the beginning and the end", what);
+    const double apart = static_cast<double>(every) * sizes.step_size;
     return fmt::format(
         "{} every {:.6g} s ({} step{}){}", what, apart, every, every == 1 ? "" : "s",
         asked > 0 && std::fabs(apart - asked) > 1e-6 * asked ? fmt::format(", asked for: {:.6g} s", asked) : "");
   };
-  const scene::Output& output = model.scene.output;
-  return {line("samples of histories", model.output_times.history, output.history_interval, false),
-          line("outputs of fields", model.output_times.fields, output.field_interval, !(output.field_interval > 0))};
+  return {line("samples of histories", sizes.output_times.history, output.history_interval, false),
+          line("outputs of fields", sizes.output_times.fields, output.field_interval, !(output.field_interval > 0))};
 }
 
 }  // namespace railwave

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 namespace railwave {
-
-struct Model;
 
 /// How far apart a run's outputs are. With the step that plan_steps() lays both are whole numbers of rounds of steps.
 struct OutputTimes {
@@ -31,11 +26,5 @@ struct StepPlan {
 /// @param fixed the step was asked for: no longer made for the sake of outputs than by what the end needs; outputs come
 /// at the nearest rounds
 StepPlan lay_steps(double end, double largest, double history, double fields, long round, bool fixed);
-
-/// The same for a model: sets step_size, step_count and output_times.
-void plan_steps(Model& model, long round);
-
-/// Lines that say how far apart the outputs are.
-std::vector<std::string> describe_output_times(const Model& model);
 
 }  // namespace railwave

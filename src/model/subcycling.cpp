@@ -29,48 +29,45 @@ namespace {
 /// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of
 /// non-reflecting ends at their nodes'. Rows of partial forces ascend by level, so a node's first row is of its finest
 /// block.
-std::vector<std::uint8_t> node_levels(const Model& model) {
-  const auto first = to_host(model.nodes.first_partial), place = to_host(model.nodes.partial_place);
-  const auto extra = to_host(model.nodes.extra);
-  std::vector<std::uint8_t> level(model.nodes.count, 0);
-  for (int n = 0; n < model.nodes.count; ++n)
-    if ((extra(n) < 0 || (!model.ends.alone.empty() && model.ends.alone[n] != 0)) && first(n + 1) > first(n))
-      while (place(first(n)) >= model.subcycling.paces.row_end[level[n]]) ++level[n];
+std::vector<std::uint8_t> node_levels(const NodalState& nodal, const NonReflectingEnds& ends) {
+  const auto first = to_host(nodal.nodes.first_partial), place = to_host(nodal.nodes.partial_place);
+  const auto extra = to_host(nodal.nodes.extra);
+  std::vector<std::uint8_t> level(nodal.nodes.count, 0);
+  for (int n = 0; n < nodal.nodes.count; ++n)
+    if ((extra(n) < 0 || (!ends.alone.empty() && ends.alone[n] != 0)) && first(n + 1) > first(n))
+      while (place(first(n)) >= nodal.subcycling.paces.row_end[level[n]]) ++level[n];
   return level;
 }
 
 }  // namespace
 
-void build_subcycling(Model& model) {
-  Subcycling& subcycling = model.subcycling;
+void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal) {
+  Subcycling& subcycling = nodal.subcycling;
   subcycling = {};
-  for (const ElementGroup& group : model.elements) subcycling.levels = std::max(subcycling.levels, group.level + 1);
+  for (const ElementGroup& group : groups) subcycling.levels = std::max(subcycling.levels, group.level + 1);
   if (subcycling.levels == 1) return;
   subcycling.elements.assign(subcycling.levels, 0);
   int rows = 0;
-  for (const ElementGroup& group : model.elements) {
+  for (const ElementGroup& group : groups) {
     rows = group.rows_end();
     for (int l = group.level; l < most_levels; ++l) subcycling.paces.row_end[l] = rows;
     for (int count : group.element_count) subcycling.elements[group.level] += count;
   }
-  const auto level = node_levels(model);
+  const auto level = node_levels(nodal, ends);
   subcycling.paces.level = to_device("node levels", level);
 
-  const auto shared = to_host(model.shared_nodes);
+  const auto shared = to_host(nodal.shared_nodes);
   const auto level_of = [&](const SharedNode& node) { return level[node.node & ~special_bit]; };
   std::stable_sort(shared.data(), shared.data() + shared.extent(0),
                    [&](const SharedNode& a, const SharedNode& b) { return level_of(a) < level_of(b); });
-  Kokkos::deep_copy(model.shared_nodes, shared);
+  Kokkos::deep_copy(nodal.shared_nodes, shared);
   for (int l = 0; l < subcycling.levels; ++l)
     subcycling.shared_end.push_back(static_cast<int>(std::count_if(
         shared.data(), shared.data() + shared.extent(0), [&](const SharedNode& n) { return level_of(n) <= l; })));
-
-  plan_steps(model, subcycling.round());
 }
 
-std::vector<std::string> describe_subcycling(const Model& model) {
-  if (!model.scene.solver.subcycling) return {};
-  const Subcycling& subcycling = model.subcycling;
+std::vector<std::string> describe_subcycling(const scene::Scene& scene, const Subcycling& subcycling) {
+  if (!scene.solver.subcycling) return {};
   if (subcycling.levels == 1) return {"does not pay here: every element takes every step"};
   std::vector<std::string> lines;
   for (std::size_t l = 0; l < subcycling.elements.size(); ++l)

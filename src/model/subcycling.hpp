@@ -9,8 +9,6 @@
 
 namespace railwave {
 
-struct Model;
-
 /// How a model is subcycled; see kernels/nodes/paced_nodes.hpp.
 struct Subcycling {
   int levels = 1;  ///< 1: every element takes every step
@@ -32,6 +30,6 @@ struct Subcycling {
 std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assembly);
 
 /// Lines that tell how many elements are of which level, and what that saves; none without subcycling.
-std::vector<std::string> describe_subcycling(const Model& model);
+std::vector<std::string> describe_subcycling(const scene::Scene& scene, const Subcycling& subcycling);
 
 }  // namespace railwave

@@ -1,4 +1,4 @@
-#include "modes/eigenpairs.hpp"
+#include "modes/shifted_matrix.hpp"
 
 #include <Spectra/SymEigsShiftSolver.h>
 #include <fmt/format.h>

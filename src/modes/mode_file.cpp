@@ -1,4 +1,4 @@
-#include "modes/mode_file.hpp"
+#include "modes/modes.hpp"
 
 #include <filesystem>
 
@@ -9,12 +9,12 @@
 namespace railwave {
 namespace {
 
-std::vector<OutputSet> part_sets(const Model& model) {
-  scene::Scene scene = model.scene;
+std::vector<OutputSet> part_sets(const AssembledScene& assembled) {
+  scene::Scene scene = assembled.scene;
   scene.beams.clear();
   scene.output.field_sets.clear();
   for (const scene::Part& part : scene.parts) scene.output.field_sets.push_back(part.name);
-  return resolve_output_sets(scene, model.assembly);
+  return resolve_output_sets(scene, assembled.assembly);
 }
 
 void write_modes(const hdf5::Group& group, const std::vector<Mode>& modes) {
@@ -41,17 +41,17 @@ void write_modes(const hdf5::Group& group, const std::vector<Mode>& modes) {
 
 }  // namespace
 
-void write_mode_file(const Model& model, const ModeList& list, const std::string& path) {
+void write_mode_file(const AssembledScene& assembled, const ModeList& list, const std::string& path) {
   check_results_place(path);
   auto file = hdf5::File::create(path, kinds::modes());
   const hdf5::Group root = file.root();
-  root.set_attribute("title", model.scene.title);
+  root.set_attribute("title", assembled.scene.title);
   std::vector<std::string> names;
-  for (const scene::Part& part : model.scene.parts) names.push_back(part.name);
+  for (const scene::Part& part : assembled.scene.parts) names.push_back(part.name);
   root.set_attribute("part_names", names);
   write_modes(root.create_group("modes"), list.modes);
 
-  const auto sets = part_sets(model);
+  const auto sets = part_sets(assembled);
   const hdf5::Group fields = root.create_group("fields");
   for (std::size_t p = 0; p < sets.size(); ++p) {
     const OutputSet& set = sets[p];
@@ -63,7 +63,7 @@ void write_mode_file(const Model& model, const ModeList& list, const std::string
       for (int n : set.nodes)
         for (int i = 0; i < 3; ++i) displacement.push_back(mode.shape[3 * n + i]);
     group.write("displacement", displacement, {list.modes.size(), set.nodes.size(), 3}, "1");
-    if (const auto body = RoundBody::of_part(model, static_cast<int>(p)))
+    if (const auto body = RoundBody::of_part(assembled, static_cast<int>(p)))
       for (int i = 0; i < 3; ++i) group.set_attribute(std::string("axis_") + "xyz"[i], body -> axis()[i]);
   }
   file.close();

@@ -1,4 +1,4 @@
-#include "modes/mode_scene.hpp"
+#include "modes/modes_command.hpp"
 
 #include <fmt/format.h>
 

@@ -2,15 +2,15 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "model/beams/beams.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
 
-ModeUnknowns::ModeUnknowns(const Model& model) : rows_(model), free_(rows_.rows()) {
-  std::vector<double> inertia = to_vector(model.nodes.mass), mass;
-  if (model.beams)
-    for (double value : to_vector(model.beams->arrays.inertia)) inertia.push_back(value);
+ModeUnknowns::ModeUnknowns(StaticUnknowns rows, const NodeArrays& nodes, const std::shared_ptr<BeamModel>& beams)
+    : rows_(std::move(rows)), free_(rows_.rows()) {
+  std::vector<double> inertia = to_vector(nodes.mass), mass;
+  if (beams)
+    for (double value : to_vector(beams->arrays.inertia)) inertia.push_back(value);
   for (int row = 0; row < rows_.rows(); ++row) {
     if (rows_.follows(row)) continue;
     Free& free = free_[row];

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
+#include "model/beams/beams.hpp"
 #include "solve/statics/static_unknowns.hpp"
 
 namespace railwave {
@@ -12,7 +14,9 @@ namespace railwave {
 /// q; slaves of ties have none of their own.
 class ModeUnknowns {
  public:
-  explicit ModeUnknowns(const Model& model);
+  /// @param rows with their constraints and ties
+  /// @param beams null in a scene without beams
+  ModeUnknowns(StaticUnknowns rows, const NodeArrays& nodes, const std::shared_ptr<BeamModel>& beams);
 
   int count() const { return count_; }
   int rows() const { return rows_.rows(); }

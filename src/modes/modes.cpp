@@ -6,8 +6,8 @@
 
 #include "case/error.hpp"
 #include "model/beams/beams.hpp"
-#include "modes/eigenpairs.hpp"
-#include "modes/strain_energy.hpp"
+#include "modes/shifted_matrix.hpp"
+#include "modes/stiffness_matrix.hpp"
 
 namespace railwave {
 namespace {
@@ -16,12 +16,12 @@ namespace {
 constexpr double rigid_share = 1e-5;
 
 /// Kinetic energy at unit angular frequency, times two, of each part and, behind them, of all else.
-std::vector<double> kinetic(const Model& model, const Eigen::VectorXd& motion, double total) {
+std::vector<double> kinetic(const AssembledScene& assembled, const Eigen::VectorXd& motion, double total) {
   std::vector<double> result;
-  for (const auto& part : model.assembly.parts) {
+  for (const auto& part : assembled.assembly.parts) {
     double sum = 0;
     for (int n = part.first_node; n < part.first_node + part.node_count; ++n)
-      sum += model.mass[n] * motion.segment<3>(3 * n).squaredNorm();
+      sum += assembled.mass[n] * motion.segment<3>(3 * n).squaredNorm();
     result.push_back(sum);
   }
   result.push_back(std::max(0.0, total - std::accumulate(result.begin(), result.end(), 0.0)));
@@ -31,18 +31,18 @@ std::vector<double> kinetic(const Model& model, const Eigen::VectorXd& motion, d
 }  // namespace
 
 ModeList modes_below(const Model& model, double up_to) {
-  if (model.beams) tighten_beams(model, true);
-  const ModeUnknowns unknowns(model);
+  tighten_beams(model.beams, model.nodes, true);
+  const ModeUnknowns unknowns(StaticUnknowns(model, model.ties, model.ends, model.beams), model.nodes, model.beams);
   if (unknowns.count() == 0)
     throw InputError(
         "nothing can move: all nodes are held ([constraints], [prescribed_motion] and [non_reflecting] hold); free "
         "some, or name other parts by --part");
-  const SpringCollector springs = mode_springs(model);
-  ShiftedMatrix matrix(stiffness_matrix(model, unknowns, springs), unknowns.mass(), unknowns.places());
+  const SpringCollector springs = mode_springs(model.scene, model.connectors.cells, model.beams, model.nodes);
+  ShiftedMatrix matrix(stiffness_matrix(model, model.nodes, unknowns, springs), unknowns.mass(), unknowns.places());
   const double limit = std::pow(2 * M_PI * up_to, 2);
   const Eigenpairs pairs = eigenpairs_below(matrix, limit);
 
-  const StrainEnergy strain(model, springs);
+  const StrainEnergy strain(model, model.nodes, springs);
   std::vector<std::optional<RoundBody>> bodies;
   for (std::size_t p = 0; p < model.assembly.parts.size(); ++p)
     bodies.push_back(RoundBody::of_part(model, static_cast<int>(p)));

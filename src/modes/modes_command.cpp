@@ -7,10 +7,10 @@
 #include <ostream>
 
 #include "case/error.hpp"
-#include "model/assemble_notes.hpp"
+#include "model/assembly.hpp"
 #include "model/checks/doubts.hpp"
-#include "modes/mode_file.hpp"
-#include "modes/mode_scene.hpp"
+#include "model/model.hpp"
+#include "modes/modes.hpp"
 #include "output/atomic_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/run_places.hpp"
@@ -18,8 +18,8 @@
 namespace railwave {
 namespace {
 
-std::string part_name(const Model& model, const Mode& mode) {
-  return mode.part < 0 ? "points and beams" : model.scene.parts[mode.part].name;
+std::string part_name(const scene::Scene& scene, const Mode& mode) {
+  return mode.part < 0 ? "points and beams" : scene.parts[mode.part].name;
 }
 
 std::string name_of(const Mode& mode) {
@@ -29,23 +29,23 @@ std::string name_of(const Mode& mode) {
 }
 
 /// @param several parts: the table tells which one moves most
-void print(const Model& model, const std::vector<Mode>& modes, bool several, std::ostream& out) {
+void print(const scene::Scene& scene, const std::vector<Mode>& modes, bool several, std::ostream& out) {
   out << fmt::format("{:>5} {:>11} {:>11}    {}\n", "mode", "Hz", "modal kg",
                      several ? fmt::format("{:<24}moves most", "name") : "name");
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Mode& mode = modes[k];
     std::string line =
         fmt::format("{:>5} {:>11.3f} {:>11.4g}  {:<24}", k + 1, mode.frequency, mode.modal_mass, name_of(mode));
-    if (several) line += fmt::format("{} {:.0f} %", part_name(model, mode), 100 * mode.part_share);
+    if (several) line += fmt::format("{} {:.0f} %", part_name(scene, mode), 100 * mode.part_share);
     out << line.substr(0, line.find_last_not_of(' ') + 1) << '\n';
   }
 }
 
 /// A line for each part whose hourglass control holds so much of modes' energy that a run's watch would warn of it:
 /// their frequencies are those of the control. The mode with the largest share stands for the others.
-void warn_of_hourglass(const Model& model, const std::vector<Mode>& modes, std::ostream& out) {
-  const double limit = model.scene.watch.hourglass_share;
-  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
+void warn_of_hourglass(const scene::Scene& scene, const std::vector<Mode>& modes, std::ostream& out) {
+  const double limit = scene.watch.hourglass_share;
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     std::size_t worst = modes.size();
     int count = 0;
     for (std::size_t k = 0; k < modes.size(); ++k) {
@@ -54,7 +54,7 @@ void warn_of_hourglass(const Model& model, const std::vector<Mode>& modes, std::
       if (worst == modes.size() || modes[k].hourglass_share > modes[worst].hourglass_share) worst = k;
     }
     if (count == 0) continue;
-    const scene::Part& part = model.scene.parts[p];
+    const scene::Part& part = scene.parts[p];
     out << fmt::format(
         "warning: [parts.{}] (line {}) is bent over few elements: its hourglass control holds more than {:.3g} "
         "(watch.hourglass_share) of the energy of {} of the {} modes, "
@@ -81,12 +81,12 @@ void check_files(const scene::Scene& scene, const ModesRequest& request) {
   places.check();
 }
 
-std::string csv_of(const Model& model, const std::vector<Mode>& modes) {
+std::string csv_of(const scene::Scene& scene, const std::vector<Mode>& modes) {
   std::string text = fmt::format("{}\n", heading);
   for (std::size_t k = 0; k < modes.size(); ++k) {
     const Mode& mode = modes[k];
     text += fmt::format("{},{:.10g},{},{:.6g},{},{:.4f}", k + 1, mode.frequency, mode.rigid ? 1 : 0, mode.modal_mass,
-                        part_name(model, mode), mode.part_share);
+                        part_name(scene, mode), mode.part_share);
     if (mode.round) {
       const RoundName& r = *mode.round;
       text += fmt::format(",{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", text_of(r.kind), r.circles, r.diameters,
@@ -109,7 +109,8 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
   std::vector<std::string> notes;
   build_model(wanted.scene, assemble(wanted.scene, notes), model);
   for (const std::string& note : notes) out << "note: " << note << '\n';
-  for (const std::string& doubt : mesh_doubts(model)) out << "warning: " << doubt << '\n';
+  for (const std::string& doubt : mesh_doubts(model, model.contacts, model.step_size))
+    out << "warning: " << doubt << '\n';
   out << fmt::format("{} elements, {} nodes\n", model.element_count(), model.node_count());
   for (const std::string& note : wanted.notes) out << "note: " << note << '\n';
   out.flush();  // the rest may take minutes
@@ -120,13 +121,13 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
   const bool round =
       std::any_of(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.round.has_value(); });
   if (round) out << "names: direction of most motion (nodal circles, nodal diameters)\n";
-  print(model, list.modes, model.scene.parts.size() + model.scene.points.size() > 1, out);
-  warn_of_hourglass(model, list.modes, out);
+  print(model.scene, list.modes, model.scene.parts.size() + model.scene.points.size() > 1, out);
+  warn_of_hourglass(model.scene, list.modes, out);
   const auto rigid = std::count_if(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.rigid; });
   out << fmt::format("all {} modes below {:g} Hz, counted by inertia{}\n", list.modes.size(), request.up_to,
                      rigid > 0 ? fmt::format("; {} of them rigid motions", rigid) : "");
   try {
-    if (request.csv) write_whole_file(*request.csv, csv_of(model, list.modes), mode_table());
+    if (request.csv) write_whole_file(*request.csv, csv_of(model.scene, list.modes), mode_table());
   } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {

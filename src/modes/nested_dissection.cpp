@@ -1,4 +1,4 @@
-#include "modes/nested_dissection.hpp"
+#include "modes/frontal_factor.hpp"
 
 #include <algorithm>
 

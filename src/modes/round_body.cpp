@@ -45,21 +45,21 @@ const char* text_of(RoundName::Kind kind) {
   return kind == RoundName::Kind::axial ? "axial" : kind == RoundName::Kind::radial ? "radial" : "circumferential";
 }
 
-std::optional<RoundBody> RoundBody::of_part(const Model& model, int number) {
-  const scene::Part& part = model.scene.parts[number];
-  const bool along_z = mesh_of(model.scene, part).type == scene::MeshType::cylinder;
+std::optional<RoundBody> RoundBody::of_part(const AssembledScene& assembled, int number) {
+  const scene::Part& part = assembled.scene.parts[number];
+  const bool along_z = mesh_of(assembled.scene, part).type == scene::MeshType::cylinder;
   RoundBody body(part.position, turned_with(part, along_z ? Vec3{0, 0, 1} : Vec3{0, 1, 0}));
   const Eigen::Vector3d axis = vector(body.axis_).normalized();
   const Eigen::Vector3d across = axis.unitOrthogonal();
   body.frame_ << across, axis.cross(across), axis;
 
-  const auto& range = model.assembly.parts[number];
+  const auto& range = assembled.assembly.parts[number];
   std::vector<Eigen::Vector3d> local;
   double reach = 0, total = 0;
   for (int n = range.first_node; n < range.first_node + range.node_count; ++n) {
-    local.push_back(body.frame_.transpose() * (vector(model.assembly.nodes[n]) - vector(body.centre_)));
+    local.push_back(body.frame_.transpose() * (vector(assembled.assembly.nodes[n]) - vector(body.centre_)));
     reach = std::max(reach, local.back().head<2>().norm());
-    total += model.mass[n];
+    total += assembled.mass[n];
   }
   std::map<std::pair<long, long>, Ring> rings;
   for (int k = 0; k < range.node_count; ++k) {
@@ -69,7 +69,7 @@ std::optional<RoundBody> RoundBody::of_part(const Model& model, int number) {
     ring.radius = radius;
     ring.nodes.push_back(range.first_node + k);
     ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
-    ring.mass += model.mass[range.first_node + k];
+    ring.mass += assembled.mass[range.first_node + k];
   }
   double in_rings = 0;
   for (auto& [place, ring] : rings) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
 
 namespace railwave {
 
@@ -27,7 +27,7 @@ class RoundBody {
  public:
   /// Nothing unless most of the part's mass lies in rings of nodes round the axis: along y through the mesh's origin
   /// (wheels, rollers, meshes from files), along z for cylinders.
-  static std::optional<RoundBody> of_part(const Model& model, int part);
+  static std::optional<RoundBody> of_part(const AssembledScene& assembled, int part);
 
   /// Fourier analysis round each ring: n is the order with the most kinetic energy; m counts where the displacement
   /// along the radius, a mean over the thickness, changes its sign.

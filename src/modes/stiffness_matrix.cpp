@@ -3,7 +3,7 @@
 #include <map>
 
 #include "model/host_copy.hpp"
-#include "model/time_step/settling_stiffness.hpp"
+#include "model/time_step/tangent_operator.hpp"
 
 namespace railwave {
 namespace {
@@ -72,23 +72,24 @@ class Collector {
 
 }  // namespace
 
-std::vector<ElementStiffness> mode_stiffness(const Model& model) {
+std::vector<ElementStiffness> mode_stiffness(const AssembledScene& assembled) {
   std::vector<ElementStiffness> stiffness;
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p)
+  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p)
     stiffness.push_back(
-        settling_stiffness(model.scene.parts[p], model.scene.materials[model.assembly.parts[p].material]));
+        settling_stiffness(assembled.scene.parts[p], assembled.scene.materials[assembled.assembly.parts[p].material]));
   return stiffness;
 }
 
-SpringCollector mode_springs(const Model& model) {
-  SpringCollector springs(model);
-  springs.add_connectors();
-  springs.add_beams(false);
+SpringCollector mode_springs(const scene::Scene& scene, const std::vector<ConnectorCell>& cells,
+                             const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes) {
+  SpringCollector springs;
+  springs.add_connectors(scene, cells);
+  springs.add_beams(beams, nodes, false);
   return springs;
 }
 
-StiffnessMatrix stiffness_matrix(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs,
-                                 int most) {
+StiffnessMatrix stiffness_matrix(const AssembledScene& assembled, const NodeArrays& nodes, const ModeUnknowns& unknowns,
+                                 const SpringCollector& springs, int most) {
   std::vector<std::map<int, double>> stretches(springs.count());
   StiffnessMatrix result;
   for (std::size_t s = 0; s < springs.count(); ++s) {
@@ -103,13 +104,13 @@ StiffnessMatrix stiffness_matrix(const Model& model, const ModeUnknowns& unknown
   }
 
   Collector collector(unknowns, result.extra);
-  collector.reserve(300 * model.assembly.elements.size() + static_cast<std::size_t>(unknowns.count()));
-  const auto stiffness = mode_stiffness(model);
-  const auto position = to_host(model.nodes.position);
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const auto& range = model.assembly.parts[p];
+  collector.reserve(300 * assembled.assembly.elements.size() + static_cast<std::size_t>(unknowns.count()));
+  const auto stiffness = mode_stiffness(assembled);
+  const auto position = to_host(nodes.position);
+  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
+    const auto& range = assembled.assembly.parts[p];
     for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const Corners& corners = model.assembly.elements[e];
+      const Corners& corners = assembled.assembly.elements[e];
       collector.add_element(element_matrix(stiffness[p], corners, position), corners);
     }
   }

@@ -1,4 +1,4 @@
-#include "modes/strain_energy.hpp"
+#include "modes/stiffness_matrix.hpp"
 
 #include "model/host_copy.hpp"
 
@@ -32,11 +32,14 @@ ElementEnergy element_energy(const ElementStiffness& stiffness, const double (&x
 
 }  // namespace
 
-StrainEnergy::StrainEnergy(const Model& model, const SpringCollector& springs)
-    : model_(model), springs_(springs), stiffness_(mode_stiffness(model)), position_(to_host(model.nodes.position)) {}
+StrainEnergy::StrainEnergy(const AssembledScene& assembled, const NodeArrays& nodes, const SpringCollector& springs)
+    : assembly_(assembled.assembly),
+      springs_(springs),
+      stiffness_(mode_stiffness(assembled)),
+      position_(to_host(nodes.position)) {}
 
 std::vector<double> StrainEnergy::operator()(const Eigen::VectorXd& motion, std::vector<double>* hourglass) const {
-  const auto& parts = model_.assembly.parts;
+  const auto& parts = assembly_.parts;
   std::vector<double> energy(parts.size() + 1, 0.0);
   if (hourglass) hourglass->assign(parts.size(), 0.0);
   for (std::size_t p = 0; p < parts.size(); ++p)
@@ -45,7 +48,7 @@ std::vector<double> StrainEnergy::operator()(const Eigen::VectorXd& motion, std:
       for (int i = 0; i < 3; ++i) {
         double place[8], moved[8];
         for (int N = 0; N < 8; ++N) {
-          const int n = model_.assembly.elements[e][N];
+          const int n = assembly_.elements[e][N];
           place[N] = position_(n, i);
           moved[N] = motion[3 * n + i];
         }

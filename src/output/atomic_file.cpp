@@ -9,7 +9,6 @@
 
 #include "output/disk.hpp"
 #include "output/output_place.hpp"
-#include "output/unfinished.hpp"
 
 namespace railwave {
 

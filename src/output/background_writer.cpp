@@ -2,8 +2,8 @@
 
 #include <exception>
 
+#include "output/results_writer.hpp"
 #include "output/room.hpp"
-#include "output/tell.hpp"
 
 namespace railwave {
 namespace {

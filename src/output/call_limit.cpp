@@ -1,4 +1,4 @@
-#include "output/call_limit.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 #include <sys/time.h>
 

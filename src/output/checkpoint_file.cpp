@@ -7,11 +7,10 @@
 #include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
-#include "model/model.hpp"
+#include "output/atomic_file.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_place.hpp"
-#include "output/seal.hpp"
 
 namespace railwave {
 namespace {
@@ -113,8 +112,8 @@ void CheckpointFile::remove() const {
   for (const char* ending : {"", ".previous"}) remove_own(path_ + ending, kinds::checkpoint());
 }
 
-std::string checkpoint_key(const Model& model, const std::string& program_version) {
-  const scene::Scene& scene = model.scene;
+std::string checkpoint_key(const AssembledScene& assembled, const std::string& program_version) {
+  const scene::Scene& scene = assembled.scene;
   Hash hash;
   hash.add(format_name);
   hash.add(program_version);
@@ -131,8 +130,8 @@ std::string checkpoint_key(const Model& model, const std::string& program_versio
   for (const auto& motion : scene.initial_motions) hash.add(fmt::format("{:.17g}", fmt::join(motion.velocity, ",")));
   for (const auto& motion : scene.prescribed_motions)
     hash.add(fmt::format("{:.17g} {:.17g}", fmt::join(motion.velocity, ","), fmt::join(motion.displacement, ",")));
-  hash.add(model.assembly.nodes);
-  hash.add(model.assembly.elements);
+  hash.add(assembled.assembly.nodes);
+  hash.add(assembled.assembly.elements);
   return hash.text();
 }
 

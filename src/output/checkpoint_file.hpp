@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
+#include "model/assembled_scene.hpp"
 #include "solve/checkpoint/run_state.hpp"
 
 namespace railwave {
@@ -42,9 +42,26 @@ class CheckpointFile {
 
 /// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and
 /// what is told on the way, the mesh in the solver's order, the program's version.
-std::string checkpoint_key(const Model& model, const std::string& program_version);
+std::string checkpoint_key(const AssembledScene& assembled, const std::string& program_version);
 
 /// Where a case's checkpoint lies: unless it says so, results.h5 -> results.checkpoint.h5.
 std::string checkpoint_path(const scene::Scene& scene);
+
+/// From where a run goes on.
+struct Restart {
+  bool complete = false;             ///< the results are those of the whole run: nothing is left to do
+  std::optional<RunState> state;     ///< unless complete
+  std::vector<std::string> remarks;  ///< for people
+};
+
+/// Throws InputError as find_restart() does where the results that are to be added to are damaged, also in what was
+/// written last. Nothing is done where there are none. HDF5 may crash in a damaged file: to be called in a process of
+/// its own.
+void check_can_be_extended(const std::string& results_path);
+
+/// The newest good checkpoint that belongs to a results file. Throws InputError, saying what to do, where there is
+/// none, and where the results are missing, unreadable, being written by another run, or another run's.
+/// @param end of the run, s; results of a complete run are gone on with where that is later than theirs
+Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end);
 
 }  // namespace railwave

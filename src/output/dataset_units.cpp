@@ -1,4 +1,4 @@
-#include "output/dataset_units.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 #include <cstring>
 

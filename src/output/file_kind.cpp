@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "output/disk.hpp"
-#include "output/hdf5/hdf5_marks.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "output/model_file.hpp"
+#include "output/paraview_files.hpp"
 
 #include <fmt/format.h>
 
@@ -16,8 +16,11 @@ namespace {
 
 class ModelFileWriter {
  public:
-  ModelFileWriter(const Model& model, const std::string& path)
-      : model_(model),
+  ModelFileWriter(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
+                  const std::vector<ConnectorCell>& connectors, const std::string& path)
+      : assembled_(assembled),
+        absorbing_(absorbing),
+        connectors_(connectors),
         file_(hdf5::File::create(path, kinds::model())),
         name_(escaped(std::filesystem::path(path).filename().string())) {
     write_parts();
@@ -33,18 +36,18 @@ class ModelFileWriter {
  private:
   void write_parts() {
     const hdf5::Group group = file_.root().create_group("parts");
-    const auto steps = own_steps(model_);
+    const auto steps = own_steps(assembled_, absorbing_);
     const double least = steps.empty() ? 1 : *std::min_element(steps.begin(), steps.end());
-    for (std::size_t p = 0; p < model_.assembly.parts.size(); ++p) {
-      const auto& part = model_.assembly.parts[p];
+    for (std::size_t p = 0; p < assembled_.assembly.parts.size(); ++p) {
+      const auto& part = assembled_.assembly.parts[p];
       std::vector<int> corners;
       std::vector<double> step, ratio;
       for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
-        corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
+        corners.insert(corners.end(), assembled_.assembly.elements[e].begin(), assembled_.assembly.elements[e].end());
         step.push_back(steps[e]);
         ratio.push_back(steps[e] / least);
       }
-      const Piece piece(model_.assembly.nodes, corners);
+      const Piece piece(assembled_.assembly.nodes, corners);
       GridWriter grid(group, "/parts", part.name, name_, 8);
       grid.cells(piece.nodes, piece.connectivity);
       grid.values("part", std::vector<int>(step.size(), static_cast<int>(p)));
@@ -57,15 +60,15 @@ class ModelFileWriter {
 
   void write_sets() {
     const hdf5::Group surfaces = file_.root().create_group("surfaces"), sets = file_.root().create_group("node_sets");
-    for (const auto& [name, faces] : model_.assembly.surfaces) {
+    for (const auto& [name, faces] : assembled_.assembly.surfaces) {
       std::vector<int> corners;
       for (const Face& face : faces)
-        for (int n : model_.assembly.face_nodes(face)) corners.push_back(n);
+        for (int n : assembled_.assembly.face_nodes(face)) corners.push_back(n);
       if (!corners.empty()) write_piece(surfaces, "/surfaces", name, corners, 4);
     }
-    for (const auto& [name, nodes] : model_.assembly.node_sets) {
+    for (const auto& [name, nodes] : assembled_.assembly.node_sets) {
       const bool whole = name.find('.') == std::string::npos;
-      if (!whole && !nodes.empty() && model_.assembly.surfaces.count(name) == 0)
+      if (!whole && !nodes.empty() && assembled_.assembly.surfaces.count(name) == 0)
         write_piece(sets, "/node_sets", name, nodes, 1);
     }
     write_element_sets();
@@ -73,34 +76,33 @@ class ModelFileWriter {
 
   /// Those that the case picks by place; a mesh's own cover most of it.
   void write_element_sets() {
-    if (model_.scene.element_sets.empty()) return;
+    if (assembled_.scene.element_sets.empty()) return;
     const hdf5::Group sets = file_.root().create_group("element_sets");
-    for (const scene::ElementSet& set : model_.scene.element_sets) {
+    for (const scene::ElementSet& set : assembled_.scene.element_sets) {
       const std::string name = set.part + "." + set.name;
       std::vector<int> corners;
-      for (int e : model_.assembly.element_sets.at(name))
-        corners.insert(corners.end(), model_.assembly.elements[e].begin(), model_.assembly.elements[e].end());
+      for (int e : assembled_.assembly.element_sets.at(name))
+        corners.insert(corners.end(), assembled_.assembly.elements[e].begin(), assembled_.assembly.elements[e].end());
       write_piece(sets, "/element_sets", name, corners, 8);
     }
   }
 
   void write_piece(const hdf5::Group& group, const std::string& path, const std::string& name,
                    const std::vector<int>& corners, int count) {
-    const Piece piece(model_.assembly.nodes, corners);
+    const Piece piece(assembled_.assembly.nodes, corners);
     GridWriter grid(group, path, name, name_, count);
     grid.cells(piece.nodes, piece.connectivity);
     grids_ += grid.text();
   }
 
   void write_connectors() {
-    const auto& cells = model_.connectors.cells;
-    if (cells.empty()) return;
+    if (connectors_.empty()) return;
     std::vector<Vec3> places;
     std::vector<int> lines, number;
     std::vector<double> stiffness, damping;
-    for (const ConnectorCell& cell : cells) {
-      const scene::Connector& connector = model_.scene.connectors[cell.connector];
-      Vec3 from = mean_place(cell.from, model_.assembly.nodes), to = mean_place(cell.to, model_.assembly.nodes);
+    for (const ConnectorCell& cell : connectors_) {
+      const scene::Connector& connector = assembled_.scene.connectors[cell.connector];
+      Vec3 from = mean_place(cell.from, assembled_.assembly.nodes), to = mean_place(cell.to, assembled_.assembly.nodes);
       const auto stiffest =
           std::max_element(connector.stiffness.begin(), connector.stiffness.end()) - connector.stiffness.begin();
       constexpr double length = 0.1;
@@ -127,14 +129,14 @@ class ModelFileWriter {
   void write_beams() {
     std::vector<int> corners, number;
     std::vector<double> pretension;
-    for (const Assembly::BeamChain& chain : model_.assembly.beam_chains)
+    for (const Assembly::BeamChain& chain : assembled_.assembly.beam_chains)
       for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k) {
         corners.insert(corners.end(), {chain.nodes[k], chain.nodes[k + 1]});
         number.push_back(chain.beam);
-        pretension.push_back(model_.scene.beams[chain.beam].pretension.value_or(0));
+        pretension.push_back(assembled_.scene.beams[chain.beam].pretension.value_or(0));
       }
     if (corners.empty()) return;
-    const Piece piece(model_.assembly.nodes, corners);
+    const Piece piece(assembled_.assembly.nodes, corners);
     GridWriter grid(file_.root(), "", "beams", name_, 2);
     grid.cells(piece.nodes, piece.connectivity);
     grid.values("beam", number);
@@ -149,23 +151,26 @@ class ModelFileWriter {
       for (const auto& entry : entries) result.push_back(entry.name);
       return result;
     };
-    root.set_attribute("title", model_.scene.title);
-    root.set_attribute("part_names", names(model_.scene.parts));
-    root.set_attribute("material_names", names(model_.scene.materials));
-    if (!model_.scene.connectors.empty()) root.set_attribute("connector_names", names(model_.scene.connectors));
-    if (!model_.scene.beams.empty()) root.set_attribute("beam_names", names(model_.scene.beams));
+    root.set_attribute("title", assembled_.scene.title);
+    root.set_attribute("part_names", names(assembled_.scene.parts));
+    root.set_attribute("material_names", names(assembled_.scene.materials));
+    if (!assembled_.scene.connectors.empty()) root.set_attribute("connector_names", names(assembled_.scene.connectors));
+    if (!assembled_.scene.beams.empty()) root.set_attribute("beam_names", names(assembled_.scene.beams));
   }
 
-  const Model& model_;
+  const AssembledScene& assembled_;
+  const AbsorbingLayers& absorbing_;
+  const std::vector<ConnectorCell>& connectors_;
   hdf5::File file_;
   std::string name_, grids_;
 };
 
 }  // namespace
 
-void write_model_file(const Model& model, const std::string& path) {
+void write_model_file(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
+                      const std::vector<ConnectorCell>& connectors, const std::string& path) {
   check_results_place(path);
-  const ModelFileWriter writer(model, path);
+  const ModelFileWriter writer(assembled, absorbing, connectors, path);
   write_grids(xdmf_path(path), writer.grids(), kinds::model_xdmf());
 }
 

@@ -1,4 +1,4 @@
-#include "output/progress_table.hpp"
+#include "output/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "output/histories/energy_terms.hpp"
+#include "output/histories/history_values.hpp"
 
 namespace railwave {
 namespace {

@@ -1,4 +1,4 @@
-#include "output/restart.hpp"
+#include "output/checkpoint_file.hpp"
 
 #include <fmt/format.h>
 

@@ -11,11 +11,10 @@
 #include <stdexcept>
 
 #include "case/error.hpp"
+#include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
-#include "model/output_field.hpp"
-#include "output/fault_file.hpp"
-#include "output/results_size.hpp"
+#include "output/paraview_files.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "solve/time_loop.hpp"
 
@@ -26,12 +25,14 @@ class ModelFields : public FieldSource {
  public:
   explicit ModelFields(const Model& model) : model_(model) {}
   HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
-    return output_field(model_, row, numbers);
+    return output_field(model_, model_, model_.ties, row, numbers);
   }
-  ContactState contact(int number) const override { return contact_state(model_, number); }
+  ContactState contact(int number) const override {
+    return contact_state(model_, model_.ties, model_.contacts, number);
+  }
   HostField beams() const override {
     HostField all{6, {}};
-    for (const BeamResultants& beam : beam_resultants(model_))
+    for (const BeamResultants& beam : beam_resultants(*model_.beams, model_.nodes))
       for (std::size_t e = 0; 3 * e < beam.force.size(); ++e) {
         all.values.insert(all.values.end(), beam.force.begin() + 3 * e, beam.force.begin() + 3 * e + 3);
         all.values.insert(all.values.end(), beam.moment.begin() + 3 * e, beam.moment.begin() + 3 * e + 3);
@@ -64,13 +65,13 @@ LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
 }
 
 /// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
-Vec3 undeformed_position(const Model& model, int set) {
-  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
-  const auto all = to_host(model.sets.nodes);
-  const auto weight = to_host(model.sets.weight);
+Vec3 undeformed_position(const NodalState& nodal, const Ties& ties, const LoadModel& loads, int set) {
+  const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
+  const auto all = to_host(loads.sets.nodes);
+  const auto weight = to_host(loads.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
-  const auto position = node_field(model, NodeField::position, nodes).values,
-             displacement = node_field(model, NodeField::displacement, nodes).values;
+  const auto position = node_field(nodal, ties, NodeField::position, nodes).values,
+             displacement = node_field(nodal, ties, NodeField::displacement, nodes).values;
   Vec3 mean{};
   for (std::size_t k = 0; k < nodes.size(); ++k)
     for (int i = 0; i < 3; ++i)
@@ -118,13 +119,14 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.sets = resolve_output_sets(scene, assembly);
 }
 
-void ResultsFile::check_room(const Model& model) const {
-  check_results_room(results_size(description_, model), model.scene, free_bytes_at(path_));
+void ResultsFile::check_room(const AssembledScene& assembled, const StepSizes& sizes) const {
+  check_results_room(results_size(description_, assembled, sizes), assembled.scene, free_bytes_at(path_));
 }
 
 void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
-  for (const int set : model.history_sets) description_.history_positions.push_back(undeformed_position(model, set));
+  for (const int set : model.history_sets)
+    description_.history_positions.push_back(undeformed_position(model, model.ties, model, set));
   writing([&] { writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop); });
 }
 
@@ -162,7 +164,7 @@ void ResultsFile::end(const Model& model, const RunSummary& summary) {
   // Only now does nobody else touch HDF5.
   const std::string beside = fault_path(path_);
   if (summary.fault)
-    write_fault_file(model, *summary.fault, beside);
+    write_fault_file(model, model, model, model.ties, *summary.fault, beside);
   else
     remove_fault_file(beside);
 }

@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "model/assembled_scene.hpp"
+#include "model/time_step/step_sizes.hpp"
 #include "output/background_writer.hpp"
 #include "solve/observer.hpp"
 
@@ -18,7 +20,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
   /// Throws InputError when what the run will write can't fit onto the disk.
-  void check_room(const Model& model) const;
+  void check_room(const AssembledScene& assembled, const StepSizes& sizes) const;
 
   /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at
   /// its end is to stay.
@@ -44,5 +46,20 @@ class ResultsFile : public RunObserver, public Checkpoints {
   RunDescription description_;
   std::unique_ptr<BackgroundWriter> writer_;
 };
+
+/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
+/// aren't.
+struct ResultsSize {
+  double field_outputs = 0, samples = 0;      ///< how many of each
+  double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed
+};
+
+ResultsSize results_size(const RunDescription& description, const AssembledScene& assembled, const StepSizes& sizes);
+
+/// Throws InputError when a file of that size can't fit into `available` bytes however well its fields are compressed.
+void check_results_room(const ResultsSize& size, const scene::Scene& scene, double available);
+
+/// Bytes that the file system of the file's folder has free; infinity where it doesn't tell.
+double free_bytes_at(const std::string& path);
 
 }  // namespace railwave

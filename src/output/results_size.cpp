@@ -1,4 +1,4 @@
-#include "output/results_size.hpp"
+#include "output/results_file.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,7 @@
 #include "case/error.hpp"
 #include "case/field_table.hpp"
 #include "case/memory.hpp"
-#include "model/model.hpp"
-#include "output/histories/energy_terms.hpp"
+#include "output/histories/history_values.hpp"
 
 namespace railwave {
 namespace {
@@ -63,14 +62,14 @@ double times_of(double interval, double end, double steps) {
 
 }  // namespace
 
-ResultsSize results_size(const RunDescription& description, const Model& model) {
-  const scene::Output& output = model.scene.output;
-  const auto steps = static_cast<double>(model.step_count);
-  const double end = model.scene.time.end;
+ResultsSize results_size(const RunDescription& description, const AssembledScene& assembled, const StepSizes& sizes) {
+  const scene::Output& output = assembled.scene.output;
+  const auto steps = static_cast<double>(sizes.step_count);
+  const double end = assembled.scene.time.end;
   ResultsSize size;
-  size.field_outputs = output.field_interval > 0 ? times_of(model.output_times.fields, end, steps) : 2;
-  size.samples = times_of(model.output_times.history, end, steps);
-  size.field_bytes = 8 * size.field_outputs * values_of_output(description, model.assembly);
+  size.field_outputs = output.field_interval > 0 ? times_of(sizes.output_times.fields, end, steps) : 2;
+  size.samples = times_of(sizes.output_times.history, end, steps);
+  size.field_bytes = 8 * size.field_outputs * values_of_output(description, assembled.assembly);
   size.history_bytes = 8 * size.samples * values_of_sample(description);
   return size;
 }

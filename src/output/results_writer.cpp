@@ -18,7 +18,6 @@
 #include "case/error.hpp"
 #include "output/disk.hpp"
 #include "output/output_place.hpp"
-#include "output/tell.hpp"
 
 namespace railwave {
 namespace {

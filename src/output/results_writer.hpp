@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -110,5 +111,8 @@ void check_results_place(const std::string& path);
 
 /// Path of the XDMF companion: results.h5 -> results.xdmf.
 std::string xdmf_path(const std::string& results_path);
+
+/// Tells what can't wait for the run's summary, from whichever thread.
+inline void tell_at_once(const std::string& what) { std::fputs(("railwave: warning: " + what + "\n").c_str(), stderr); }
 
 }  // namespace railwave

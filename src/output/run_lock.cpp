@@ -1,4 +1,4 @@
-#include "output/run_lock.hpp"
+#include "output/run_places.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "output/atomic_file.hpp"
 #include "output/disk.hpp"
 #include "output/output_place.hpp"
-#include "output/unfinished.hpp"
 
 namespace railwave {
 namespace {

@@ -11,8 +11,8 @@
 #include "case/error.hpp"
 #include "case/results_place.hpp"
 #include "output/checkpoint_file.hpp"
-#include "output/fault_file.hpp"
-#include "output/hdf5/hdf5_marks.hpp"
+#include "output/file_kind.hpp"
+#include "output/paraview_files.hpp"
 #include "output/results_writer.hpp"
 
 namespace railwave {

@@ -1,4 +1,4 @@
-#include "output/seal.hpp"
+#include "output/atomic_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
+#include "output/atomic_file.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
-#include "output/seal.hpp"
 
 namespace railwave {
 namespace {
@@ -49,46 +49,46 @@ void write_state(const std::string& path, const std::string& key, const std::str
 
 }  // namespace
 
-std::string SettledFiles::key(const Model& model) const {
+std::string SettledFiles::key(const AssembledScene& assembled) const {
   Hash hash;
   hash.add(format_name);
   hash.add(version_);
   hash.add(fmt::format("{} elements of a block, {} in a pack", elements_of_block, lane_count<double>));
-  hash.add(model.scene.static_text);
-  hash.add(model.assembly.nodes);
-  hash.add(model.assembly.elements);
+  hash.add(assembled.scene.static_text);
+  hash.add(assembled.assembly.nodes);
+  hash.add(assembled.assembly.elements);
   return hash.text();
 }
 
-std::string SettledFiles::path(const Model& model) const {
-  const std::string& named = model.scene.settle.cache_folder;
+std::string SettledFiles::path(const AssembledScene& assembled) const {
+  const std::string& named = assembled.scene.settle.cache_folder;
   const std::filesystem::path folder =
-      named.empty() ? std::filesystem::path(model.scene.output.file).parent_path() : std::filesystem::path(named);
-  return (folder / ("settled-" + key(model) + ".h5")).string();
+      named.empty() ? std::filesystem::path(assembled.scene.output.file).parent_path() : std::filesystem::path(named);
+  return (folder / ("settled-" + key(assembled) + ".h5")).string();
 }
 
-SettledStates::Found SettledFiles::find(const Model& model) {
+SettledStates::Found SettledFiles::find(const AssembledScene& assembled) {
   Found found;
-  if (!model.scene.settle.cache || model.scene.static_text.empty()) return found;
-  const std::string name = path(model);
+  if (!assembled.scene.settle.cache || assembled.scene.static_text.empty()) return found;
+  const std::string name = path(assembled);
   std::error_code ignored;
   if (!std::filesystem::exists(name, ignored)) return found;  // whatever else lies there is told below
   found.file = name;
   try {
-    found.state = read_state(name, key(model));
+    found.state = read_state(name, key(assembled));
   } catch (const std::runtime_error& error) {
     found.trouble = fmt::format("cannot be used: {}", error.what());
   }
   return found;
 }
 
-std::string SettledFiles::keep(const Model& model, const StaticState& state) {
-  if (!model.scene.settle.cache || model.scene.static_text.empty()) return {};
-  const std::string name = path(model);
+std::string SettledFiles::keep(const AssembledScene& assembled, const StaticState& state) {
+  if (!assembled.scene.settle.cache || assembled.scene.static_text.empty()) return {};
+  const std::string name = path(assembled);
   try {
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);
-    write_state(name, key(model), version_, state);
+    write_state(name, key(assembled), version_, state);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "model/assembled_scene.hpp"
 #include "solve/statics/static_state.hpp"
 
 namespace railwave {
@@ -14,14 +15,14 @@ class SettledFiles : public SettledStates {
  public:
   explicit SettledFiles(std::string program_version) : version_(std::move(program_version)) {}
 
-  Found find(const Model& model) override;
-  std::string keep(const Model& model, const StaticState& state) override;
+  Found find(const AssembledScene& assembled) override;
+  std::string keep(const AssembledScene& assembled, const StaticState& state) override;
 
   /// Where a model's state lies, or would lie.
-  std::string path(const Model& model) const;
+  std::string path(const AssembledScene& assembled) const;
 
  private:
-  std::string key(const Model& model) const;
+  std::string key(const AssembledScene& assembled) const;
 
   std::string version_;
 };

@@ -1,4 +1,4 @@
-#include "output/unfinished.hpp"
+#include "output/atomic_file.hpp"
 
 #include <unistd.h>
 

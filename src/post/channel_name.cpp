@@ -10,7 +10,7 @@
 #include "case/field_table.hpp"
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
-#include "output/dataset_units.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "post/name_patterns.hpp"
 
 namespace railwave {

@@ -8,7 +8,7 @@
 
 #include "case/error.hpp"
 #include "case/field_table.hpp"
-#include "model/von_mises.hpp"
+#include "model/fields.hpp"
 #include "post/channel_name.hpp"
 
 namespace railwave {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/contact/nearest_point.hpp"
+#include "model/sets/point_search.hpp"
 #include "post/facet_place.hpp"
 
 namespace railwave {

@@ -4,7 +4,7 @@
 
 #include "case/error.hpp"
 #include "mesh/vectors.hpp"
-#include "model/checks/centre_of_mass.hpp"
+#include "model/assembled_scene.hpp"
 #include "model/contact/rolling.hpp"
 #include "model/host_copy.hpp"
 #include "solve/statics/settle.hpp"
@@ -14,80 +14,83 @@ namespace railwave {
 namespace {
 
 /// Nodes inside beams move and turn as their ends do.
-void move_beams_along(const Model& model, const Array<double* [3]>::HostMirror& velocity, std::vector<Vec3>& spin) {
+void move_beams_along(const Assembly& assembly, const BeamModel& beams, const Array<double* [3]>::HostMirror& velocity,
+                      std::vector<Vec3>& spin) {
   std::vector<Vec3> moved(spin.size());
   for (std::size_t n = 0; n < moved.size(); ++n) moved[n] = {velocity(n, 0), velocity(n, 1), velocity(n, 2)};
-  interpolate_inside_beams(model, [&](int n) -> Vec3& { return moved[n]; });
-  interpolate_inside_beams(model, [&](int n) -> Vec3& { return spin[n]; });
-  for (const auto& [first, count] : model.assembly.beam_nodes)
+  interpolate_inside_beams(assembly, [&](int n) -> Vec3& { return moved[n]; });
+  interpolate_inside_beams(assembly, [&](int n) -> Vec3& { return spin[n]; });
+  for (const auto& [first, count] : assembly.beam_nodes)
     for (int n = first; n < first + count; ++n)
       for (int i = 0; i < 3; ++i) velocity(n, i) = moved[n][i];
-  const auto of_beams = Kokkos::create_mirror_view(model.beams->arrays.spin);
+  const auto of_beams = Kokkos::create_mirror_view(beams.arrays.spin);
   for (std::size_t n = 0; n < spin.size(); ++n)
-    if (const int b = model.beams->number[n]; b >= 0)
+    if (const int b = beams.number[n]; b >= 0)
       for (int i = 0; i < 3; ++i) of_beams(b, i) = spin[n][i];
-  Kokkos::deep_copy(model.beams->arrays.spin, of_beams);
+  Kokkos::deep_copy(beams.arrays.spin, of_beams);
 }
 
 }  // namespace
 
-Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
+Vec3 rotation_centre(const AssembledScene& assembled, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position) {
   if (motion.centre) return *motion.centre;
-  if (const auto axis = carried_axis(model, motion)) {
-    const Vec3 mean = centre_of_mass(model, *axis->nodes, to_host(position));
+  if (const auto axis = carried_axis(assembled, motion)) {
+    const Vec3 mean = centre_of_mass(assembled, *axis->nodes, to_host(position));
     return {mean[0] + axis->from_mean[0], mean[1] + axis->from_mean[1], mean[2] + axis->from_mean[2]};
   }
   const auto& nodes = motion.around.empty()
-                          ? model.assembly.node_sets.at(part)
-                          : find_node_set(model.scene, model.assembly, motion, "around", motion.around);
-  return centre_of_mass(model, nodes, to_host(position));
+                          ? assembled.assembly.node_sets.at(part)
+                          : find_node_set(assembled.scene, assembled.assembly, motion, "around", motion.around);
+  return centre_of_mass(assembled, nodes, to_host(position));
 }
 
-void refuse_moving_held_nodes(const Model& model) {
-  std::vector<Vec3> velocity(model.assembly.nodes.size(), Vec3{0, 0, 0});
+void refuse_moving_held_nodes(const AssembledScene& assembled, const Array<double* [3]>& reference) {
+  std::vector<Vec3> velocity(assembled.assembly.nodes.size(), Vec3{0, 0, 0});
   double fastest = 0;
-  for (const scene::InitialMotion& motion : model.scene.initial_motions)
+  for (const scene::InitialMotion& motion : assembled.scene.initial_motions)
     for (const std::string& name : motion.parts) {
-      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
-      const auto& nodes = model.assembly.node_sets.at(name);
-      const Vec3 w = nodes.size() > 1 ? turned_with_part_of(model.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
+      const Vec3 centre = rotation_centre(assembled, motion, name, reference);
+      const auto& nodes = assembled.assembly.node_sets.at(name);
+      const Vec3 w =
+          nodes.size() > 1 ? turned_with_part_of(assembled.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
       for (int n : nodes) {
-        const Vec3 turning = cross(w, difference(model.assembly.nodes[n], centre));
+        const Vec3 turning = cross(w, difference(assembled.assembly.nodes[n], centre));
         for (int i = 0; i < 3; ++i) velocity[n][i] += motion.velocity[i] + turning[i];
         fastest = std::fmax(fastest, length(velocity[n]));
       }
     }
-  for (const scene::Constraint& constraint : model.scene.constraints)
-    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target))
+  for (const scene::Constraint& constraint : assembled.scene.constraints)
+    for (int n : find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target))
       for (int a = 0; a < 3; ++a) {
         const double along = dot(constraint.axes[a], velocity[n]);
         if (!constraint.fixed[a] || std::fabs(along) <= 1e-6 * fastest) continue;
-        const Vec3& x = model.assembly.nodes[n];
+        const Vec3& x = assembled.assembly.nodes[n];
         throw InputError(
             fmt::format("{}:{}: [constraints.{}] holds the node at ({:.6g}, {:.6g}, {:.6g}) m along ({:.4g}, {:.4g}, "
                         "{:.4g}), in which an initial motion gives it "
                         "{:.4g} m/s; give {} a [prescribed_motion] in place of the constraint (without velocity: at "
                         "rest), or take the direction out of one of both",
-                        model.scene.path, constraint.line, constraint.name, x[0], x[1], x[2], constraint.axes[a][0],
+                        assembled.scene.path, constraint.line, constraint.name, x[0], x[1], x[2], constraint.axes[a][0],
                         constraint.axes[a][1], constraint.axes[a][2], along, constraint.target));
       }
 }
 
-void set_initial_motion(Model& model) {
-  if (model.scene.initial_motions.empty()) return;
-  const auto position = to_host(model.nodes.position);
-  const auto velocity = to_host(model.nodes.velocity);
-  std::vector<Vec3> spin(model.beams ? model.assembly.nodes.size() : 0, Vec3{0, 0, 0});
-  for (const scene::InitialMotion& motion : model.scene.initial_motions)
+void set_initial_motion(const AssembledScene& assembled, const NodeArrays& arrays,
+                        const std::shared_ptr<BeamModel>& beams) {
+  if (assembled.scene.initial_motions.empty()) return;
+  const auto position = to_host(arrays.position);
+  const auto velocity = to_host(arrays.velocity);
+  std::vector<Vec3> spin(beams ? assembled.assembly.nodes.size() : 0, Vec3{0, 0, 0});
+  for (const scene::InitialMotion& motion : assembled.scene.initial_motions)
     for (const std::string& name : motion.parts) {
-      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.position);
+      const Vec3 centre = rotation_centre(assembled, motion, name, arrays.position);
       // A point mass is moved along, not turned, unless beams end on it.
-      const auto& nodes = model.assembly.node_sets.at(name);
-      const bool turns = nodes.size() > 1 || beam_node_of(model, nodes) >= 0;
-      const Vec3 w = turns ? turned_with_part_of(model.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
+      const auto& nodes = assembled.assembly.node_sets.at(name);
+      const bool turns = nodes.size() > 1 || beam_node_of(beams, nodes) >= 0;
+      const Vec3 w = turns ? turned_with_part_of(assembled.scene, name, motion.angular_velocity) : Vec3{0, 0, 0};
       for (int n : nodes) {
-        if (model.beams && model.beams->number[n] >= 0)
+        if (beams && beams->number[n] >= 0)
           for (int i = 0; i < 3; ++i) spin[n][i] += w[i];
         const double r[3] = {position(n, 0) - centre[0], position(n, 1) - centre[1], position(n, 2) - centre[2]};
         for (int i = 0; i < 3; ++i) {
@@ -96,8 +99,8 @@ void set_initial_motion(Model& model) {
         }
       }
     }
-  if (model.beams) move_beams_along(model, velocity, spin);
-  Kokkos::deep_copy(model.nodes.velocity, velocity);
+  if (beams) move_beams_along(assembled.assembly, *beams, velocity, spin);
+  Kokkos::deep_copy(arrays.velocity, velocity);
 }
 
 }  // namespace railwave

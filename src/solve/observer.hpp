@@ -1,12 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 #include "model/elements/history_sets.hpp"
-#include "solve/monitor/fault.hpp"
+#include "solve/run_summary.hpp"
 
 namespace railwave {
 
@@ -74,32 +73,6 @@ struct HistorySample {
 struct PartEnergy {
   double internal = 0;  ///< elastic, and the work of plastic flow
   double hourglass = 0;
-};
-
-/// How a run ended.
-struct RunSummary {
-  bool completed = false;
-  std::string reason;             ///< when not completed: interrupted, or what went wrong
-  bool out_of_time = false;       ///< it ended because its wall-time budget was spent
-  int checkpoints = 0;            ///< written
-  double checkpoint_seconds = 0;  ///< s, the loop waited for these in all
-  double watch_seconds = 0;       ///< s, that looks of the watch added to the run
-  std::string account;            ///< how well the energy account was kept, or that nobody judged it
-  std::string watched;            ///< the worst values that it saw, and their limits; empty: it saw nothing
-  long first_step = 0;            ///< at which this process took the run up; 0 unless restarted
-  double time = 0;
-  long steps = 0;
-  double step_size = 0;                        ///< s, the last one
-  double smallest_step = 0, largest_step = 0;  ///< s
-  int step_renewals = 0;                       ///< of the global estimate of the stable step
-  std::vector<std::string> step_estimates;     ///< what each estimate of the stable step allows, and which one counts
-  std::vector<std::string> subcycling;  ///< how many elements go at which pace, and what that saves; none without it
-  double wall_seconds = 0;
-  double element_steps_per_second = 0;  ///< of the element updates that were made
-  std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated
-  std::optional<Fault> fault;           ///< what stopped it, if the watch did
-  std::vector<std::string> warnings;    ///< what may have cost accuracy
-  std::vector<std::string> left_out;    ///< what the scene did not need and the run did not compute
 };
 
 /// What the time loop tells the outside. Called on the host thread, between two steps.

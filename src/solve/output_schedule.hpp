@@ -1,6 +1,7 @@
 #pragma once
 
-#include "model/model.hpp"
+#include "model/nodal_state.hpp"
+#include "model/time_step/step_sizes.hpp"
 #include "solve/step_control.hpp"
 
 namespace railwave {
@@ -8,19 +9,20 @@ namespace railwave {
 /// At which steps histories and fields are written.
 class OutputSchedule {
  public:
-  explicit OutputSchedule(const Model& model)
-      : model_(model),
-        history_(model.output_times.history, model.step_size, model.subcycling.round()),
-        fields_(model.output_times.fields, model.step_size, model.subcycling.round()) {}
+  OutputSchedule(const NodalState& nodal, const StepSizes& sizes)
+      : nodal_(nodal),
+        sizes_(sizes),
+        history_(sizes.output_times.history, sizes.step_size, nodal.subcycling.round()),
+        fields_(sizes.output_times.fields, sizes.step_size, nodal.subcycling.round()) {}
 
-  bool last() const { return model_.step == model_.step_count; }
-  bool history() const { return history_.due(model_.step) || last(); }
-  bool fields() const { return fields_.due(model_.step) || last(); }
+  bool last() const { return nodal_.step == sizes_.step_count; }
+  bool history() const { return history_.due(nodal_.step) || last(); }
+  bool fields() const { return fields_.due(nodal_.step) || last(); }
 
   /// @param from s, the step size before
   void step_changed(double from) {
-    history_.step_changed(model_.step, from, model_.step_size);
-    fields_.step_changed(model_.step, from, model_.step_size);
+    history_.step_changed(nodal_.step, from, sizes_.step_size);
+    fields_.step_changed(nodal_.step, from, sizes_.step_size);
   }
 
   /// See StateTaker.
@@ -31,7 +33,8 @@ class OutputSchedule {
   }
 
  private:
-  const Model& model_;
+  const NodalState& nodal_;
+  const StepSizes& sizes_;
   EverySoOften history_, fields_;
 };
 

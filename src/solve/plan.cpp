@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "solve/tasks.hpp"
+#include "solve/tasks/contributions.hpp"
 
 namespace railwave {
 
@@ -31,39 +31,64 @@ void append(std::vector<Task>& tasks, std::vector<Task> more) {
   tasks.insert(tasks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+namespace {
+
+GoingAlong going_along(const Model& model, StepKind kind) {
+  GoingAlong along;
+  along.contact = contact_goes_along(model.elements, model.contacts, kind);
+  // Ties, non-reflecting ends and prescribed motions must find the loads where they add to them.
+  const bool added_to = model.ties.arrays.active() || model.ends.arrays.count > 0 || !model.prescribed.empty();
+  along.sets = along.contact && sets_go_along(model, model.sets) && !added_to;
+  return along;
+}
+
+std::vector<Task> motion_tasks(Model& model, StepKind kind) {
+  std::vector<Task> tasks = prescribed_tasks(model, model.prescribed);
+  if (model.beams) tasks.push_back(rotation_task(model, *model.beams));
+  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind)));
+  if (model.ties.arrays.active()) tasks.push_back(tied_nodes_task(model, model.ties, kind));
+  return tasks;
+}
+
+}  // namespace
+
 std::vector<Task> own_force_tasks(Model& model, StepKind kind) {
-  std::vector<Task> tasks = load_tasks(model, kind);
-  append(tasks, contact_tasks(model, kind));
-  append(tasks, element_tasks(model, kind));
+  const GoingAlong along = going_along(model, kind);
+  std::vector<Task> tasks;
+  if (model.carried.active() && kind != StepKind::settling)
+    tasks.push_back(carrier_task(model, model.elements, model, kind));
+  append(tasks, load_tasks(model, model, model.beams, kind, along));
+  append(tasks, contact_tasks(model.scene, model, model.contacts, kind, along));
+  append(tasks, element_tasks(model, model, model.contacts, model, kind, along));
   return tasks;
 }
 
 std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
   std::vector<Task> tasks = own_force_tasks(model, kind);
-  append(tasks, tie_tasks(model));
-  append(tasks, non_reflecting_tasks(model, kind));
-  append(tasks, multiplier_tasks(model, kind, relaxation));
+  append(tasks, tie_tasks(model, model.ties));
+  append(tasks, non_reflecting_tasks(model, model.ends, kind));
+  append(tasks, multiplier_tasks(model.scene, model, model.contacts, kind, relaxation));
   return tasks;
 }
 
 Plan make_plan(Model& model, StepKind kind) { return {force_tasks(model, kind), motion_tasks(model, kind)}; }
 
 StepPlans::StepPlans(Model& model)
-    : model_(model), advancing_(make_plan(model, StepKind::advancing)), sampled_(make_plan(model, StepKind::sampled)) {}
+    : nodal_(model), advancing_(make_plan(model, StepKind::advancing)), sampled_(make_plan(model, StepKind::sampled)) {}
 
 void StepPlans::compute_forces(const Instant& instant, StepKind kind) {
   kind_ = kind;
-  run_tasks(of(kind).forces, instant, model_.step);
+  run_tasks(of(kind).forces, instant, nodal_.step);
 }
 
 void StepPlans::advance(const Instant& instant) {
-  run_tasks(of(kind_).motion, instant, model_.step);
+  run_tasks(of(kind_).motion, instant, nodal_.step);
   advance_clock(instant);
 }
 
 void StepPlans::advance_clock(const Instant& instant) {
-  ++model_.step;
-  model_.velocity_lag = 0.5 * instant.step;
+  ++nodal_.step;
+  nodal_.velocity_lag = 0.5 * instant.step;
 }
 
 }  // namespace railwave

@@ -26,24 +26,26 @@ long whole_rounds(double interval, double step, long round) {
 
 }  // namespace
 
-StepControl::StepControl(Model& model) : model_(model) {
+StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, const std::vector<ContactPair>& contacts,
+                         StepSizes& sizes)
+    : scene_(scene), nodal_(nodal), contacts_(contacts), sizes_(sizes) {
   // Settled and set in motion, the bodies may be about to touch elsewhere than as they were placed.
-  if (model.global_estimate && !model.contacts.empty()) {
-    renew_global_step(model);
+  if (sizes.global_estimate && !contacts.empty()) {
+    renew_global_step(scene, contacts, nodal.time, sizes);
     plan();
     ++renewals_;
   }
-  smallest_ = largest_ = model.step_size;
+  smallest_ = largest_ = sizes.step_size;
 }
 
 double StepControl::time() const {
-  return begin_time_ + static_cast<double>(model_.step - begin_step_) * model_.step_size;
+  return begin_time_ + static_cast<double>(nodal_.step - begin_step_) * sizes_.step_size;
 }
 
 bool StepControl::touched_unseen() const {
-  for (std::size_t p = 0; p < model_.contacts.size(); ++p) {
-    const auto status = to_host(model_.contacts[p].arrays.status);
-    const auto& seen = model_.stable_step.seen[p];
+  for (std::size_t p = 0; p < contacts_.size(); ++p) {
+    const auto status = to_host(contacts_[p].arrays.status);
+    const auto& seen = sizes_.stable_step.seen[p];
     for (std::size_t s = 0; s < seen.size(); ++s)
       if (!seen[s] && status(static_cast<int>(s)) != status_apart) return true;
   }
@@ -51,54 +53,55 @@ bool StepControl::touched_unseen() const {
 }
 
 bool StepControl::due() const {
-  const int every = model_.scene.solver.renew_steps;
-  if (!model_.global_estimate || every == 0 || model_.step == renewed_at_) return false;
-  if (model_.step - renewed_at_ >= every) return true;
-  return model_.step % steps_between_looks == 0 && touched_unseen();
+  const int every = scene_.solver.renew_steps;
+  if (!sizes_.global_estimate || every == 0 || nodal_.step == renewed_at_) return false;
+  if (nodal_.step - renewed_at_ >= every) return true;
+  return nodal_.step % steps_between_looks == 0 && touched_unseen();
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.
 bool StepControl::plan() {
-  const double left = model_.scene.time.end - model_.time;
-  const long planned = model_.step_count - model_.step;
-  const long steps = std::max(1L, static_cast<long>(std::ceil(left / largest_step(model_) - 1e-9)));
+  const double left = scene_.time.end - nodal_.time;
+  const long planned = sizes_.step_count - nodal_.step;
+  const double largest_now = largest_step(scene_.time, sizes_.stable_step);
+  const long steps = std::max(1L, static_cast<long>(std::ceil(left / largest_now - 1e-9)));
   // At the beginning the outputs can still be laid evenly.
-  if (model_.step == 0) {
-    const long before = model_.step_count;
-    plan_steps(model_, 1);
+  if (nodal_.step == 0) {
+    const long before = sizes_.step_count;
+    plan_steps(scene_, 1, sizes_);
     begin_time_ = 0;
     begin_step_ = 0;
-    return model_.step_count != before;
+    return sizes_.step_count != before;
   }
   if (steps <= planned && static_cast<double>(planned) <= (1 + worthwhile_gain) * static_cast<double>(steps))
     return false;
-  begin_time_ = model_.time;
-  begin_step_ = model_.step;
-  model_.step_size = left / static_cast<double>(steps);
-  model_.step_count = model_.step + steps;
+  begin_time_ = nodal_.time;
+  begin_step_ = nodal_.step;
+  sizes_.step_size = left / static_cast<double>(steps);
+  sizes_.step_count = nodal_.step + steps;
   return true;
 }
 
 void StepControl::move_end() {
-  const double end = model_.scene.time.end, now = time(), step = model_.step_size;
+  const double end = scene_.time.end, now = time(), step = sizes_.step_size;
   if (now > end + 1e-6 * step)
     throw InputError(
         fmt::format("time.end: the checkpoint's t = {:.6g} s lies beyond {:.6g} s; name a later end, or run the case "
                     "without --restart",
                     now, end));
-  const auto round = static_cast<double>(model_.subcycling.round());
-  model_.step_count = model_.step + static_cast<long>(round * std::ceil((end - now) / (round * step) - 1e-6));
+  const auto round = static_cast<double>(nodal_.subcycling.round());
+  sizes_.step_count = nodal_.step + static_cast<long>(round * std::ceil((end - now) / (round * step) - 1e-6));
 }
 
 bool StepControl::renew() {
-  if (!due() || model_.step == model_.step_count) return false;
-  if (model_.carried.begun) give_nodes_back(model_);
-  renew_global_step(model_);
+  if (!due() || nodal_.step == sizes_.step_count) return false;
+  if (nodal_.carried.begun) give_nodes_back(nodal_);
+  renew_global_step(scene_, contacts_, nodal_.time, sizes_);
   ++renewals_;
-  renewed_at_ = model_.step;
+  renewed_at_ = nodal_.step;
   const bool changed = plan();
-  smallest_ = std::min(smallest_, model_.step_size);
-  largest_ = std::max(largest_, model_.step_size);
+  smallest_ = std::min(smallest_, sizes_.step_size);
+  largest_ = std::max(largest_, sizes_.step_size);
   return changed;
 }
 

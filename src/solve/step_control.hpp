@@ -1,8 +1,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "model/model.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/nodal_state.hpp"
+#include "model/time_step/step_sizes.hpp"
 
 namespace railwave {
 
@@ -12,11 +15,12 @@ namespace railwave {
 class StepControl {
  public:
   /// The model stands at its first step, its present motion known.
-  explicit StepControl(Model& model);
+  StepControl(const scene::Scene& scene, const NodalState& nodal, const std::vector<ContactPair>& contacts,
+              StepSizes& sizes);
 
   /// Time of the model's present step, s.
   double time() const;
-  long last_step() const { return model_.step_count; }
+  long last_step() const { return sizes_.step_count; }
 
   /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already.
   /// True: the step from this instant to the next is another one than the last.
@@ -47,7 +51,10 @@ class StepControl {
   bool touched_unseen() const;
   bool plan();
 
-  Model& model_;
+  const scene::Scene& scene_;
+  const NodalState& nodal_;
+  const std::vector<ContactPair>& contacts_;
+  StepSizes& sizes_;
   double begin_time_ = 0;  ///< s, when the present step size came in
   long begin_step_ = 0;
   long renewed_at_ = 0;

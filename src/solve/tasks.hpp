@@ -1,53 +1,120 @@
 #pragma once
 
-#include "kernels/statics/relaxation.hpp"
-#include "solve/plan.hpp"
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
-/// The tasks of which plans are made, by physics. Lists are empty where a scene has none of it.
+#include "kernels/statics/relaxation.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
+#include "model/boundaries/ties.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/elements/element_model.hpp"
+#include "model/loads/load_model.hpp"
+#include "model/nodal_state.hpp"
+
+/// The tasks of which plans are made, by physics. A task holds references to the modules that it works on, which must
+/// outlive it. Lists are empty where a scene has none of it.
 namespace railwave {
 
-/// (a) Loads, connectors, torques, beams, and their gather at the nodes.
-std::vector<Task> load_tasks(Model& model, StepKind kind);
+struct BeamModel;
 
-/// (d) Search, and forces by penalty springs.
-std::vector<Task> contact_tasks(Model& model, StepKind kind);
+/// What tasks must know of time.
+struct Instant {
+  double time = 0;     ///< s
+  double step = 0;     ///< s to the next instant
+  double elapsed = 0;  ///< s since the instant before; 0 at the first, and in the pseudo-time of settling
+};
 
-/// (b, c) Element forces with hourglass control, and damping. In an advancing step they move the nodes that belong to
-/// one block alone, so they come after all that must still find these nodes where they were.
-std::vector<Task> element_tasks(Model& model, StepKind kind);
+/// What a step is for decides what it computes, and how.
+enum class StepKind {
+  advancing,  ///< nothing is read at its instant: blocks may move the nodes that are theirs alone at once
+  sampled,    ///< all forces of the instant are there for outputs and the monitor before any node moves
+  settling    ///< on the way to static equilibrium, in pseudo-time
+};
 
-/// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node. They predict where all other
-/// forces take the nodes, so they come after these.
-/// @param relaxation how the nodes move while a scene settles; null: by the central difference
-std::vector<Task> multiplier_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation = nullptr);
+/// One piece of physics of a step, or several that one launch computes together.
+struct Task {
+  std::string name;                         ///< also of the profiler's region around it
+  std::string step;                         ///< of the thesis's table 2.1: (a) loads ... (j) geometry
+  std::function<void(const Instant&)> run;  ///< launches its kernels
+  long every = 1;                           ///< steps from one launch to the next, with subcycling and for frames
+  long at = 0;                              ///< in which of them it is launched
 
-/// (a) Forces on tied nodes go to their masters: after all others on them.
-std::vector<Task> tie_tasks(Model& model);
-
-/// (a) Dashpots, after all other forces on their nodes. None while a scene settles.
-std::vector<Task> non_reflecting_tasks(Model& model, StepKind kind);
-
-/// Forces that follow from where the nodes are and how they move, not from other forces: loads, contact by springs,
-/// elements. Every way of evaluating forces begins with them.
-std::vector<Task> own_force_tasks(Model& model, StepKind kind);
-
-/// All forces of an instant.
-/// @param relaxation see multiplier_tasks
-std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation = nullptr);
-
-/// (a) Beams, and torques on points.
-Task beam_task(Model& model, StepKind kind);
-
-/// (f) to (j) Accelerations, constraints, velocities and positions.
-std::vector<Task> motion_tasks(Model& model, StepKind kind);
-
-/// Tied nodes after their masters.
-Task tied_nodes_task(Model& model, StepKind kind);
+  bool due(long step_number) const { return step_number % every == at; }
+};
 
 /// Tasks of one list after those of another.
 void append(std::vector<Task>& tasks, std::vector<Task> more);
 
+/// What steps of a kind compute in one launch with the first group's elements: see solve/tasks/contributions.hpp.
+struct GoingAlong {
+  bool contact = false;  ///< the springs of the only contact pair
+  bool sets = false;     ///< and sets of nodes that move as one, connectors and torques
+};
+
+/// Before all else: nodes in single precision, and the double ones where these are read.
+Task carrier_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
+                  StepKind kind);
+
+/// (a) Loads, connectors, torques, beams, and their gather at the nodes.
+std::vector<Task> load_tasks(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
+                             StepKind kind, GoingAlong along);
+
+/// (d) Search, and forces by penalty springs.
+std::vector<Task> contact_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
+                                StepKind kind, GoingAlong along);
+
+/// (b, c) Element forces with hourglass control, and damping. In an advancing step they move the nodes that belong to
+/// one block alone, so they come after all that must still find these nodes where they were.
+/// @param contacts, loads of which the elements take along what `along` says
+std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& elements,
+                                const std::vector<ContactPair>& contacts, const LoadModel& loads, StepKind kind,
+                                GoingAlong along);
+
+/// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node. They predict where all other
+/// forces take the nodes, so they come after these.
+/// @param relaxation how the nodes move while a scene settles; null: by the central difference
+std::vector<Task> multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
+                                   std::vector<ContactPair>& contacts, StepKind kind,
+                                   const RelaxationUpdate* relaxation = nullptr);
+
+/// (a) Forces on tied nodes go to their masters: after all others on them.
+std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties);
+
+/// (a) Dashpots, after all other forces on their nodes. None while a scene settles.
+std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflectingEnds& ends, StepKind kind);
+
+/// (a) Beams, and torques on points.
+Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind);
+
+/// (g) Nodes that a motion is prescribed for, before the others.
+std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed);
+
+/// (f) to (j) Rotations of beams, at the same time as the nodes' motion.
+Task rotation_task(const NodalState& nodal, const BeamModel& built);
+
+/// (f) to (j) Accelerations, constraints, velocities and positions of all nodes that no block has moved.
+std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
+                             StepKind kind, GoingAlong along);
+
+/// Tied nodes after their masters.
+Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind);
+
 /// Whether a pair has friction in steps of a kind: a scene may settle without.
-bool has_friction(const Model& model, const ContactPair& pair, StepKind kind);
+bool has_friction(const scene::Scene& scene, const ContactPair& pair, StepKind kind);
+
+/// Keeps a pair's window true, at two distances. The window lists the slave nodes that could touch the master in the
+/// next hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out
+/// of it the nodes that can touch in the next few dozen steps are picked on the device, nothing returning to the host.
+/// All others are surely apart, so the result does not depend on how often either is done.
+/// @param step s to the next instant
+void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, double step, StepKind kind);
+
+/// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen;
+/// and for each of which nodes are in the other body without having come in through its surface.
+std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts);
 
 }  // namespace railwave

@@ -13,7 +13,7 @@
 #include "solve/plan.hpp"
 #include "solve/run_summary.hpp"
 #include "solve/run_timing.hpp"
-#include "solve/statics/static_start.hpp"
+#include "solve/statics/settle.hpp"
 #include "solve/step_control.hpp"
 
 namespace railwave {
@@ -26,7 +26,7 @@ static_assert(std::atomic<int>::is_always_lock_free);
 /// @return whether the run begins in equilibrium
 bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
              const std::function<bool()>& go_on) {
-  refuse_moving_held_nodes(model);
+  refuse_moving_held_nodes(model, model.nodes.reference);
   bool in_equilibrium = false;
   if (model.scene.settle.active) {
     const SettleReport report = come_to_rest(model, settled, [&](const SettleReport& so_far) {
@@ -36,12 +36,12 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
     for (RunObserver* observer : observers) observer->settled(model, report);
     in_equilibrium = report.settled;
   }
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   return in_equilibrium;
 }
 
-std::string while_settling(const Model& model, bool out_of_time) {
-  const bool kept = model.scene.settle.cache && !model.scene.static_text.empty();
+std::string while_settling(const scene::Scene& scene, bool out_of_time) {
+  const bool kept = scene.settle.cache && !scene.static_text.empty();
   return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" +
          (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
 }
@@ -82,8 +82,9 @@ class TimeLoop {
         doubts_(report_beginning()),
         in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
-        memory_{StepControl(model), OutputSchedule(model),
-                std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()), Watch(model)},
+        memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model, model),
+                std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
+                Watch(model, model, model, model, model.contacts)},
         plans_(model) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
@@ -112,7 +113,7 @@ class TimeLoop {
 
   std::vector<std::string> report_beginning() {
     for (RunObserver* observer : observers_) observer->begin(model_);
-    std::vector<std::string> doubts = scene_doubts(model_);
+    std::vector<std::string> doubts = scene_doubts(model_, model_.contacts, model_.absorbing, model_.step_size);
     for (RunObserver* observer : observers_) observer->doubts(doubts);
     return doubts;
   }
@@ -210,7 +211,7 @@ class TimeLoop {
     summary_.reason = prepared_ ? fmt::format("{} at step {} of {}, t = {:.6g} s",
                                               summary_.out_of_time ? "the wall time is spent" : "interrupted",
                                               model_.step, model_.step_count, model_.time)
-                                : while_settling(model_, summary_.out_of_time);
+                                : while_settling(model_.scene, summary_.out_of_time);
     return true;
   }
 
@@ -225,7 +226,10 @@ class TimeLoop {
     summary_.wall_seconds = since_first_step_.seconds();  // until all is written
     summary_.watch_seconds =
         monitor_timing_.seconds(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
-    summarize_run(model_, memory_.control, memory_.watch, memory_.swings, doubts_, summary_);
+    summary_.completed = summary_.reason.empty();
+    summary_.left_out = model_.left_out;
+    summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
+    summarize_findings(model_, model_.contacts, memory_.watch, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
     return summary_;
   }

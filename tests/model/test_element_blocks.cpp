@@ -4,7 +4,7 @@
 
 #include "kernels/elements/element_blocks.hpp"
 #include "mesh/build_mesh.hpp"
-#include "model/elements/divide_into_blocks.hpp"
+#include "model/elements/block_order.hpp"
 
 using namespace railwave;
 

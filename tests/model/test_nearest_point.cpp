@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "model/contact/nearest_point.hpp"
+#include "model/sets/point_search.hpp"
 
 using namespace railwave;
 

@@ -4,8 +4,8 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-#include "model/output_field.hpp"
-#include "output/dataset_units.hpp"
+#include "model/fields.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/histories/history_values.hpp"
 #include "tests/verify/two_blocks.hpp"
 
@@ -21,13 +21,13 @@ TEST_CASE("every field that output.fields may name can be fetched, with the comp
   const std::vector<int> asked{7, 0, 7};
   for (const FieldRow* row : fields_for(FieldRow::fields)) {
     CAPTURE(row->name);
-    const HostField field = output_field(model, *row, asked);
+    const HostField field = output_field(model, model, model.ties, *row, asked);
     CHECK(field.components == row->components);
     CHECK(field.values.size() == asked.size() * row->components);
-    CHECK(output_field(model, *row, {}).values.empty());
+    CHECK(output_field(model, model, model.ties, *row, {}).values.empty());
   }
   const FieldRow unknown{"temperature", FieldRow::Place::node, 1, "K", FieldRow::fields, ""};
-  CHECK_THROWS_AS(output_field(model, unknown, asked), std::logic_error);
+  CHECK_THROWS_AS(output_field(model, model, model.ties, unknown, asked), std::logic_error);
 }
 
 TEST_CASE("the field mises is von Mises' equivalent of the Cauchy stress") {
@@ -40,7 +40,7 @@ TEST_CASE("the field mises is von Mises' equivalent of the Cauchy stress") {
   const double e = 1e-6, g = 2e-6, mu = 210e9 / 2.6;
   set_position(model, [&](const Vec3& x, int) { return Vec3{(1 + e) * x[0] + g * x[1], x[1], x[2]}; });
   const double expected = std::sqrt(4 * mu * mu * e * e + 3 * mu * mu * g * g);
-  const HostField field = output_field(model, field_named("mises"), {0, 5});
+  const HostField field = output_field(model, model, model.ties, field_named("mises"), {0, 5});
   REQUIRE(field.values.size() == 2);
   // The law's second order is of the size of the strains.
   for (const double value : field.values) CHECK_THAT(value, WithinRel(expected, 10 * (e + g)));

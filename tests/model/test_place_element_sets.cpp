@@ -6,7 +6,7 @@
 
 #include "mesh/hexahedron.hpp"
 #include "model/elements/history_sets.hpp"
-#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
 #include "tests/verify/block.hpp"
 
 using namespace railwave;

@@ -1,7 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch_test_macros.hpp>
 
-#include "modes/eigenpairs.hpp"
+#include "modes/shifted_matrix.hpp"
 #include "tests/modes/mode_models.hpp"
 
 using namespace railwave;
@@ -10,8 +10,9 @@ using namespace railwave::verify;
 TEST_CASE("Eigenpairs: all below a limit, multiple ones in all their copies, whatever the intervals", "[modes]") {
   Model model;
   build_model(mode_block({0.1, 0.1, 0.1}, {5, 5, 5}, 0.1), model);  // pairs and triplets, and six rigid motions
-  const ModeUnknowns unknowns(model);
-  ShiftedMatrix matrix(stiffness_matrix(model, unknowns, mode_springs(model)), unknowns.mass(), unknowns.places());
+  const ModeUnknowns unknowns(StaticUnknowns(model, model.ties, model.ends, model.beams), model.nodes, model.beams);
+  const SpringCollector springs = mode_springs(model.scene, model.connectors.cells, model.beams, model.nodes);
+  ShiftedMatrix matrix(stiffness_matrix(model, model.nodes, unknowns, springs), unknowns.mass(), unknowns.places());
   const Eigen::VectorXd values =
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix.full(), Eigen::EigenvaluesOnly).eigenvalues();
   const int count = 75;

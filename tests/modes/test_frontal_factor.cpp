@@ -19,8 +19,9 @@ TEST_CASE(
   scene.connectors.push_back(spring);
   Model model;
   build_model(scene, model);
-  const ModeUnknowns unknowns(model);
-  const StiffnessMatrix stiffness = stiffness_matrix(model, unknowns, mode_springs(model));
+  const ModeUnknowns unknowns(StaticUnknowns(model, model.ties, model.ends, model.beams), model.nodes, model.beams);
+  const SpringCollector springs = mode_springs(model.scene, model.connectors.cells, model.beams, model.nodes);
+  const StiffnessMatrix stiffness = stiffness_matrix(model, model.nodes, unknowns, springs);
   REQUIRE(stiffness.extra == 3);
   ShiftedMatrix matrix(stiffness, unknowns.mass(), unknowns.places());
   const Eigen::VectorXd values =

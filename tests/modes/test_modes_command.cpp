@@ -3,7 +3,6 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <sstream>
 
-#include "modes/mode_scene.hpp"
 #include "modes/modes_command.hpp"
 #include "tests/case/temporary_case.hpp"
 

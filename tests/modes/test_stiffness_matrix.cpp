@@ -1,7 +1,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "modes/strain_energy.hpp"
+#include "modes/stiffness_matrix.hpp"
 #include "solve/statics/static_tangent.hpp"
 #include "tests/modes/mode_models.hpp"
 #include "tests/verify/tied_blocks.hpp"
@@ -16,8 +16,8 @@ namespace {
 /// K q by the matrix-free operator, in the free directions.
 Eigen::VectorXd matrix_free(const Model& model, const ModeUnknowns& unknowns, const SpringCollector& springs,
                             const Eigen::VectorXd& q) {
-  const StaticUnknowns rows(model);
-  StaticTangent tangent(model, rows);
+  const StaticUnknowns rows(model, model.ties, model.ends, model.beams);
+  StaticTangent tangent(model, model.nodes, rows);
   tangent.set_springs(springs, 0);
   const Eigen::VectorXd motion = unknowns.motion(q);
   std::vector<std::array<double, 3>> values(rows.rows());
@@ -38,19 +38,19 @@ Eigen::VectorXd matrix_free(const Model& model, const ModeUnknowns& unknowns, co
 }
 
 void check(const Model& model) {
-  const ModeUnknowns unknowns(model);
-  const SpringCollector springs = mode_springs(model);
+  const ModeUnknowns unknowns(StaticUnknowns(model, model.ties, model.ends, model.beams), model.nodes, model.beams);
+  const SpringCollector springs = mode_springs(model.scene, model.connectors.cells, model.beams, model.nodes);
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(unknowns.count()), q = random_vector(unknowns.count(), 3);
   const Eigen::VectorXd expected = matrix_free(model, unknowns, springs, q);
   REQUIRE(expected.norm() > 0);
   for (int most : {0, 100000}) {
-    const StiffnessMatrix stiffness = stiffness_matrix(model, unknowns, springs, most);
+    const StiffnessMatrix stiffness = stiffness_matrix(model, model.nodes, unknowns, springs, most);
     const Eigen::VectorXd found = ShiftedMatrix(stiffness, ones, unknowns.places()).times(q);
     INFO(stiffness.extra << " extra rows");
     CHECK((found - expected).norm() < 1e-13 * expected.norm());
   }
   double energy = 0;
-  for (double part : StrainEnergy(model, springs)(unknowns.motion(q))) energy += part;
+  for (double part : StrainEnergy(model, model.nodes, springs)(unknowns.motion(q))) energy += part;
   CHECK_THAT(energy, WithinRel(0.5 * q.dot(expected), 1e-12));
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "output/progress_table.hpp"
+#include "output/progress.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;

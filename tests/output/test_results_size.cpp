@@ -8,7 +8,7 @@
 
 #include "case/error.hpp"
 #include "output/hdf5/hdf5.hpp"
-#include "output/results_size.hpp"
+#include "output/results_file.hpp"
 #include "tests/output/made_up_run.hpp"
 
 using namespace railwave;

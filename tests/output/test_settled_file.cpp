@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "output/settled_file.hpp"
-#include "solve/statics/static_start.hpp"
+#include "solve/statics/settle.hpp"
 #include "solve/time_loop.hpp"
 #include "tests/case/temporary_case.hpp"
 

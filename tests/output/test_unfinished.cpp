@@ -1,9 +1,9 @@
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 
+#include "output/atomic_file.hpp"
 #include "output/file_kind.hpp"
 #include "output/hdf5/hdf5.hpp"
-#include "output/unfinished.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace railwave;

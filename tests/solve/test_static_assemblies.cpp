@@ -41,7 +41,7 @@ Rest settled(scene::Scene scene, scene::SettleMethod method, double tolerance, M
   INFO(rest.report.steps << " evaluations in " << rest.report.iterations << " steps, unbalance "
                          << rest.report.unbalance << "; " << rest.report.adrift);
   REQUIRE(rest.report.settled);
-  rest.displacement = node_field(model, NodeField::displacement, all_nodes(model)).values;
+  rest.displacement = node_field(model, model.ties, NodeField::displacement, all_nodes(model)).values;
   if (!model.beams) return rest;
   const auto q = to_host(model.beams->arrays.rotation);
   for (int b = 0; b < model.beams->arrays.node_count; ++b)
@@ -90,7 +90,7 @@ TEST_CASE("Newton's method holds non-reflecting ends as relaxation does, and the
   const Vec3 applied{2e4, 5e3, -1e4};
   CHECK(norm(sum + applied) < 1e-6 * norm(applied));
   const std::vector<int> ends = model.ends.nodes;
-  for (double u : node_field(model, NodeField::displacement, ends).values) CHECK(u == 0);
+  for (double u : node_field(model, model.ties, NodeField::displacement, ends).values) CHECK(u == 0);
 }
 
 TEST_CASE("Newton's method settles tied blocks, with a gap between them or none", "[static]") {
@@ -120,7 +120,7 @@ TEST_CASE("stress goes through a tie unchanged when Newton's method has settled 
   scene::Scene scene = blocks.pulled();
   Model model;
   settled(scene, scene::SettleMethod::newton, 1e-8, model);
-  const auto stress = element_stress(model, all_elements(model)).values;
+  const auto stress = element_stress(model, model.nodes, all_elements(model)).values;
   for (std::size_t k = 0; k < stress.size(); ++k) CHECK_THAT(stress[k], WithinAbs(k % 6 == 2 ? 1e6 : 0, 1e2));
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("Newton's method tightens a bolt, whose weight its ends bear", "[stati
   Model model;
   check_both("bolt", bolted_cube(), model, 1e-4);
   compute_forces(model);
-  const BeamResultants shank = beam_resultants(model)[0];
+  const BeamResultants shank = beam_resultants(*model.beams, model.nodes)[0];
   // Section forces of its four elements, from below: what lies between their middles hangs on those above.
   const double weight = 9.81e3 * 7800 * M_PI * 0.012 * 0.012 * 0.03;
   for (int e = 0; e < 4; ++e) CHECK_THAT(shank.force[3 * e], WithinAbs(12500 + (e - 2) * weight, 1e-2));
@@ -217,5 +217,6 @@ TEST_CASE(
   REQUIRE(report.remarks.size() == 1);
   CHECK(report.remarks[0].find("[points.body]") != std::string::npos);
   CHECK(report.remarks[0].find("holds point masses") != std::string::npos);
-  for (double u : node_field(model, NodeField::displacement, model.assembly.point_nodes).values) CHECK(u == 0);
+  for (double u : node_field(model, model.ties, NodeField::displacement, model.assembly.point_nodes).values)
+    CHECK(u == 0);
 }

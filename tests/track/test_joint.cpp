@@ -63,7 +63,7 @@ double ballast_force(const Model& model) {
 }
 
 double axial_force(const Model& model, const std::string& name) {
-  const auto all = beam_resultants(model);
+  const auto all = beam_resultants(*model.beams, model.nodes);
   for (std::size_t b = 0; b < all.size(); ++b)
     if (model.scene.beams[b].name == name) return all[b].force[0];
   return std::nan("");

@@ -51,7 +51,7 @@ void check_oscillator(const char* name, scene::Scene scene, const Oscillator& th
   scene.time.end = swings * 2 * M_PI / theory.frequency();
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   std::vector<double> u;
   march(model, model.step_count,
         [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at(what))[axis]); });

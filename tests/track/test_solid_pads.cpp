@@ -175,7 +175,7 @@ TEST_CASE("oscillator: a block on a solid pad", "[oscillators]") {
   scene.time.end = 0.025;
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   std::vector<double> u;
   march(model, model.step_count,
         [&] { u.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block"))[2]); });

@@ -48,7 +48,7 @@ Resultant on_part(const Model& model, int number, const Vec3& centre) {
   const auto& part = model.assembly.parts[number];
   std::vector<int> nodes;
   for (int n = part.first_node; n < part.first_node + part.node_count; ++n) nodes.push_back(n);
-  const auto acceleration = node_field(model, NodeField::acceleration, nodes).values;
+  const auto acceleration = node_field(model, model.ties, NodeField::acceleration, nodes).values;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Vec3 f = model.mass[nodes[k]] * Vec3{acceleration[3 * k], acceleration[3 * k + 1], acceleration[3 * k + 2]};
     sum.force = sum.force + f;
@@ -131,7 +131,7 @@ TEST_CASE("a block on a spread bed swings at its theory's frequency, stable at t
   scene.materials[0].youngs_modulus = 2.1e8;
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   std::vector<double> place;
   march(model, model.step_count,
         [&] { place.push_back(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))[2]); });
@@ -151,7 +151,7 @@ TEST_CASE("stiff spread connectors are stable at the step chosen") {
   double fastest = 0;
   march(model, 1500, [&] {
     if (model.step % 100 == 0)
-      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+      for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
         fastest = std::isfinite(v) ? std::max(fastest, std::fabs(v)) : 1e300;
   });
   CHECK(fastest < 0.02);

@@ -45,7 +45,7 @@ Resultant of_all(const Model& model) {
   std::set<int> slaves;
   for (const TiedPlace& tied : model.ties.places) slaves.insert(tied.slave);
   const auto mass = scheme_masses(model);
-  const auto acceleration = node_field(model, NodeField::acceleration, all_nodes(model)).values;
+  const auto acceleration = node_field(model, model.ties, NodeField::acceleration, all_nodes(model)).values;
   const auto x = to_host(model.nodes.position);
   for (int n = 0; n < model.nodes.count; ++n) {
     if (slaves.count(n) != 0) continue;

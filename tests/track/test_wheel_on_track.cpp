@@ -38,7 +38,7 @@ TEST_CASE(
   double wheel = 0;
   for (const char* part : {"wheel", "sprung_mass"})
     for (int n : model.assembly.node_sets.at(part)) wheel += gravity * model.mass[n];
-  const double contact = contact_totals(model, model.contacts[0]).normal_force[2];
+  const double contact = contact_totals(model, model.contacts, 0).normal_force[2];
   const double deflection =
       -mean(model, NodeField::displacement, model.assembly.node_sets.at("track_rail.under_wheel"))[2];
   const double theory = BeamOnSupports(scene, model, "track_rail", "track_concrete").deflection(0, wheel, gravity);

@@ -17,8 +17,8 @@ struct Loads {
 };
 
 Loads loads_of(const Model& model) {
-  return {contact_totals(model, model.contacts[0]).normal_force[2],
-          contact_totals(model, model.contacts[1]).normal_force[2]};
+  return {contact_totals(model, model.contacts, 0).normal_force[2],
+          contact_totals(model, model.contacts, 1).normal_force[2]};
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ TEST_CASE("a wheelset runs 5 ms along two rails with loads symmetric within 1 %"
   double weight = 0;
   for (const char* part : {"wheelset", "left_body", "right_body"})
     for (int n : model.assembly.node_sets.at(part)) weight -= model.scene.gravity[2] * model.mass[n];
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   double worst = 0, largest = 0, smallest = 1e300;
   Loads sum;
   long samples = 0;

@@ -75,7 +75,7 @@ inline double total_mass(const Model& model) {
 
 /// Mass-weighted mean of a field over a node set.
 inline Vec3 mean(const Model& model, NodeField field, const std::vector<int>& nodes) {
-  const auto values = node_field(model, field, nodes).values;
+  const auto values = node_field(model, model.ties, field, nodes).values;
   Vec3 sum{};
   double mass = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -87,7 +87,8 @@ inline Vec3 mean(const Model& model, NodeField field, const std::vector<int>& no
 
 inline double largest_stress(const Model& model) {
   double largest = 0;
-  for (double s : element_stress(model, all_elements(model)).values) largest = std::max(largest, std::fabs(s));
+  for (double s : element_stress(model, model.nodes, all_elements(model)).values)
+    largest = std::max(largest, std::fabs(s));
   return largest;
 }
 

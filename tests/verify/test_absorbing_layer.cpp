@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <complex>
 
-#include "model/boundaries/absorbing_layer.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/checks/doubts.hpp"
 #include "tests/verify/two_blocks.hpp"
 
@@ -261,7 +261,8 @@ TEST_CASE("layers that cannot work are refused, and such as work badly are told"
   Model model;
   build_model(scene, model);
   std::string all;
-  for (const std::string& doubt : scene_doubts(model)) all += doubt + "\n";
+  for (const std::string& doubt : scene_doubts(model, model.contacts, model.absorbing, model.step_size))
+    all += doubt + "\n";
   CHECK_THAT(all, ContainsSubstring("is 2.5 elements deep"));
   CHECK_THAT(all, ContainsSubstring("which [initial_motion.go]"));
 }
@@ -272,16 +273,16 @@ TEST_CASE("the reference's remark on slender parts with dashpots alone") {
   bar.dashpots = true;
   Model slender;
   build_model(bar.scene(), slender);
-  CHECK(describe_slender_ends(slender).size() == 2);
+  CHECK(describe_slender_ends(slender, slender.absorbing).size() == 2);
   bar.layer = 0.1;
   Model layered;
   build_model(bar.scene(), layered);
-  CHECK(describe_slender_ends(layered).empty());
+  CHECK(describe_slender_ends(layered, layered.absorbing).empty());
   scene::Scene cube = block_scene({0.1, 0.1, 0.1}, {4, 4, 4}, 1e-5);
   add_dashpots(cube, "block.x_max");
   Model thick;
   build_model(cube, thick);
-  CHECK(describe_slender_ends(thick).empty());
+  CHECK(describe_slender_ends(thick, thick.absorbing).empty());
 }
 
 /// The table of docs/verification.md.

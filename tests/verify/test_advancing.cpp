@@ -11,7 +11,7 @@ namespace {
 std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancing) {
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   StepPlans plans(model);
   Instant instant;
   instant.step = model.step_size;
@@ -25,7 +25,7 @@ std::vector<double> outcome(const scene::Scene& scene, long steps, bool advancin
   plans.compute_forces(instant, StepKind::sampled);
   std::vector<double> values;
   for (NodeField field : {NodeField::position, NodeField::velocity}) {
-    const auto part = node_field(model, field, all_nodes(model)).values;
+    const auto part = node_field(model, model.ties, field, all_nodes(model)).values;
     values.insert(values.end(), part.begin(), part.end());
   }
   const EnergyAccount energy = account_energies(model, model.step_size);

@@ -83,10 +83,10 @@ TEST_CASE("spin and torque of a part with an angle of attack are about its own a
   scene.loads.push_back(drive);
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   const auto& nodes = model.assembly.node_sets.at("roller");
   const auto moment = [&](NodeField field) {
-    const auto v = node_field(model, field, nodes).values;
+    const auto v = node_field(model, model.ties, field, nodes).values;
     const Vec3 centre = mean(model, NodeField::position, nodes);
     Vec3 sum{};
     for (std::size_t k = 0; k < nodes.size(); ++k)

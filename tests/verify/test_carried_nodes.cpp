@@ -30,7 +30,8 @@ struct State {
 
 State state_of(const Model& model) {
   const auto nodes = all_nodes(model);
-  return {node_field(model, NodeField::position, nodes).values, node_field(model, NodeField::velocity, nodes).values};
+  return {node_field(model, model.ties, NodeField::position, nodes).values,
+          node_field(model, model.ties, NodeField::velocity, nodes).values};
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
@@ -59,7 +60,7 @@ State flown(scene::Scene scene, scene::Precision precision, const std::function<
   scene.solver.precision = precision;
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   march_steps(model, sizes(model.step_size));
   return state_of(model);
 }
@@ -118,7 +119,7 @@ TEST_CASE("a cube that flies and turns stays within its own ringing of the carri
   const auto steady = [](double step) { return std::vector<double>(4000, step); };
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   march_steps(model, steady(model.step_size));
   const auto nodes = to_host(model.carried.node);
   double displacement = 0, velocity = 0;
@@ -151,7 +152,7 @@ TEST_CASE("a wave in a bar in single precision is the wave in double") {
       set_velocity(model, [&](const Vec3& x, int) { return Vec3{0.1 * shape(x), 0, 0}; });
       const auto nodes = all_nodes(model);
       march(model, model.step_count, [&] {
-        const auto u = node_field(model, NodeField::displacement, nodes).values;
+        const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
         double sum = 0;
         for (int n : nodes) sum += model.mass[n] * u[3 * n] * shape(model.assembly.nodes[n]);
         amplitude[k].push_back(sum / total_mass(model));

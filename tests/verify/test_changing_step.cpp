@@ -62,7 +62,7 @@ TEST_CASE("a global step that is renewed and stays gives the very run of a step 
     const RunSummary summary = run(model, {});
     CHECK(summary.smallest_step == summary.largest_step);
     CHECK((summary.step_renewals > 5) == (k == 1));
-    ends[k] = node_field(model, NodeField::position, all_nodes(model)).values;
+    ends[k] = node_field(model, model.ties, NodeField::position, all_nodes(model)).values;
     steps[k] = summary.steps;
   }
   CHECK(steps[0] == steps[1]);

@@ -11,7 +11,7 @@ namespace {
 
 double largest_speed(const Model& model) {
   double largest = 0;
-  for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+  for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
     largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : 1e300;
   return largest;
 }

@@ -48,7 +48,7 @@ void start(scene::Scene& scene, const std::string& what, const Vec3& velocity) {
 
 /// Displacement of the ball along `axis` at every step.
 std::vector<double> displacement_along(Model& model, const Vec3& axis) {
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   std::vector<double> along;
   march(model, model.step_count, [&] { along.push_back(dot(axis, mean(model, NodeField::displacement, {0}))); });
   return along;
@@ -129,7 +129,7 @@ TEST_CASE("two masses on a spring keep their momentum and swing with the reduced
   scene.time.step = 5e-4;
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   std::vector<double> apart;
   double worst = 0;
   march(model, model.step_count, [&] {
@@ -153,7 +153,7 @@ TEST_CASE("springs and dashpots balance the energy account") {
     scene.connectors[0].damping = damping;
     Model model;
     build_model(scene, model);
-    set_initial_motion(model);
+    set_initial_motion(model, model.nodes, model.beams);
     double first = 0, worst = 0, largest = 0;
     EnergyAccount last;
     march(model, model.step_count, [&] {
@@ -182,7 +182,7 @@ TEST_CASE("a block on a soft spring swings as a mass, whichever set the spring h
     start(scene, "block", {0, 0, 1e-2});
     Model model;
     build_model(scene, model);
-    set_initial_motion(model);
+    set_initial_motion(model, model.nodes, model.beams);
     std::vector<double> height;
     const auto nodes = all_nodes(model);
     march(model, model.step_count, [&] { height.push_back(mean(model, NodeField::displacement, nodes)[2]); });

@@ -35,7 +35,7 @@ TEST_CASE("a block whose foot is held normal to a slope of 30 degrees slides wit
   const auto nodes = all_nodes(model);
   double normal = 0;
   march(model, model.step_count, [&] {
-    const auto u = node_field(model, NodeField::displacement, nodes).values;
+    const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
     for (int n : nodes)
       normal = std::max(normal, std::fabs(dot(slope_axes[2], Vec3{u[3 * n], u[3 * n + 1], u[3 * n + 2]})));
   });
@@ -63,7 +63,7 @@ TEST_CASE("constraints on one node combine: what is left is the direction that n
   left = (1 / norm(left)) * left;
   const Vec3 expected = dot(left, scene.gravity) * left;
   const auto& top = model.assembly.node_sets.at("block.z_max");
-  const auto a = node_field(model, NodeField::acceleration, all_nodes(model)).values;
+  const auto a = node_field(model, model.ties, NodeField::acceleration, all_nodes(model)).values;
   for (int n : all_nodes(model)) {
     const bool held = std::find(top.begin(), top.end(), n) != top.end();
     for (int i = 0; i < 3; ++i) {
@@ -85,7 +85,8 @@ TEST_CASE("a node held in three directions, given one by one, never moves by a b
   Model model;
   build_model(scene, model);
   march(model, model.step_count, [] {});
-  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
+  for (double u :
+       node_field(model, model.ties, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
     CHECK(u == 0);
   CHECK(norm(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))) > 1e-9);
 }
@@ -101,9 +102,9 @@ TEST_CASE("a constrained direction keeps the velocity that it began with") {
   scene.initial_motions.push_back(motion);
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   march(model, model.step_count, [] {});
-  const auto v = node_field(model, NodeField::velocity, all_nodes(model)).values;
+  const auto v = node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values;
   for (int n : all_nodes(model))
     CHECK_THAT(dot(slope_axes[2], Vec3{v[3 * n], v[3 * n + 1], v[3 * n + 2]}), WithinRel(3.0, 1e-13));
 }

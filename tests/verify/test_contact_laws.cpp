@@ -36,7 +36,7 @@ Throw thrown(double damping, const std::vector<std::array<double, 2>>& growth, d
   scene.initial_motions.push_back(motion);
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   Throw result;
   double first = 0;
   march(model, model.step_count, [&] {
@@ -88,7 +88,7 @@ TEST_CASE("a block at rest on a growing penalty sinks in until the law gives its
   build_model(scene, model);
   REQUIRE(settle_whole(model).settled);
   compute_forces(model);
-  const ContactState state = contact_state(model, 0);
+  const ContactState state = contact_state(model, model.ties, model.contacts, 0);
   const double stiffness = model.contacts[0].segment_stiffness[0];
   double total = 0, deepest = 0;
   for (std::size_t s = 0; s < state.gap.size(); ++s) {
@@ -137,7 +137,7 @@ TEST_CASE("a cube that bounces on damped contact springs calms down at the rate 
   std::vector<double> height;
   march(model, model.step_count, [&] {
     height.push_back(mean(model, NodeField::displacement, upper)[2]);
-    CHECK(contact_totals(model, model.contacts[0]).nodes_in_contact == 4);
+    CHECK(contact_totals(model, model.contacts, 0).nodes_in_contact == 4);
   });
   // Of the rigid cube: four dashpots on its whole mass; each is a share of critical for a corner's mass against the
   // segment's where it stands (a corner on a corner: one node).
@@ -204,7 +204,7 @@ TEST_CASE("with growth and damping the element, eigenvalue and global steps keep
       march(model, 8000, [&] {
         if (model.step % 100 != 0) return;
         double& fastest = model.step < 4000 ? early : late;
-        for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+        for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
           fastest = std::isfinite(v) ? std::max(fastest, std::fabs(v)) : 1e300;
       });
       INFO("fastest " << early << " m/s early, " << late << " late");

@@ -20,7 +20,7 @@ void check_rest(const scene::Scene& scene, const Assembly& assembly, const Vec3&
   CHECK(report.settled);
   double worst = 0, reaction = 0;
   march(model, 200, [&] {
-    const ContactTotals totals = contact_totals(model, model.contacts[0]);
+    const ContactTotals totals = contact_totals(model, model.contacts, 0);
     worst = std::max(worst, norm(totals.normal_force - weight * up) / weight);
     reaction = std::max(reaction, reaction_error(totals));
     CHECK(totals.nodes_in_contact > 0);

@@ -1,6 +1,6 @@
 #include <catch2/catch_test_macros.hpp>
 
-#include "solve/tasks/contact_window.hpp"
+#include "solve/tasks.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
@@ -13,7 +13,7 @@ namespace {
 std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& layouts) {
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   ContactPair& pair = model.contacts[0];
   march(model, model.step_count, [&] {
     if (!every_step) return;
@@ -23,7 +23,7 @@ std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& la
   layouts = pair.layouts;
   std::vector<double> values;
   for (NodeField field : {NodeField::position, NodeField::velocity, NodeField::acceleration}) {
-    const auto part = node_field(model, field, all_nodes(model)).values;
+    const auto part = node_field(model, model.ties, field, all_nodes(model)).values;
     values.insert(values.end(), part.begin(), part.end());
   }
   const auto energy = account_energies(model, model.step_size);
@@ -92,7 +92,7 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
   scene.initial_motions.push_back(motion);
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   const ContactPair& pair = model.contacts[0];
   double nearest = 1e300;
   int outside = 0, touching = 0;
@@ -101,7 +101,7 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
     std::vector<bool> inside(pair.slave_nodes.size(), false);
     for (int i = 0; i < pair.window.count; ++i) inside[window(i).slave] = true;
     const auto x = to_host(model.nodes.position);
-    touching += contact_totals(model, pair).nodes_in_contact;
+    touching += contact_totals(model, model.contacts, 0).nodes_in_contact;
     for (std::size_t s = 0; s < inside.size(); ++s) {
       if (inside[s]) continue;
       ++outside;
@@ -126,11 +126,11 @@ TEST_CASE("a look that comes too late for a body set in motion at once is told")
   Model model;
   build_model(scene, model);
   march(model, 10, [] {});
-  CHECK(late_contacts(model).empty());
+  CHECK(late_contacts(model.contacts).empty());
   // Nobody can foresee that; the next look finds the upper block inside the lower.
   set_velocity(model, [&](const Vec3& x, int) { return Vec3{0, 0, x[2] > 1e-3 ? -400.0 : 0}; });
   march(model, 120, [] {});
-  const auto lines = late_contacts(model);
+  const auto lines = late_contacts(model.contacts);
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("steps late") != std::string::npos);
 }

@@ -117,7 +117,7 @@ TEST_CASE("mass damping slows a body that flies, in every precision, and the acc
     scene.initial_motions.push_back(motion);
     Model model;
     build_model(scene, model);
-    set_initial_motion(model);
+    set_initial_motion(model, model.nodes, model.beams);
     EnergyAccount first, last;
     Vec3 speed{};
     march(model, model.step_count, [&] {
@@ -147,7 +147,7 @@ TEST_CASE("a body that turns feels nothing of stiffness damping") {
     scene.initial_motions.push_back(motion);
     Model model;
     build_model(scene, model);
-    set_initial_motion(model);
+    set_initial_motion(model, model.nodes, model.beams);
     EnergyAccount first, last;
     march(model, model.step_count, [&] {
       if (model.step != 0 && model.step != model.step_count) return;
@@ -201,7 +201,7 @@ TEST_CASE("bulk viscosity presses where volume shrinks, and only there") {
     set_velocity(model, [&](const Vec3& x, int) { return Vec3{0, 0, rate * x[2]}; });
     compute_forces(model);
     const auto all = all_nodes(model);
-    const auto a = node_field(model, NodeField::acceleration, all).values;
+    const auto a = node_field(model, model.ties, NodeField::acceleration, all).values;
     double sum = 0;
     for (int n : all) sum += model.mass[n] * a[3 * n + 2] * rate * model.assembly.nodes[n][2];
     return sum;

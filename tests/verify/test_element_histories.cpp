@@ -22,7 +22,7 @@ namespace {
 std::vector<ElementMeans> means_of(const Model& model) {
   std::vector<ElementMeans> means;
   Reductions sums(*model.reduction_space);
-  queue_element_means(model, means, sums);
+  queue_element_means(model, model.nodes, means, sums);
   sums.fetch();
   return means;
 }
@@ -61,7 +61,7 @@ TEST_CASE("a block stretched and turned far has its logarithmic strain in every 
     set_position(model, [&](const Vec3& x, int) {
       return turned(rows, {stretch[0] * x[0], stretch[1] * x[1], stretch[2] * x[2]});
     });
-    for (const ElementGroup& group : model.elements) renew_frames(model, group);
+    for (const ElementGroup& group : model.elements) renew_frames(model.nodes, group);
     // ln V = R diag(ln stretch) R^T, R's columns the turned axes.
     constexpr int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
     for (const ElementMeans& mean : means_of(model))
@@ -111,7 +111,7 @@ TEST_CASE("listed elements have the stress that fields have, bit for bit, of eve
       return Vec3{x[0] + 5e-3 * x[0] * x[0], x[1] - 2e-3 * x[2] * x[0], x[2]};
     });
     for (const ElementGroup& group : model.elements) {
-      renew_frames(model, group);
+      renew_frames(model.nodes, group);
       if (group.material.flows()) Kokkos::deep_copy(group.material.history, 0.125);
     }
     const auto means = means_of(model);
@@ -119,7 +119,7 @@ TEST_CASE("listed elements have the stress that fields have, bit for bit, of eve
     REQUIRE(means.size() == 4);
     for (std::size_t s = 0; s < means.size(); ++s) {
       REQUIRE(sets[s].elements.size() == 1);
-      const auto stress = element_stress(model, sets[s].elements).values;
+      const auto stress = element_stress(model, model.nodes, sets[s].elements).values;
       CHECK(std::vector<double>(means[s].stress.begin(), means[s].stress.end()) == stress);
       const bool yields = sets[s].name.rfind(scene.parts[0].name + ".", 0) == 0;
       CHECK(means[s].plastic_strain == (yields ? 0.125 : 0.0));
@@ -225,8 +225,8 @@ TEST_CASE("probes under a sphere find Hertz's largest shear at 0.48 of the conta
   build_model(scene, model);
   CHECK(settle_whole(model).settled);
   compute_forces(model);
-  const double force = contact_solution(contact_state(model, 0)).whole.normal_force, radius = 0.46,
-               modulus = 210e9 / (2 * (1 - 0.09));
+  const double force = contact_solution(contact_state(model, model.ties, model.contacts, 0)).whole.normal_force,
+               radius = 0.46, modulus = 210e9 / (2 * (1 - 0.09));
   const double a = std::cbrt(0.75 * force * radius / modulus), peak = 1.5 * force / (M_PI * a * a);
   const auto means = means_of(model);
   const auto sets = resolve_history_sets(model.scene, model.assembly);

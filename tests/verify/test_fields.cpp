@@ -44,7 +44,7 @@ TEST_CASE("stress and plastic strain come for the elements asked for, of every g
     REQUIRE(model.elements.size() > 1);
     const int upper = 8 * 8 * 2, count = static_cast<int>(model.element_count());
     const std::vector<int> asked{count - 1, 3, upper, upper - 1, 3, 0, 777};
-    const HostField stress = element_stress(model, asked);
+    const HostField stress = element_stress(model, model.nodes, asked);
     REQUIRE(stress.components == 6);
     REQUIRE(stress.values.size() == 6 * asked.size());
     const double modulus = 210e9 * 0.7 / (1.3 * 0.4);  // uniaxial strain
@@ -53,7 +53,7 @@ TEST_CASE("stress and plastic strain come for the elements asked for, of every g
       CHECK_THAT(stress.values[6 * i], WithinAbs(modulus * strain, 2e-3 * modulus * bend * 0.04));
       CHECK_THAT(stress.values[6 * i + 1], WithinAbs(modulus * strain * 3 / 7, 2e-3 * modulus * bend * 0.04));
     }
-    const auto of_all = element_stress(model, all_elements(model)).values;
+    const auto of_all = element_stress(model, model.nodes, all_elements(model)).values;
     for (std::size_t i = 0; i < asked.size(); ++i)
       for (int c = 0; c < 6; ++c) CHECK(stress.values[6 * i + c] == of_all[6 * asked[i] + c]);
 
@@ -62,7 +62,7 @@ TEST_CASE("stress and plastic strain come for the elements asked for, of every g
     const HostField plastic = element_plastic_strain(model, asked);
     REQUIRE(plastic.components == 1);
     CHECK(plastic.values == std::vector<double>{0, 0.25, 0, 0.25, 0.25, 0.25, 0});
-    CHECK(element_stress(model, {}).values.empty());
+    CHECK(element_stress(model, model.nodes, {}).values.empty());
     CHECK(element_plastic_strain(model, {}).values.empty());
   }
 }
@@ -71,8 +71,8 @@ TEST_CASE("displacement and position come for the nodes asked for") {
   Model model;
   build_stretched_blocks(scene::Precision::double_precision, model);
   const std::vector<int> asked{17, 400, 0, 17};
-  const HostField moved = node_field(model, NodeField::displacement, asked),
-                  place = node_field(model, NodeField::position, asked);
+  const HostField moved = node_field(model, model.ties, NodeField::displacement, asked),
+                  place = node_field(model, model.ties, NodeField::position, asked);
   REQUIRE(moved.components == 3);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const Vec3 x = model.assembly.nodes[asked[i]];
@@ -80,5 +80,5 @@ TEST_CASE("displacement and position come for the nodes asked for") {
     CHECK(moved.values[3 * i + 1] == 0);
     CHECK_THAT(place.values[3 * i + 2], WithinAbs(x[2], 1e-16));
   }
-  CHECK(node_field(model, NodeField::displacement, {}).values.empty());
+  CHECK(node_field(model, model.ties, NodeField::displacement, {}).values.empty());
 }

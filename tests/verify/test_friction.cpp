@@ -79,7 +79,7 @@ Slide slide(const scene::Scene& scene) {
     result.displacement.push_back(mean(model, NodeField::displacement, upper)[0] - start);
     result.velocity.push_back(mean(model, NodeField::velocity, upper)[0]);
     result.ratio = std::max(result.ratio, largest_ratio(model.contacts[0]));
-    result.reaction = std::max(result.reaction, reaction_error(contact_totals(model, model.contacts[0])));
+    result.reaction = std::max(result.reaction, reaction_error(contact_totals(model, model.contacts, 0)));
     result.last = account_energies(model, model.step_size);
     if (model.step == 0) first = balance_total(result.last);
     result.largest = std::max(result.largest, largest_energy(result.last));

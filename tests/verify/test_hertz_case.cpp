@@ -23,7 +23,7 @@ TEST_CASE("the case of Hertz's sphere on a plane comes near Hertz's solution on 
   const SettleReport report = settle_whole(model);
   CHECK(report.settled);
   compute_forces(model);
-  const ContactPatch found = contact_solution(contact_state(model, 0)).whole;
+  const ContactPatch found = contact_solution(contact_state(model, model.ties, model.contacts, 0)).whole;
 
   const double force = found.normal_force, radius = 0.46, modulus = 210e9 / (2 * (1 - 0.09));
   const double a = std::cbrt(0.75 * force * radius / modulus);

@@ -94,7 +94,8 @@ TEST_CASE("hourglass control does nothing to rigid motion and uniform strain") {
         return Vec3{3 + 20 * x[0] - 7 * x[1], 5 * x[2] + 1, 11 * x[0] - 4 * x[2]};
       });
       compute_forces(model);
-      (coefficient > 0 ? with : without) = node_field(model, NodeField::acceleration, all_nodes(model)).values;
+      (coefficient > 0 ? with : without) =
+          node_field(model, model.ties, NodeField::acceleration, all_nodes(model)).values;
     }
     double worst = 0, largest = 0;
     for (std::size_t k = 0; k < with.size(); ++k) {

@@ -38,7 +38,7 @@ struct Impact {
 Impact impact(const scene::Scene& scene, double speed) {
   Model model;
   build_model(scene, model);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   const double mass = mass_of(model, "upper");
   const auto nodes = all_nodes(model);
   Impact result;
@@ -52,7 +52,7 @@ Impact impact(const scene::Scene& scene, double speed) {
     const double total = balance_total(account_energies(model, model.step_size));
     if (model.step == 0) first = total;
     result.imbalance = std::max(result.imbalance, std::fabs(total - first) / (0.5 * mass * speed * speed));
-    const ContactTotals totals = contact_totals(model, model.contacts[0]);
+    const ContactTotals totals = contact_totals(model, model.contacts, 0);
     // Not over the present force: at a moment of parting that is a few quanta of what forces are added in.
     largest_force = std::max(largest_force, norm(totals.normal_force));
     result.reaction =

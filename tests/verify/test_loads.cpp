@@ -34,8 +34,8 @@ struct NodalForces {
 NodalForces forces_on(const Model& model) {
   NodalForces result;
   const auto nodes = all_nodes(model);
-  const auto a = node_field(model, NodeField::acceleration, nodes).values,
-             x = node_field(model, NodeField::position, nodes).values;
+  const auto a = node_field(model, model.ties, NodeField::acceleration, nodes).values,
+             x = node_field(model, model.ties, NodeField::position, nodes).values;
   const Vec3 centre = mean(model, NodeField::position, nodes);
   for (int n : nodes) {
     const Vec3 f = model.mass[n] * Vec3{a[3 * n], a[3 * n + 1], a[3 * n + 2]};
@@ -66,7 +66,8 @@ TEST_CASE("a nodal force's total is shared over its set by mass") {
     for (int n : model.assembly.node_sets.at("block.x_max")) sum += model.mass[n];
     return sum;
   }();
-  const auto a = node_field(model, NodeField::acceleration, model.assembly.node_sets.at("block.x_max")).values;
+  const auto a =
+      node_field(model, model.ties, NodeField::acceleration, model.assembly.node_sets.at("block.x_max")).values;
   for (std::size_t k = 0; k < a.size(); ++k) CHECK_THAT(a[k], WithinRel(scene.loads[0].force[k % 3] / set_mass, 1e-9));
 }
 
@@ -152,8 +153,8 @@ TEST_CASE("a torque changes the angular momentum by M t about its axis and has n
   for (int i = 0; i < 3; ++i) CHECK_THAT(after[i], WithinRel(before[i], 1e-12));
 
   // Angular momentum about the axis through the centre of mass.
-  const auto x = node_field(model, NodeField::position, nodes).values,
-             v = node_field(model, NodeField::velocity, nodes).values;
+  const auto x = node_field(model, model.ties, NodeField::position, nodes).values,
+             v = node_field(model, model.ties, NodeField::velocity, nodes).values;
   const Vec3 centre = mean(model, NodeField::position, nodes);
   double momentum = 0;
   for (int n : nodes)

@@ -83,7 +83,7 @@ TEST_CASE("a body falls freely with g, without stress") {
       const auto nodes = all_nodes(model);
       double worst_mean = 0, worst_node = 0, stress = 0;
       march(model, model.step_count, [&] {
-        const auto a = node_field(model, NodeField::acceleration, nodes).values;
+        const auto a = node_field(model, model.ties, NodeField::acceleration, nodes).values;
         for (std::size_t k = 0; k < a.size(); ++k)
           worst_node = std::max(worst_node, std::fabs(a[k] - scene.gravity[k % 3]));
         const Vec3 centre = mean(model, NodeField::acceleration, nodes);

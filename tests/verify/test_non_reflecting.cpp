@@ -232,11 +232,11 @@ void check_reaction(double end) {
   CHECK(settle_whole(model).settled);
   const Vec3 applied{2e4, 5e3, -1e4};
   const auto nodes = all_nodes(model);
-  const auto settled = node_field(model, NodeField::position, nodes).values;
+  const auto settled = node_field(model, model.ties, NodeField::position, nodes).values;
   double worst = 0;
   march(model, model.step_count, [&] { worst = std::fmax(worst, norm(reaction(model) + applied) / norm(applied)); });
   double moved = 0;
-  const auto now = node_field(model, NodeField::position, nodes).values;
+  const auto now = node_field(model, model.ties, NodeField::position, nodes).values;
   for (std::size_t k = 0; k < now.size(); ++k) moved = std::fmax(moved, std::fabs(now[k] - settled[k]));
   UNSCOPED_INFO("reaction off by " << worst << " of the load, nodes moved by " << moved << " m in " << model.step_count
                                    << " steps");

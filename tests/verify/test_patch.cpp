@@ -84,7 +84,7 @@ void check_stress(const Model& model) {
   // Small-strain theory, as MacNeal & Harder state it: E = 1e6, nu = 1/4 give 2000 and 400; here scaled to steel.
   CHECK_THAT(exact[0],
              Catch::Matchers::WithinRel(3e-3 * constants_of(model).lambda + 2e-3 * constants_of(model).mu, 0.01));
-  const auto stress = element_stress(model, all_elements(model));
+  const auto stress = element_stress(model, model.nodes, all_elements(model));
   for (std::size_t k = 0; k < stress.values.size(); ++k)
     worst = std::max(worst, std::fabs(stress.values[k] - exact[k % 6]) / largest);
   INFO("worst stress error " << worst);
@@ -105,9 +105,10 @@ std::vector<int> inner_nodes(const Model& model) {
 /// Forces on nodes inside, relative to those on the surface.
 double inner_unbalance(const Model& model, const std::vector<int>& inner) {
   double outer = 0, worst = 0;
-  for (double a : node_field(model, NodeField::acceleration, all_nodes(model)).values)
+  for (double a : node_field(model, model.ties, NodeField::acceleration, all_nodes(model)).values)
     outer = std::max(outer, std::fabs(a));
-  for (double a : node_field(model, NodeField::acceleration, inner).values) worst = std::max(worst, std::fabs(a));
+  for (double a : node_field(model, model.ties, NodeField::acceleration, inner).values)
+    worst = std::max(worst, std::fabs(a));
   return worst / outer;
 }
 

@@ -44,7 +44,7 @@ std::vector<PullPoint> pull(scene::Precision precision, double& imbalance, doubl
   const auto elements = all_elements(model);
   march(model, model.step_count, [&] {
     if (model.step % 20 != 0) return;
-    const auto stress = element_stress(model, elements).values;
+    const auto stress = element_stress(model, model.nodes, elements).values;
     double sum = 0;
     for (std::size_t e = 0; e < elements.size(); ++e) sum += stress[6 * e];
     points.push_back({std::log1p(mean(model, NodeField::displacement, end_face)[0] / length), sum / elements.size()});
@@ -112,7 +112,7 @@ TEST_CASE("a bar that hits a wall spends its energy in plastic flow, and none is
   const auto foot = model.assembly.node_sets.at("block.z_min"), top = model.assembly.node_sets.at("block.z_max");
   const auto half_width = [&](const std::vector<int>& nodes) {
     double low = 1, high = -1;
-    const auto x = node_field(model, NodeField::position, nodes).values;
+    const auto x = node_field(model, model.ties, NodeField::position, nodes).values;
     for (std::size_t k = 0; k < nodes.size(); ++k) low = std::min(low, x[3 * k]), high = std::max(high, x[3 * k]);
     return 0.5 * (high - low);
   };

@@ -44,7 +44,7 @@ TEST_CASE("a set with a prescribed motion is where the rigid motion has it, afte
   const auto& nodes = model.assembly.node_sets.at("block.z_min");
   march(model, model.step_count / 4, [] {});
   const double t = model.time, c = std::cos(turns * t), s = std::sin(turns * t);
-  const auto u = node_field(model, NodeField::displacement, nodes).values;
+  const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     const Vec3 x = model.assembly.nodes[nodes[k]], r = x - Vec3{0.1, 0, 0};
     const Vec3 expected =
@@ -52,7 +52,7 @@ TEST_CASE("a set with a prescribed motion is where the rigid motion has it, afte
     for (int i = 0; i < 3; ++i) CHECK_THAT(x[i] + u[3 * k + i], WithinAbs(expected[i], 1e-14));
   }
   march(model, model.step_count - model.step, [] {});
-  const auto at_end = node_field(model, NodeField::displacement, nodes).values;
+  const auto at_end = node_field(model, model.ties, NodeField::displacement, nodes).values;
   for (std::size_t k = 0; k < nodes.size(); ++k)
     for (int i = 0; i < 3; ++i)
       CHECK_THAT(at_end[3 * k + i], WithinAbs(model.time * (i == 0 ? 3 : i == 1 ? 0 : 1), 1e-12));
@@ -123,7 +123,7 @@ TEST_CASE("a prescribed displacement is met at the end of every step, and other 
   double worst = 0, free_worst = 0;
   const auto& nodes = model.assembly.node_sets.at("block.z_max");
   march(model, model.step_count, [&] {
-    const auto u = node_field(model, NodeField::displacement, nodes).values;
+    const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
     const double wanted = 2e-4 * curve_value(&model.scene.curves[0], model.time);
     Vec3 sum{};
     for (std::size_t k = 0; k < nodes.size(); ++k) {
@@ -189,7 +189,8 @@ TEST_CASE("a set with a prescribed motion is held while the scene settles") {
   Model model;
   build_model(scene, model);
   settle_whole(model);
-  for (double u : node_field(model, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
+  for (double u :
+       node_field(model, model.ties, NodeField::displacement, model.assembly.node_sets.at("block.z_min")).values)
     CHECK(u == 0);
   CHECK(mean(model, NodeField::displacement, model.assembly.node_sets.at("block.z_max"))[2] < 0);
 }

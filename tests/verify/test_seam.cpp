@@ -57,7 +57,7 @@ Assembly slit(const scene::Scene& scene, double depth = 0.5) {
 }
 
 double largest_force(const Model& model) {
-  const ContactState state = contact_state(model, 0);
+  const ContactState state = contact_state(model, model.ties, model.contacts, 0);
   double largest = 0;
   for (double f : state.slave.normal_force) largest = std::max(largest, std::fabs(f));
   return largest;
@@ -75,7 +75,7 @@ TEST_CASE("a closed seam at rest has no forces, at the first step and after a th
     march(model, 1000, [&] {
       if (model.step % 100 != 0) return;
       largest = std::max(largest, largest_force(model));
-      for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+      for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
         fastest = std::max(fastest, std::fabs(v));
     });
     INFO("symmetric " << symmetric << ", largest force " << largest << " N, fastest " << fastest << " m/s");
@@ -109,13 +109,13 @@ TEST_CASE("a seam passes pressure on, and opens under a pull") {
         if (model.step == 0) first = balance_total(last);
         imbalance = std::max(imbalance, std::fabs(balance_total(last) - first));
       });
-      const ContactState state = contact_state(model, 0);
+      const ContactState state = contact_state(model, model.ties, model.contacts, 0);
       for (std::size_t s = 0; s < state.gap.size(); ++s) {
         if (!std::isfinite(state.gap[s])) continue;
         least_gap = std::min(least_gap, state.gap[s]);
         most_gap = std::max(most_gap, state.gap[s]);
       }
-      const ContactTotals totals = contact_totals(model, model.contacts[0]);
+      const ContactTotals totals = contact_totals(model, model.contacts, 0);
       WARN((symmetric ? "symmetric seam" : "seam")
            << (sign < 0 ? ", pressed" : ", pulled") << ": force " << totals.normal_force[2] << " N of "
            << 0.5 * area * stress << " N on its half, gaps " << least_gap << " to " << most_gap << " m, imbalance "

@@ -110,7 +110,7 @@ TEST_CASE("the coefficient told beside the forces is that of the instant, and bo
   Model model;
   build_model(dragged.scene(2 * dragged.exact().period), model);
   REQUIRE(settle_whole(model).settled);
-  set_initial_motion(model);
+  set_initial_motion(model, model.nodes, model.beams);
   double lowest = 1, highest = 0, largest = 0, least_slipping = 1, worst = 0;
   std::vector<double> place;
   march(model, model.step_count, [&] {
@@ -120,7 +120,7 @@ TEST_CASE("the coefficient told beside the forces is that of the instant, and bo
     std::vector<double> now;
     for (int n : pair.slave_nodes)
       for (int i : {0, 1}) now.push_back(x(n, i) - (i == 0 ? dragged.belt * model.step * model.step_size : 0));
-    const ContactState state = contact_state(model, 0);
+    const ContactState state = contact_state(model, model.ties, model.contacts, 0);
     REQUIRE(state.friction_now.size() == pair.slave_nodes.size());
     for (std::size_t s = 0; s < pair.slave_nodes.size() && !place.empty(); ++s) {
       if (state.slipping[s] == 0) continue;

@@ -26,7 +26,7 @@ PulseRun pulse_run(double width, scene::Precision precision, bool subcycling) {
   pulse.set(model);
   run(model, {});
   const auto nodes = all_nodes(model);
-  const auto u = node_field(model, NodeField::displacement, nodes).values;
+  const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
   double error = 0, size = 0;
   for (int n : nodes) {
     const double exact = pulse.displacement(model.assembly.nodes[n][0] - path);
@@ -37,7 +37,7 @@ PulseRun pulse_run(double width, scene::Precision precision, bool subcycling) {
 }
 
 Vec3 momentum(const Model& model) {
-  const auto v = node_field(model, NodeField::velocity, all_nodes(model)).values;
+  const auto v = node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values;
   Vec3 sum{};
   for (int n = 0; n < model.nodes.count; ++n) sum = sum + model.mass[n] * Vec3{v[3 * n], v[3 * n + 1], v[3 * n + 2]};
   return sum;
@@ -124,8 +124,8 @@ TEST_CASE("looking at every round changes nothing, nor does computing at nodes w
   run(one, {});
   march(other, other.step_count, [] {});
   const auto nodes = all_nodes(one);
-  const auto a = node_field(one, NodeField::displacement, nodes).values,
-             b = node_field(other, NodeField::displacement, nodes).values;
+  const auto a = node_field(one, one.ties, NodeField::displacement, nodes).values,
+             b = node_field(other, other.ties, NodeField::displacement, nodes).values;
   double difference = 0, largest = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     difference = std::max(difference, std::fabs(a[i] - b[i]));
@@ -145,7 +145,7 @@ TEST_CASE("a scene of one level runs as without subcycling, bit for bit") {
     CHECK(model.subcycling.levels == 1);
     shake(model);
     run(model, {});
-    result[subcycling ? 1 : 0] = node_field(model, NodeField::displacement, all_nodes(model)).values;
+    result[subcycling ? 1 : 0] = node_field(model, model.ties, NodeField::displacement, all_nodes(model)).values;
   }
   CHECK(result[0] == result[1]);
 }

@@ -63,13 +63,13 @@ TEST_CASE("a symmetric contact presses with the whole weight, shared by both sur
     Model model;
     build_resting(model, true, upper, lower);
     REQUIRE(model.contacts.size() == 2);
-    const ContactTotals totals = contact_totals(model, model.contacts[0]);
+    const ContactTotals totals = contact_totals(model, model.contacts, 0);
     CHECK_THAT(totals.normal_force[2], WithinRel(total_pressing(), 1e-3));
     CHECK(reaction_error(totals) < 1e-12);
     const HistorySample sample = take_sample(model, model.step_size);
     REQUIRE(sample.contacts.size() == 1);
     // The fields tell the same forces node by node, on either side.
-    const ContactState state = contact_state(model, 0);
+    const ContactState state = contact_state(model, model.ties, model.contacts, 0);
     double slave = 0, master = 0;
     std::vector<double> by_slave, by_master;
     for (std::size_t i = 0; i < state.slave.nodes.size(); ++i) {
@@ -82,7 +82,7 @@ TEST_CASE("a symmetric contact presses with the whole weight, shared by both sur
     }
     CHECK_THAT(slave, WithinRel(totals.normal_force[2], 1e-10));
     CHECK_THAT(master, WithinRel(-totals.normal_force[2], 1e-10));
-    const double reversed_share = std::fabs(contact_state(model, 1).slave.normal_force[2]);
+    const double reversed_share = std::fabs(contact_state(model, model.ties, model.contacts, 1).slave.normal_force[2]);
     WARN("upper " << upper[0] << ", lower " << lower[0]
                   << " elements across: largest over least nodal pressure on the slave "
                   << spread_of(by_slave, state.slave.area) << ", on the master "
@@ -167,8 +167,8 @@ TEST_CASE("a block in a corner presses on floor and wall with its two loads, tho
   REQUIRE(on_both.size() == 5);
   march(model, 500, [&] {
     if (model.step % 50 != 0) return;
-    const ContactTotals floor = contact_totals(model, model.contacts[0]),
-                        wall = contact_totals(model, model.contacts[1]);
+    const ContactTotals floor = contact_totals(model, model.contacts, 0),
+                        wall = contact_totals(model, model.contacts, 1);
     CHECK_THAT(floor.normal_force[2], WithinRel(3e4, 2e-3));
     CHECK_THAT(wall.normal_force[0], WithinRel(2e4, 2e-3));
     CHECK(reaction_error(floor) < 1e-12);

@@ -19,7 +19,7 @@ double patch_error(const TiedBlocks& blocks) {
   build_model(scene, model);
   const SettleReport report = settle_whole(model);
   CHECK(report.settled);
-  const auto stress = element_stress(model, all_elements(model)).values;
+  const auto stress = element_stress(model, model.nodes, all_elements(model)).values;
   double worst = 0;
   for (std::size_t k = 0; k < stress.size(); ++k)
     worst = std::fmax(worst, std::fabs(stress[k] - (k % 6 == 2 ? 1e6 : 0)) / 1e6);
@@ -66,7 +66,7 @@ double reflected(TiedBlocks blocks, bool from_coarse) {
     return Vec3{sign * c * (x[0] - from) / (deviation * deviation) * shape(x[0]), 0, 0};
   });
   const auto fastest = [&](const std::string& part) {
-    const auto v = node_field(model, NodeField::velocity, model.assembly.node_sets.at(part)).values;
+    const auto v = node_field(model, model.ties, NodeField::velocity, model.assembly.node_sets.at(part)).values;
     double largest = 0;
     for (double component : v) largest = std::fmax(largest, std::fabs(component));
     return largest;
@@ -159,7 +159,7 @@ TEST_CASE("tied bodies fall freely, and settle under their weight as one") {
     march(model, model.step_count, [] {});
     const double fallen = 0.5 * 9.81e3 * model.time * model.time;
     for (int n = 0; n < model.nodes.count; ++n)
-      CHECK(std::fabs(node_field(model, NodeField::displacement, {n}).values[2] + fallen) < 1e-9 * fallen);
+      CHECK(std::fabs(node_field(model, model.ties, NodeField::displacement, {n}).values[2] + fallen) < 1e-9 * fallen);
   }
   SECTION("settle") {
     hold(scene, "coarse.z_min", {false, false, true});
@@ -224,7 +224,7 @@ TEST_CASE("a contact may press on tied nodes: forces go over the tie, momentum i
   const Momentum before(model);
   double most = 0;
   march(model, model.step_count,
-        [&] { most = std::fmax(most, norm(contact_totals(model, model.contacts[0]).normal_force)); });
+        [&] { most = std::fmax(most, norm(contact_totals(model, model.contacts, 0).normal_force)); });
   const Momentum after(model);
   CHECK(most > 1e4);
   CHECK(norm(after.linear - before.linear) < 1e-11 * norm(before.linear));

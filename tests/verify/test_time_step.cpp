@@ -34,7 +34,7 @@ void shake(Model& model, double size) {
 
 double largest_speed(const Model& model) {
   double largest = 0;
-  for (double v : node_field(model, NodeField::velocity, all_nodes(model)).values)
+  for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
     largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : 1e300;
   return largest;
 }
@@ -94,7 +94,7 @@ TEST_CASE("matched blocks pressed together stay calm for 20000 steps of the prog
     march(model, steps, [&] {
       if (model.step % 100 != 0) return;
       fastest = std::max(fastest, largest_speed(model));
-      mean_force = mean_force + (1.0 / (steps / 100 + 1)) * contact_totals(model, model.contacts[0]).normal_force;
+      mean_force = mean_force + (1.0 / (steps / 100 + 1)) * contact_totals(model, model.contacts, 0).normal_force;
     });
     INFO("hourglass type " << static_cast<int>(hourglass) << ": fastest node " << fastest
                            << " m/s, mean contact force / weight " << mean_force[2] / weight

@@ -73,7 +73,7 @@ double relative_speed(scene::Scene scene, Wave wave) {
   const auto nodes = all_nodes(model);
   std::vector<double> amplitude;
   march(model, model.step_count, [&] {
-    const auto u = node_field(model, NodeField::displacement, nodes).values;
+    const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
     double sum = 0;
     for (int n : nodes) sum += model.mass[n] * u[3 * n + moved] * shape(model.assembly.nodes[n]);
     amplitude.push_back(sum);

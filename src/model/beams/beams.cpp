@@ -43,11 +43,11 @@ int number_of(BeamModel& built, Lists& lists, int node) {
   return number;
 }
 
-void add_chain(Model& model, BeamModel& built, Lists& lists, const Assembly::BeamChain& chain) {
-  const scene::Beam& beam = model.scene.beams[chain.beam];
-  const scene::Material& material = material_of(model.scene, beam);
-  const auto& x = model.assembly.nodes;
-  const auto axes = beam_axes(model.scene, beam, x[chain.nodes.front()], x[chain.nodes.back()]);
+void add_chain(AssembledScene& assembled, BeamModel& built, Lists& lists, const Assembly::BeamChain& chain) {
+  const scene::Beam& beam = assembled.scene.beams[chain.beam];
+  const scene::Material& material = material_of(assembled.scene, beam);
+  const auto& x = assembled.assembly.nodes;
+  const auto axes = beam_axes(assembled.scene, beam, x[chain.nodes.front()], x[chain.nodes.back()]);
   double whole = 0;
   for (int i = 0; i < 3; ++i) whole += axes[0][i] * (x[chain.nodes.back()][i] - x[chain.nodes.front()][i]);
   const double length = whole / beam.divisions;
@@ -60,7 +60,7 @@ void add_chain(Model& model, BeamModel& built, Lists& lists, const Assembly::Bea
     std::array<int, 2> end{};
     for (int side : {0, 1}) {
       const int n = chain.nodes[k + side], b = end[side] = number_of(built, lists, n);
-      model.mass[n] += values.end_mass;
+      assembled.mass[n] += values.end_mass;
       built.relaxation_mass[n] += pseudo * values.end_mass;
       lists.inertia[b] += values.end_inertia;
       lists.relaxation_inertia[b] += pseudo * values.end_inertia;
@@ -98,13 +98,13 @@ void build_gather(BeamArrays& arrays, const std::vector<int>& loaded) {
   arrays.moment = Array<double* [3]>("moments on beams", 2 * arrays.count + loaded.size());
 }
 
-void hold_rotations(const Model& model) {
+void hold_rotations(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams) {
   std::map<int, HeldDirections> held;
-  for (const scene::Constraint& constraint : model.scene.constraints) {
+  for (const scene::Constraint& constraint : assembled.scene.constraints) {
     if (constraint.fixed_rotation == std::array<bool, 3>{false, false, false}) continue;
     bool any = false;
-    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target)) {
-      const int b = model.beams ? model.beams->number[n] : -1;
+    for (int n : find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target)) {
+      const int b = beams ? beams->number[n] : -1;
       if (b < 0) continue;
       any = true;
       for (int a = 0; a < 3; ++a)
@@ -114,39 +114,39 @@ void hold_rotations(const Model& model) {
       throw InputError(fmt::format(
           "{}:{}: [constraints.{}] fixed_rotation: no beam ends at '{}', and only there nodes have rotations; "
           "leave it out, or hold displacements of more nodes",
-          model.scene.path, constraint.line, constraint.name, constraint.target));
+          assembled.scene.path, constraint.line, constraint.name, constraint.target));
   }
-  if (!model.beams) return;
-  BeamArrays& arrays = model.beams->arrays;
+  if (!beams) return;
+  BeamArrays& arrays = beams->arrays;
   std::vector<int> row(arrays.node_count, -1);
   arrays.projections = projections(held, row);
   arrays.constraint = to_device("constraint of beam node", row);
 }
 
-void refuse_points_without_mass(const Model& model) {
-  for (std::size_t i = 0; i < model.scene.points.size(); ++i) {
-    const scene::PointMass& point = model.scene.points[i];
-    if (!(model.mass[model.assembly.point_nodes[i]] > 0))
+void refuse_points_without_mass(const AssembledScene& assembled) {
+  for (std::size_t i = 0; i < assembled.scene.points.size(); ++i) {
+    const scene::PointMass& point = assembled.scene.points[i];
+    if (!(assembled.mass[assembled.assembly.point_nodes[i]] > 0))
       throw InputError(
           fmt::format("{}:{}: [points.{}] mass: is 0, and no beam ends there to give it one; give it a mass",
-                      model.scene.path, point.line, point.name));
+                      assembled.scene.path, point.line, point.name));
   }
 }
 
 }  // namespace
 
-void build_beams(Model& model) {
-  if (!model.assembly.beam_chains.empty()) {
-    model.beams = std::make_shared<BeamModel>();
-    BeamModel& built = *model.beams;
-    const std::size_t nodes = model.assembly.nodes.size();
+void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams) {
+  if (!assembled.assembly.beam_chains.empty()) {
+    beams = std::make_shared<BeamModel>();
+    BeamModel& built = *beams;
+    const std::size_t nodes = assembled.assembly.nodes.size();
     built.step = std::numeric_limits<double>::infinity();
     built.number.assign(nodes, -1);
     built.relaxation_mass.assign(nodes, 0);
     Lists lists;
-    built.first_of_beam.assign(model.scene.beams.size() + 1, 0);
-    for (const Assembly::BeamChain& chain : model.assembly.beam_chains) {
-      add_chain(model, built, lists, chain);
+    built.first_of_beam.assign(assembled.scene.beams.size() + 1, 0);
+    for (const Assembly::BeamChain& chain : assembled.assembly.beam_chains) {
+      add_chain(assembled, built, lists, chain);
       built.first_of_beam[chain.beam + 1] = static_cast<int>(lists.end.size());
     }
     BeamArrays& arrays = built.arrays;
@@ -173,19 +173,18 @@ void build_beams(Model& model) {
     for (std::size_t b = 0; b < lists.arm.size(); ++b) lists.arm[b] /= lists.elements[b];
     built.arm = to_device("beam arm", lists.arm);
   }
-  hold_rotations(model);
-  refuse_points_without_mass(model);
+  hold_rotations(assembled, beams);
+  refuse_points_without_mass(assembled);
 }
 
-int beam_node_of(const Model& model, const std::vector<int>& nodes) {
-  return model.beams && nodes.size() == 1 ? model.beams->number[nodes.front()] : -1;
+int beam_node_of(const std::shared_ptr<BeamModel>& beams, const std::vector<int>& nodes) {
+  return beams && nodes.size() == 1 ? beams->number[nodes.front()] : -1;
 }
 
-void add_moments(Model& model) {
-  BeamModel& built = *model.beams;
+void add_moments(const scene::Scene& scene, const std::vector<LoadArrays>& loads, BeamModel& built) {
   std::vector<int> loaded;
   std::vector<Vec3> axis;
-  for (const LoadArrays& load : model.loads) {
+  for (const LoadArrays& load : loads) {
     if (load.beam_node < 0) continue;
     const Vec3& a = load.load->axis;
     const double size = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -194,7 +193,7 @@ void add_moments(Model& model) {
     axis.push_back({a[0] / size, a[1] / size, a[2] / size});
   }
   if (loaded.size() > BeamArrays::most_moments)
-    throw InputError(fmt::format("{}: [loads] {} torques on points are too many; a scene can have {}", model.scene.path,
+    throw InputError(fmt::format("{}: [loads] {} torques on points are too many; a scene can have {}", scene.path,
                                  loaded.size(), BeamArrays::most_moments));
   BeamArrays& arrays = built.arrays;
   arrays.moment_count = static_cast<int>(loaded.size());
@@ -204,28 +203,28 @@ void add_moments(Model& model) {
   build_gather(arrays, loaded);
 }
 
-void reset_beams(const Model& model) {
-  if (!model.beams) return;
-  const BeamArrays& beams = model.beams->arrays;
-  const auto rotation = Kokkos::create_mirror_view(beams.rotation);
-  for (int b = 0; b < beams.node_count; ++b)
+void reset_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes) {
+  if (!beams) return;
+  const BeamArrays& arrays = beams->arrays;
+  const auto rotation = Kokkos::create_mirror_view(arrays.rotation);
+  for (int b = 0; b < arrays.node_count; ++b)
     for (int k = 0; k < 4; ++k) rotation(b, k) = k == 0 ? 1 : 0;
-  Kokkos::deep_copy(beams.rotation, rotation);
-  tighten_beams(model, true);
+  Kokkos::deep_copy(arrays.rotation, rotation);
+  tighten_beams(beams, nodes, true);
 }
 
-void tighten_beams(const Model& model, bool all) {
-  if (!model.beams) return;
-  const BeamArrays& beams = model.beams->arrays;
-  Kokkos::parallel_for("tighten_beams", Range(0, beams.count), TightenBeams{beams, model.nodes.position, all});
+void tighten_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes, bool all) {
+  if (!beams) return;
+  const BeamArrays& arrays = beams->arrays;
+  Kokkos::parallel_for("tighten_beams", Range(0, arrays.count), TightenBeams{arrays, nodes.position, all});
 }
 
-std::string describe_beam_inertia(const Model& model) {
-  if (!model.beams || model.beams->scaled == 0) return {};
+std::string describe_beam_inertia(const std::shared_ptr<BeamModel>& beams) {
+  if (!beams || beams->scaled == 0) return {};
   return fmt::format(
       "rotary inertia of {} of {} beam elements is up to {:.3g} times their section's, so that it does not shorten the "
       "step",
-      model.beams->scaled, model.beams->arrays.count, model.beams->inertia_scale);
+      beams->scaled, beams->arrays.count, beams->inertia_scale);
 }
 
 }  // namespace railwave

@@ -1,7 +1,13 @@
 #pragma once
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "kernels/beams/beam.hpp"
-#include "model/model.hpp"
+#include "kernels/nodes/nodes.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/loads/load_model.hpp"
 
 namespace railwave {
 
@@ -30,19 +36,20 @@ void lay_beams(const scene::Scene& scene, Assembly& assembly);
 std::array<Vec3, 3> beam_axes(const scene::Scene& scene, const scene::Beam& beam, const Vec3& from, const Vec3& to);
 
 /// Number among the beam nodes of the single node of a set; -1: the set has several, or no beam ends there.
-int beam_node_of(const Model& model, const std::vector<int>& nodes);
+/// @param beams null in a scene without beams, here and below
+int beam_node_of(const std::shared_ptr<BeamModel>& beams, const std::vector<int>& nodes);
 
 /// Readies the moments from outside, which follow the loads. Their beam nodes have been found.
-void add_moments(Model& model);
+void add_moments(const scene::Scene& scene, const std::vector<LoadArrays>& loads, BeamModel& built);
 
 /// Rotations and stretches as at the start, where all else is zero.
-void reset_beams(const Model& model);
+void reset_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes);
 
 /// Pretensions are kept by the stretch from here on.
 /// @param all false: only of the elements that held them while the scene settled
-void tighten_beams(const Model& model, bool all);
+void tighten_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes, bool all);
 
 /// A line on the beams' rotary inertia, where it had to be scaled; none otherwise.
-std::string describe_beam_inertia(const Model& model);
+std::string describe_beam_inertia(const std::shared_ptr<BeamModel>& beams);
 
 }  // namespace railwave

@@ -1,4 +1,4 @@
-#include "model/boundaries/absorbing_layer.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 
 #include <fmt/format.h>
 
@@ -151,37 +151,37 @@ AbsorbingLayers absorbing_layers(const scene::Scene& scene, const Assembly& asse
   return layers;
 }
 
-std::vector<std::string> describe_absorbing_layers(const Model& model) {
+std::vector<std::string> describe_absorbing_layers(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
   std::vector<std::string> lines;
-  for (const Zone& zone : model.absorbing.zones) {
-    const scene::AbsorbingLayer& layer = model.scene.absorbing_layers[zone.layer];
-    const double speed = bar_speed(model.scene.materials[model.assembly.parts[zone.part].material]);
+  for (const Zone& zone : absorbing.zones) {
+    const scene::AbsorbingLayer& layer = assembled.scene.absorbing_layers[zone.layer];
+    const double speed = bar_speed(assembled.scene.materials[assembled.assembly.parts[zone.part].material]);
     lines.push_back(
         fmt::format("[absorbing_layers.{}]: {} nodes of {} within {:.4g} m of '{}', {:.1f} elements deep, damped by up "
                     "to {:.4g} 1/s; of waves no longer "
                     "than the layer (longitudinal: above {:.4g} Hz), and of bending waves no longer than {:.4g} m, it "
                     "sends back {:.2g} % at most",
-                    layer.name, zone.nodes, model.assembly.parts[zone.part].name, layer.length, layer.target,
+                    layer.name, zone.nodes, assembled.assembly.parts[zone.part].name, layer.length, layer.target,
                     layer.length / zone.element, zone.rate, speed / layer.length, layer.length / lengths_of_bending,
                     100 * sent_back(layer.reflection)));
   }
   return lines;
 }
 
-std::vector<std::string> describe_slender_ends(const Model& model) {
+std::vector<std::string> describe_slender_ends(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
   std::vector<std::string> lines;
-  for (const scene::NonReflecting& end : model.scene.non_reflecting) {
-    const auto& surface = find_surface(model.scene, model.assembly, end, "target", end.target);
-    const int part = part_of_element(model.assembly, surface[0].element);
-    const Plane plane = plane_of(model.assembly, surface);
+  for (const scene::NonReflecting& end : assembled.scene.non_reflecting) {
+    const auto& surface = find_surface(assembled.scene, assembled.assembly, end, "target", end.target);
+    const int part = part_of_element(assembled.assembly, surface[0].element);
+    const Plane plane = plane_of(assembled.assembly, surface);
     const auto covers = [&](const Zone& zone) {
       return zone.part == part && dot(zone.outwards, plane.normal) > leaning &&
              std::fabs(distance_from(plane, zone.end)) < zone.element;
     };
-    if (std::any_of(model.absorbing.zones.begin(), model.absorbing.zones.end(), covers)) continue;
-    const Extents extents = extents_of(model.assembly, surface, plane);
+    if (std::any_of(absorbing.zones.begin(), absorbing.zones.end(), covers)) continue;
+    const Extents extents = extents_of(assembled.assembly, surface, plane);
     if (!(extents.along > slender * extents.across)) continue;
-    const scene::Material& material = model.scene.materials[model.assembly.parts[part].material];
+    const scene::Material& material = assembled.scene.materials[assembled.assembly.parts[part].material];
     lines.push_back(
         fmt::format("[non_reflecting.{}] (line {}) lets out waves of the continuum ({:.0f} and {:.0f} m/s), but part "
                     "{} is slender ({:.3g} m long, {:.3g} m across): its longitudinal "
@@ -189,7 +189,7 @@ std::vector<std::string> describe_slender_ends(const Model& model) {
                     "by more; [absorbing_layers.{}] with target = \"{}\" and a length of "
                     "one or two wavelengths takes these too",
                     end.name, end.line, material.dilatational_speed(), material.shear_speed(),
-                    model.assembly.parts[part].name, extents.along, extents.across, bar_speed(material),
+                    assembled.assembly.parts[part].name, extents.along, extents.across, bar_speed(material),
                     100 * (material.dilatational_speed() - bar_speed(material)) /
                         (material.dilatational_speed() + bar_speed(material)),
                     end.name, end.target));
@@ -197,18 +197,18 @@ std::vector<std::string> describe_slender_ends(const Model& model) {
   return lines;
 }
 
-std::vector<std::string> absorbing_doubts(const Model& model) {
+std::vector<std::string> absorbing_doubts(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
   std::vector<std::string> doubts;
-  for (const Zone& zone : model.absorbing.zones) {
-    const scene::AbsorbingLayer& layer = model.scene.absorbing_layers[zone.layer];
-    const std::string& part = model.assembly.parts[zone.part].name;
+  for (const Zone& zone : absorbing.zones) {
+    const scene::AbsorbingLayer& layer = assembled.scene.absorbing_layers[zone.layer];
+    const std::string& part = assembled.assembly.parts[zone.part].name;
     if (layer.length < few_elements * zone.element)
       doubts.push_back(
           fmt::format("[absorbing_layers.{}] (line {}) is {:.2g} elements deep ({:.4g} m of {:.4g} m each), over which "
                       "its damping grows in large steps that send waves back; make it at "
                       "least {:.0f} elements deep",
                       layer.name, layer.line, layer.length / zone.element, layer.length, zone.element, few_elements));
-    for (const scene::InitialMotion& motion : model.scene.initial_motions)
+    for (const scene::InitialMotion& motion : assembled.scene.initial_motions)
       if (std::find(motion.parts.begin(), motion.parts.end(), part) != motion.parts.end() &&
           (length(motion.velocity) > 0 || length(motion.angular_velocity) > 0))
         doubts.push_back(

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "mesh/vectors.hpp"
+
 namespace railwave {
 
 void add_direction(HeldDirections& directions, scene::Vec3 d) {
@@ -30,6 +32,20 @@ std::map<int, HeldDirections> held_directions(const scene::Scene& scene, const A
       for (int a = 0; a < 3; ++a)
         if (motion.directions[a]) add_direction(held[n], motion.axes[a]);
   return held;
+}
+
+bool force_is_held(const std::map<int, HeldDirections>& held, int node, const Vec3& force) {
+  const auto found = held.find(node);
+  if (found == held.end()) return false;
+  Vec3 rest = force;
+  for (const Vec3& d : found->second)
+    for (int i = 0; i < 3; ++i) rest[i] -= dot(force, d) * d[i];
+  return length(rest) <= 1e-9 * length(force);
+}
+
+bool wholly_held(const std::map<int, HeldDirections>& held, int node) {
+  const auto found = held.find(node);
+  return found != held.end() && found->second.size() >= 3;
 }
 
 Array<double* [3][3]> projections(const std::map<int, HeldDirections>& held, std::vector<int>& row_of_node) {

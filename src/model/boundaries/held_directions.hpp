@@ -21,6 +21,12 @@ void hold(HeldDirections& directions);
 /// In which constraints and prescribed motions hold nodes.
 std::map<int, HeldDirections> held_directions(const scene::Scene& scene, const Assembly& assembly);
 
+/// Whether what holds a node leaves nothing of a force in that direction.
+bool force_is_held(const std::map<int, HeldDirections>& held, int node, const Vec3& force);
+
+/// Whether all three directions of a node are held.
+bool wholly_held(const std::map<int, HeldDirections>& held, int node);
+
 /// A projection I - sum d d^T for each different set of directions, and which one each node has.
 /// @param row_of_node set for the nodes in `held`, left as it is for others
 Array<double* [3][3]> projections(const std::map<int, HeldDirections>& held, std::vector<int>& row_of_node);

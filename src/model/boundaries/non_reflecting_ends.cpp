@@ -1,4 +1,4 @@
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 
 #include <fmt/format.h>
 
@@ -11,6 +11,7 @@
 #include "mesh/hexahedron.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -18,14 +19,15 @@ namespace {
 
 using Matrix = std::array<std::array<double, 3>, 3>;
 
-const scene::Material& material_under(const Model& model, const Face& face) {
-  return model.scene.materials[model.assembly.parts[part_of_element(model.assembly, face.element)].material];
+const scene::Material& material_under(const AssembledScene& assembled, const Face& face) {
+  return assembled.scene
+      .materials[assembled.assembly.parts[part_of_element(assembled.assembly, face.element)].material];
 }
 
 /// Adds a face's dashpots, rho A (C_s I + (C_d - C_s) n n^T), a quarter on each corner.
-void add_face(const Model& model, const Face& face, std::map<int, Matrix>& dashpots) {
-  const auto corner = model.assembly.face_nodes(face);
-  const auto& x = model.assembly.nodes;
+void add_face(const AssembledScene& assembled, const Face& face, std::map<int, Matrix>& dashpots) {
+  const auto corner = assembled.assembly.face_nodes(face);
+  const auto& x = assembled.assembly.nodes;
   const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
   Vec3 n{};
   for (int i = 0; i < 3; ++i) {
@@ -34,7 +36,7 @@ void add_face(const Model& model, const Face& face, std::map<int, Matrix>& dashp
            ((x[corner[2]][j] - x[corner[0]][j]) * (x[corner[3]][k] - x[corner[1]][k]) -
             (x[corner[2]][k] - x[corner[0]][k]) * (x[corner[3]][j] - x[corner[1]][j]));
   }
-  const scene::Material& material = material_under(model, face);
+  const scene::Material& material = material_under(assembled, face);
   const double across = material.shear_speed(), more = material.dilatational_speed() - across;
   for (int node : corner)
     for (int i = 0; i < 3; ++i)
@@ -53,26 +55,28 @@ void take_out(Matrix& c, const std::vector<Vec3>& held) {
       }
 }
 
-[[noreturn]] void refuse(const Model& model, const scene::NonReflecting& end, int node, const std::string& why) {
-  const Vec3& x = model.assembly.nodes[node];
+[[noreturn]] void refuse(const AssembledScene& assembled, const scene::NonReflecting& end, int node,
+                         const std::string& why) {
+  const Vec3& x = assembled.assembly.nodes[node];
   throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at ({:.6g}, {:.6g}, {:.6g}) m {}",
-                               model.scene.path, end.line, end.name, x[0], x[1], x[2], why));
+                               assembled.scene.path, end.line, end.name, x[0], x[1], x[2], why));
 }
 
-void check_nodes(const Model& model, const scene::NonReflecting& end, const std::vector<Face>& surface) {
+void check_nodes(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                 const scene::NonReflecting& end, const std::vector<Face>& surface) {
   std::set<int> own;
-  for (int n : surface_nodes(model.assembly, surface)) own.insert(n);
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
-    for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
+  for (int n : surface_nodes(assembled.assembly, surface)) own.insert(n);
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
+    for (int n : find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target))
       if (own.count(n) != 0)
-        refuse(model, end, n,
+        refuse(assembled, end, n,
                fmt::format("moves as [prescribed_motion.{}] says; leave it out of one of the two", motion.name));
-  for (const ContactPair& pair : model.contacts)
+  for (const ContactPair& pair : contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes)
         if (!pair.has_springs() && own.count(n) != 0)
           refuse(
-              model, end, n,
+              assembled, end, n,
               fmt::format(
                   "belongs to [contacts.{}], whose algorithm \"multiplier\" cannot predict dashpots; set algorithm = "
                   "\"penalty\", or end that surface before the end",
@@ -81,25 +85,25 @@ void check_nodes(const Model& model, const scene::NonReflecting& end, const std:
 
 }  // namespace
 
-void build_non_reflecting(Model& model) {
-  NonReflectingEnds& ends = model.ends;
+void build_non_reflecting(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                          NonReflectingEnds& ends) {
   ends = {};
-  if (model.scene.non_reflecting.empty()) return;
+  if (assembled.scene.non_reflecting.empty()) return;
   std::map<int, Matrix> dashpots;
   std::map<std::array<int, 2>, const scene::NonReflecting*> taken;
-  for (const scene::NonReflecting& end : model.scene.non_reflecting) {
-    const auto& surface = find_surface(model.scene, model.assembly, end, "target", end.target);
-    check_nodes(model, end, surface);
+  for (const scene::NonReflecting& end : assembled.scene.non_reflecting) {
+    const auto& surface = find_surface(assembled.scene, assembled.assembly, end, "target", end.target);
+    check_nodes(assembled, contacts, end, surface);
     for (const Face& face : surface) {
       const auto [known, first] = taken.try_emplace({face.element, face.side}, &end);
       if (!first)
-        refuse(model, end, model.assembly.face_nodes(face)[0],
+        refuse(assembled, end, assembled.assembly.face_nodes(face)[0],
                fmt::format("is of a face that [non_reflecting.{}] has already; name surfaces without common faces",
                            known->second->name));
-      add_face(model, face, dashpots);
+      add_face(assembled, face, dashpots);
     }
   }
-  const auto held = held_directions(model.scene, model.assembly);
+  const auto held = held_directions(assembled.scene, assembled.assembly);
   std::vector<std::array<double, 6>> rows;
   for (auto& [node, c] : dashpots) {
     const auto directions = held.find(node);
@@ -117,10 +121,10 @@ void build_non_reflecting(Model& model) {
   arrays.dissipated = Array<double*>("dissipated by ends", rows.size());
 }
 
-void hold_ends(Model& model, const Array<double* [3]>& unbalanced) {
-  if (model.ends.arrays.count > 0)
-    Kokkos::parallel_for("hold_ends", Range(0, model.ends.arrays.count),
-                         HoldEnds{model.ends.arrays, model.nodes.position, unbalanced});
+void hold_ends(const NonReflectingEnds& ends, const Array<double* [3]>& position,
+               const Array<double* [3]>& unbalanced) {
+  if (ends.arrays.count > 0)
+    Kokkos::parallel_for("hold_ends", Range(0, ends.arrays.count), HoldEnds{ends.arrays, position, unbalanced});
 }
 
 }  // namespace railwave

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "case/error.hpp"
+#include "model/assembled_scene.hpp"
 #include "model/build_steps.hpp"
-#include "model/checks/centre_of_mass.hpp"
 #include "model/host_copy.hpp"
+#include "model/loads/load_model.hpp"
 
 namespace railwave {
 namespace {
@@ -39,39 +40,38 @@ void hold_directions(const scene::PrescribedMotion& motion, double (&held)[3][3]
 }
 
 /// The set would jump in the first step.
-void refuse_jump(const Model& model, const scene::PrescribedMotion& motion, const scene::Curve* curve) {
+void refuse_jump(const scene::Scene& scene, const scene::PrescribedMotion& motion, const scene::Curve* curve) {
   if (curve == nullptr || curve_value(curve, 0) == 0) return;
   throw InputError(fmt::format(
       "{}:{}: [prescribed_motion.{}] displacement_curve: '{}' is {:g} at t = 0, so that '{}' would jump there; let it "
       "begin with 0",
-      model.scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
+      scene.path, motion.line, motion.name, motion.displacement_curve, curve_value(curve, 0), motion.target));
 }
 
 }  // namespace
 
-void build_prescribed_motions(Model& model) {
-  const auto undeformed = [&](int n, int i) { return model.assembly.nodes[n][i]; };
-  std::vector<char> taken(model.assembly.nodes.size(), 0);
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed) {
+  std::vector<char> taken(assembled.assembly.nodes.size(), 0);
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
     for (int n : nodes) {
       if (taken[n] != 0)
         throw InputError(
             fmt::format("{}:{}: [prescribed_motion.{}]: a node of '{}' has a prescribed motion already; name sets "
                         "without common nodes",
-                        model.scene.path, motion.line, motion.name, motion.target));
+                        assembled.scene.path, motion.line, motion.name, motion.target));
       taken[n] = 1;
     }
     PrescribedSet set;
     set.motion = &motion;
-    set.curve = curve_of(model.scene, motion.curve);
-    set.displacement_curve = curve_of(model.scene, motion.displacement_curve);
-    refuse_jump(model, motion, set.displacement_curve);
+    set.curve = curve_of(assembled.scene, motion.curve);
+    set.displacement_curve = curve_of(assembled.scene, motion.displacement_curve);
+    refuse_jump(assembled.scene, motion, set.displacement_curve);
     hold_directions(motion, set.held);
-    set.centre = motion.centre ? *motion.centre : centre_of_mass(model, nodes, undeformed);
+    set.centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
     set.nodes = to_device("nodes of prescribed motion", nodes);
     set.work = Array<double*>("work of prescribed motion", nodes.size());
-    model.prescribed.push_back(set);
+    prescribed.push_back(set);
   }
 }
 
@@ -89,14 +89,14 @@ RigidPlace place_at(const PrescribedSet& set, double time) {
   return place;
 }
 
-PrescribedMotion prescribed_motion(const Model& model, const PrescribedSet& set, double step) {
-  const NodalAcceleration acceleration = model.acceleration();
+PrescribedMotion prescribed_motion(const NodalState& nodal, const PrescribedSet& set, double step) {
+  const NodalAcceleration acceleration = nodal.acceleration();
   PrescribedMotion motion{acceleration.force,
                           acceleration.gravity,
                           set.nodes,
                           set.work,
-                          place_at(set, model.time + step),
-                          model.velocity_lag,
+                          place_at(set, nodal.time + step),
+                          nodal.velocity_lag,
                           step,
                           {}};
   for (int i = 0; i < 3; ++i)

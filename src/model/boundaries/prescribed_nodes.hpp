@@ -7,9 +7,8 @@
 
 namespace railwave {
 
-struct Model;
-
-/// A node set that moves as a rigid motion says, in the directions that are prescribed.
+/// A node set that moves as a rigid motion says, in the directions that are prescribed. In the others forces move its
+/// nodes. No node is of two such sets.
 struct PrescribedSet {
   const scene::PrescribedMotion* motion = nullptr;
   const scene::Curve* curve = nullptr;  ///< of the velocities; null: constant 1
@@ -25,6 +24,7 @@ struct PrescribedSet {
 RigidPlace place_at(const PrescribedSet& set, double time);
 
 /// The kernel that moves a set from the present instant by a step; and, with a step of 0, what its account needs.
-PrescribedMotion prescribed_motion(const Model& model, const PrescribedSet& set, double step);
+/// @param step s
+PrescribedMotion prescribed_motion(const NodalState& nodal, const PrescribedSet& set, double step);
 
 }  // namespace railwave

@@ -10,6 +10,7 @@
 #include "kernels/contact/contact_projection.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -88,9 +89,9 @@ std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m",
 /// What one of a tie's nodes may not be besides.
 class Conflicts {
  public:
-  explicit Conflicts(const Model& model)
-      : model_(model), held_(held_directions(model.scene, model.assembly)), why_(model.mass.size()) {
-    for (const ContactPair& pair : model.contacts) {
+  Conflicts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts)
+      : held_(held_directions(assembled.scene, assembled.assembly)), why_(assembled.mass.size()) {
+    for (const ContactPair& pair : contacts) {
       if (pair.has_springs()) continue;
       for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
         for (int n : *nodes)
@@ -99,11 +100,12 @@ class Conflicts {
               "algorithm = \"penalty\", or end that surface before the tie",
               pair.contact->name);
     }
-    for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
-      for (int n : find_node_set(model.scene, model.assembly, motion, "target", motion.target))
+    for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
+      for (int n : find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target))
         why_[n] = fmt::format("moves as [prescribed_motion.{}] says; tie other nodes", motion.name);
-    for (const scene::NonReflecting& end : model.scene.non_reflecting)
-      for (int n : surface_nodes(model.assembly, find_surface(model.scene, model.assembly, end, "target", end.target)))
+    for (const scene::NonReflecting& end : assembled.scene.non_reflecting)
+      for (int n : surface_nodes(assembled.assembly,
+                                 find_surface(assembled.scene, assembled.assembly, end, "target", end.target)))
         why_[n] = fmt::format(
             "belongs to [non_reflecting.{}]; make its surface the tie's master, or end it before the tie", end.name);
   }
@@ -138,31 +140,31 @@ class Conflicts {
     return true;
   }
 
-  const Model& model_;
   std::map<int, std::vector<Vec3>> held_;
   std::vector<std::string> why_;
 };
 
-[[noreturn]] void refuse(const Model& model, const scene::Tie& tie, const std::string& what) {
-  throw InputError(fmt::format("{}:{}: [ties.{}]: {}", model.scene.path, tie.line, tie.name, what));
+[[noreturn]] void refuse(const scene::Scene& scene, const scene::Tie& tie, const std::string& what) {
+  throw InputError(fmt::format("{}:{}: [ties.{}]: {}", scene.path, tie.line, tie.name, what));
 }
 
-void refuse_far(const Model& model, const scene::Tie& tie, const std::vector<std::string>& far, std::size_t slaves) {
+void refuse_far(const scene::Scene& scene, const scene::Tie& tie, const std::vector<std::string>& far,
+                std::size_t slaves) {
   if (far.empty()) return;
   std::string list;
   for (std::size_t k = 0; k < std::min<std::size_t>(far.size(), 3); ++k) list += (k == 0 ? "" : "; ") + far[k];
-  refuse(model, tie,
+  refuse(scene, tie,
          fmt::format(
              "{} of the {} nodes of '{}' have no face of '{}' near enough: {}{}; place the surfaces on each other, "
              "take nodes beside the master out of the slave, or give a larger max_distance",
              far.size(), slaves, tie.slave, tie.master, list, far.size() > 3 ? "; ..." : ""));
 }
 
-void add_tie(Model& model, const scene::Tie& tie, Conflicts& conflicts) {
-  const Assembly& assembly = model.assembly;
-  const auto slaves = surface_nodes(assembly, find_surface(model.scene, assembly, tie, "slave", tie.slave));
+void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& conflicts, Ties& ties) {
+  const Assembly& assembly = assembled.assembly;
+  const auto slaves = surface_nodes(assembly, find_surface(assembled.scene, assembly, tie, "slave", tie.slave));
   std::vector<MasterFace> faces;
-  for (const Face& face : find_surface(model.scene, assembly, tie, "master", tie.master))
+  for (const Face& face : find_surface(assembled.scene, assembly, tie, "master", tie.master))
     faces.emplace_back(assembly, face);
   std::vector<std::string> far;
   for (int n : slaves) {
@@ -178,47 +180,47 @@ void add_tie(Model& model, const scene::Tie& tie, Conflicts& conflicts) {
     const TiedPlace tied = tied_place(n, x, face, nearest.place);
     for (int corner : tied.face)
       if (corner == n)
-        refuse(model, tie,
+        refuse(assembled.scene, tie,
                fmt::format("'{}' and '{}' share the node at {}; name surfaces without common nodes", tie.slave,
                            tie.master, at(assembly.nodes[n])));
     const std::string conflict = conflicts.of(tied);
     if (!conflict.empty())
-      refuse(model, tie, fmt::format("the slave's node at {} {}", at(assembly.nodes[n]), conflict));
+      refuse(assembled.scene, tie, fmt::format("the slave's node at {} {}", at(assembly.nodes[n]), conflict));
     conflicts.take(n, tie);
-    model.ties.places.push_back(tied);
+    ties.places.push_back(tied);
   }
-  refuse_far(model, tie, far, slaves.size());
+  refuse_far(assembled.scene, tie, far, slaves.size());
 }
 
 /// A slave must not carry another one: forces go over one tie only.
-void refuse_chains(const Model& model) {
-  std::vector<char> slave(model.mass.size(), 0);
-  for (const TiedPlace& tied : model.ties.places) slave[tied.slave] = 1;
-  for (const TiedPlace& tied : model.ties.places)
+void refuse_chains(const AssembledScene& assembled, const Ties& ties) {
+  std::vector<char> slave(assembled.mass.size(), 0);
+  for (const TiedPlace& tied : ties.places) slave[tied.slave] = 1;
+  for (const TiedPlace& tied : ties.places)
     for (int n : tied.face)
       if (slave[n] != 0)
-        refuse(model, model.scene.ties.back(),
+        refuse(assembled.scene, assembled.scene.ties.back(),
                fmt::format("the node at {} is of a slave and of a master; ties cannot follow each other: let "
                            "one surface be the master of both, or end the surfaces before they meet",
-                           at(model.assembly.nodes[n])));
+                           at(assembled.assembly.nodes[n])));
 }
 
 /// Where the slave is the coarser mesh, nodes of the master between its nodes would hang free.
-void refuse_coarse_slaves(const Model& model) {
-  const Assembly& assembly = model.assembly;
-  std::vector<double> weight(model.mass.size(), 0);
-  for (const TiedPlace& tied : model.ties.places)
+void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
+  const Assembly& assembly = assembled.assembly;
+  std::vector<double> weight(assembled.mass.size(), 0);
+  for (const TiedPlace& tied : ties.places)
     for (int k = 0; k < 4; ++k) weight[tied.face[k]] += std::fabs(tied.weight[k]);
-  for (const scene::Tie& tie : model.scene.ties) {
+  for (const scene::Tie& tie : assembled.scene.ties) {
     std::vector<MasterFace> faces;
-    for (const Face& face : find_surface(model.scene, assembly, tie, "slave", tie.slave))
+    for (const Face& face : find_surface(assembled.scene, assembly, tie, "slave", tie.slave))
       faces.emplace_back(assembly, face);
-    for (int n : surface_nodes(assembly, find_surface(model.scene, assembly, tie, "master", tie.master))) {
+    for (int n : surface_nodes(assembly, find_surface(assembled.scene, assembly, tie, "master", tie.master))) {
       if (weight[n] > least_weight) continue;
       const Nearest nearest = nearest_face(faces, vector(assembly.nodes[n]));
       if (nearest.distance > default_distance * faces[nearest.face].diagonal || nearest.place.outside() > -least_weight)
         continue;
-      refuse(model, tie,
+      refuse(assembled.scene, tie,
              fmt::format(
                  "the master's node at {} lies on '{}', but no node of that is near it: the slave is the coarser mesh "
                  "there, and the surfaces would come apart between its nodes; exchange slave and master",
@@ -228,8 +230,7 @@ void refuse_coarse_slaves(const Model& model) {
 }
 
 /// Rows of the extra forces are known only later.
-void build_tie_arrays(Model& model) {
-  Ties& ties = model.ties;
+void build_tie_arrays(Ties& ties) {
   for (const TiedPlace& tied : ties.places) ties.masters.insert(ties.masters.end(), tied.face, tied.face + 4);
   std::sort(ties.masters.begin(), ties.masters.end());
   ties.masters.erase(std::unique(ties.masters.begin(), ties.masters.end()), ties.masters.end());
@@ -260,18 +261,18 @@ void build_tie_arrays(Model& model) {
 
 }  // namespace
 
-void build_ties(Model& model) {
-  model.ties = {};
-  if (model.scene.ties.empty()) return;
-  Conflicts conflicts(model);
-  for (const scene::Tie& tie : model.scene.ties) add_tie(model, tie, conflicts);
-  refuse_chains(model);
-  refuse_coarse_slaves(model);
-  build_tie_arrays(model);
+void build_ties(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, Ties& ties) {
+  ties = {};
+  if (assembled.scene.ties.empty()) return;
+  Conflicts conflicts(assembled, contacts);
+  for (const scene::Tie& tie : assembled.scene.ties) add_tie(assembled, tie, conflicts, ties);
+  refuse_chains(assembled, ties);
+  refuse_coarse_slaves(assembled, ties);
+  build_tie_arrays(ties);
 }
 
-std::vector<double> masses_with_ties(const Model& model, std::vector<double> mass) {
-  for (const TiedPlace& tied : model.ties.places) {
+std::vector<double> masses_with_ties(const Ties& ties, std::vector<double> mass) {
+  for (const TiedPlace& tied : ties.places) {
     double total = 0;
     for (double weight : tied.weight) total += std::fmax(weight, 0.0);
     for (int k = 0; k < 4; ++k) mass[tied.face[k]] += std::fmax(tied.weight[k], 0.0) / total * mass[tied.slave];

@@ -3,15 +3,14 @@
 #include <vector>
 
 #include "kernels/ties/tie.hpp"
-#include "model/assembled_scene.hpp"
 
 namespace railwave {
 
-struct Model;
-
-/// All ties together.
+/// All ties together. Each joins the nodes of one surface, its slaves, to faces of another, its master, where they lie
+/// undeformed; the two meshes need not match. The slaves' mesh is the finer one, and no slave carries another one. What
+/// multipliers press on, what a prescribed motion moves and what is of a non-reflecting end is no slave.
 struct Ties {
-  TieArrays arrays;
+  TieArrays arrays;               ///< their rows of the extra forces are known later than the rest
   std::vector<TiedPlace> places;  ///< host copy
   std::vector<int> masters;       ///< ascending
   Array<int*> carrier;            ///< by slave, where nodes are in single precision
@@ -21,6 +20,7 @@ struct Ties {
 /// the weights of forces. In motions that ties allow, these masses have no less kinetic energy than the true ones have
 /// where they are (Jensen's inequality), so that ties never raise the highest frequency. Slaves keep a trace, as no
 /// mass may be zero.
-std::vector<double> masses_with_ties(const Model& model, std::vector<double> mass);
+/// @param mass by node, without ties
+std::vector<double> masses_with_ties(const Ties& ties, std::vector<double> mass);
 
 }  // namespace railwave

@@ -10,11 +10,12 @@
 #include "case/error.hpp"
 #include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
+#include "model/assembled_scene.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
-#include "model/checks/centre_of_mass.hpp"
-#include "model/checks/outside.hpp"
-#include "model/checks/overlapping_parts.hpp"
+#include "model/checks/inside_bodies.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/loads/load_model.hpp"
 
 // Entries of a scene that cannot all hold, as far as it takes the meshes to see it. What the case file alone shows is
 // in case/rules_scene.cpp; what may be meant is told by model/checks/doubts.cpp.
@@ -22,8 +23,8 @@ namespace railwave {
 namespace {
 
 template <class Entry>
-[[noreturn]] void refuse(const Model& model, const char* section, const Entry& entry, const std::string& what) {
-  throw InputError(fmt::format("{}:{}: [{}.{}]: {}", model.scene.path, entry.line, section, entry.name, what));
+[[noreturn]] void refuse(const scene::Scene& scene, const char* section, const Entry& entry, const std::string& what) {
+  throw InputError(fmt::format("{}:{}: [{}.{}]: {}", scene.path, entry.line, section, entry.name, what));
 }
 
 std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
@@ -49,16 +50,14 @@ Prescribed prescribed_at(const scene::PrescribedMotion& motion, const Vec3& cent
 }
 
 /// A prescribed motion that moves nodes which a constraint holds: one of both would win in silence.
-void refuse_moved_constraints(const Model& model) {
+void refuse_moved_constraints(const AssembledScene& assembled) {
   std::map<int, std::pair<const scene::PrescribedMotion*, Prescribed>> moved;
   double fastest = 0, farthest = 0;
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-    const Vec3 centre = motion.centre
-                            ? *motion.centre
-                            : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
+    const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
     for (int n : nodes) {
-      const Prescribed here = prescribed_at(motion, centre, model.assembly.nodes[n]);
+      const Prescribed here = prescribed_at(motion, centre, assembled.assembly.nodes[n]);
       fastest = std::max(fastest, length(here.velocity));
       farthest = std::max(farthest, length(here.displacement));
       moved[n] = {&motion, here};
@@ -66,8 +65,8 @@ void refuse_moved_constraints(const Model& model) {
   }
   if (moved.empty()) return;
   constexpr double rounding = 1e-6;
-  for (const scene::Constraint& constraint : model.scene.constraints)
-    for (int n : find_node_set(model.scene, model.assembly, constraint, "target", constraint.target)) {
+  for (const scene::Constraint& constraint : assembled.scene.constraints)
+    for (int n : find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target)) {
       const auto found = moved.find(n);
       if (found == moved.end()) continue;
       const auto& [motion, here] = found->second;
@@ -76,11 +75,11 @@ void refuse_moved_constraints(const Model& model) {
         const double speed = dot(here.velocity, constraint.axes[a]), way = dot(here.displacement, constraint.axes[a]);
         const bool fast = std::fabs(speed) > rounding * fastest, far = std::fabs(way) > rounding * farthest;
         if (!fast && !far) continue;
-        refuse(model, "constraints", constraint,
+        refuse(assembled.scene, "constraints", constraint,
                fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; "
                            "leave the common nodes of '{}' and '{}' out of one of the "
                            "two, or give only the other `directions`",
-                           at(model.assembly.nodes[n]), along(constraint.axes[a]), motion->name, motion->line,
+                           at(assembled.assembly.nodes[n]), along(constraint.axes[a]), motion->name, motion->line,
                            fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way), constraint.target,
                            motion->target));
       }
@@ -88,11 +87,11 @@ void refuse_moved_constraints(const Model& model) {
 }
 
 /// The faces of one side of a contact or tie, to be compared with those of others.
-std::set<std::array<int, 2>> faces_of(const Model& model, const scene::Place& entry, const char* key,
+std::set<std::array<int, 2>> faces_of(const AssembledScene& assembled, const scene::Place& entry, const char* key,
                                       const scene::SurfaceNames& names) {
   std::set<std::array<int, 2>> faces;
   for (const std::string& name : names)
-    for (const Face& face : find_surface(model.scene, model.assembly, entry, key, name))
+    for (const Face& face : find_surface(assembled.scene, assembled.assembly, entry, key, name))
       faces.insert({face.element, face.side});
   return faces;
 }
@@ -104,11 +103,12 @@ struct Pair {
 };
 
 template <class Entry>
-std::vector<Pair> pairs_of(const Model& model, const std::vector<Entry>& entries) {
+std::vector<Pair> pairs_of(const AssembledScene& assembled, const std::vector<Entry>& entries) {
   std::vector<Pair> pairs;
   for (const Entry& entry : entries)
     pairs.push_back({&entry, entry.slave, scene::SurfaceNames(entry.master).text(),
-                     faces_of(model, entry, "slave", entry.slave), faces_of(model, entry, "master", entry.master)});
+                     faces_of(assembled, entry, "slave", entry.slave),
+                     faces_of(assembled, entry, "master", entry.master)});
   return pairs;
 }
 
@@ -127,13 +127,13 @@ bool same_names(const Pair& a, const Pair& b) {
          (a.slave_name == b.master_name && a.master_name == b.slave_name);
 }
 
-void refuse_double_pairs(const Model& model) {
-  const auto contacts = pairs_of(model, model.scene.contacts), ties = pairs_of(model, model.scene.ties);
+void refuse_double_pairs(const AssembledScene& assembled) {
+  const auto contacts = pairs_of(assembled, assembled.scene.contacts), ties = pairs_of(assembled, assembled.scene.ties);
   for (std::size_t i = 0; i < contacts.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       // The same two names are refused when the case is read.
       if (!same_names(contacts[i], contacts[j]) && meet(contacts[i], contacts[j]))
-        refuse(model, "contacts", *contacts[i].entry,
+        refuse(assembled.scene, "contacts", *contacts[i].entry,
                fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), where "
                            "their forces would count twice; keep one of them, or name "
                            "surfaces without common faces",
@@ -142,7 +142,7 @@ void refuse_double_pairs(const Model& model) {
   for (const Pair& tie : ties)
     for (const Pair& contact : contacts)
       if (meet(tie, contact))
-        refuse(model, "ties", *tie.entry,
+        refuse(assembled.scene, "ties", *tie.entry,
                fmt::format("'{}' and '{}' have faces in common with both surfaces of [contacts.{}] (line {}), but what "
                            "is tied neither opens nor slides; keep one of the two, "
                            "or name surfaces without common faces",
@@ -150,57 +150,57 @@ void refuse_double_pairs(const Model& model) {
 }
 
 /// Faces inside a body touch nothing and let nothing out.
-void refuse_inner_faces(const Model& model) {
-  if (model.scene.contacts.empty() && model.scene.non_reflecting.empty()) return;
-  const OutsideFaces outside(model.assembly);
+void refuse_inner_faces(const AssembledScene& assembled) {
+  if (assembled.scene.contacts.empty() && assembled.scene.non_reflecting.empty()) return;
+  const OutsideFaces outside(assembled.assembly);
   const auto check = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name,
                          const char* why) {
-    const auto& surface = find_surface(model.scene, model.assembly, entry, key, name);
+    const auto& surface = find_surface(assembled.scene, assembled.assembly, entry, key, name);
     std::size_t inside = 0;
     Vec3 place{};
     for (const Face& face : surface) {
       if (outside.has(face)) continue;
       if (inside++ > 0) continue;
-      for (int n : model.assembly.face_nodes(face))
-        for (int i = 0; i < 3; ++i) place[i] += 0.25 * model.assembly.nodes[n][i];
+      for (int n : assembled.assembly.face_nodes(face))
+        for (int i = 0; i < 3; ++i) place[i] += 0.25 * assembled.assembly.nodes[n][i];
     }
     if (inside == 0) return;
     throw InputError(fmt::format(
         "{}:{}: [{}.{}] {}: {} of the {} faces of '{}' lie inside the body, between two elements, the first at {}; {}",
-        model.scene.path, entry.line, section, entry.name, key, inside, surface.size(), name, at(place), why));
+        assembled.scene.path, entry.line, section, entry.name, key, inside, surface.size(), name, at(place), why));
   };
   constexpr const char* no_contact = "nothing can touch them: name a surface on the outside";
-  for (const scene::Contact& contact : model.scene.contacts) {
+  for (const scene::Contact& contact : assembled.scene.contacts) {
     check("contacts", contact, "slave", contact.slave, no_contact);
     for (const std::string& master : contact.master) check("contacts", contact, "master", master, no_contact);
   }
-  for (const scene::NonReflecting& end : model.scene.non_reflecting)
+  for (const scene::NonReflecting& end : assembled.scene.non_reflecting)
     check("non_reflecting", end, "target", end.target, "waves leave a body on its outside: name a surface there");
 }
 
 /// Both ends are the same nodes under two names.
-void refuse_empty_connectors(const Model& model) {
+void refuse_empty_connectors(const AssembledScene& assembled) {
   const auto nodes = [&](const scene::Place& entry, const char* key, const std::string& name) {
-    auto result = find_node_set(model.scene, model.assembly, entry, key, name);
+    auto result = find_node_set(assembled.scene, assembled.assembly, entry, key, name);
     std::sort(result.begin(), result.end());
     return result;
   };
-  for (const scene::Connector& connector : model.scene.connectors) {
+  for (const scene::Connector& connector : assembled.scene.connectors) {
     if (connector.from == "ground" || connector.to == "ground" ||
         nodes(connector, "from", connector.from) != nodes(connector, "to", connector.to))
       continue;
-    refuse(model, "connectors", connector,
+    refuse(assembled.scene, "connectors", connector,
            fmt::format("'{}' and '{}' are the same nodes, between which nothing is ever stretched; name two ends",
                        connector.from, connector.to));
   }
 }
 
 /// One part in the place of another, as copying its section makes it.
-void refuse_coincident_parts(const Model& model) {
-  for (const PartOverlap& overlap : part_overlaps(model.assembly)) {
+void refuse_coincident_parts(const AssembledScene& assembled) {
+  for (const PartOverlap& overlap : part_overlaps(assembled.assembly)) {
     if (!overlap.coincident) continue;
-    const scene::Part &first = model.scene.parts[overlap.first], &second = model.scene.parts[overlap.second];
-    refuse(model, "parts", second,
+    const scene::Part &first = assembled.scene.parts[overlap.first], &second = assembled.scene.parts[overlap.second];
+    refuse(assembled.scene, "parts", second,
            fmt::format("lies in the place of [parts.{}] (line {}), node on node; give it another position, or leave "
                        "one of the two out",
                        first.name, first.line));
@@ -208,29 +208,30 @@ void refuse_coincident_parts(const Model& model) {
 }
 
 /// A struck place that cannot move answers with nothing.
-void refuse_held_hammers(const Model& model) {
-  const auto held = held_directions(model.scene, model.assembly);
+void refuse_held_hammers(const AssembledScene& assembled) {
+  const auto held = held_directions(assembled.scene, assembled.assembly);
   if (held.empty()) return;
-  for (const scene::Hammer& hammer : model.scene.hammers) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, hammer, "position", hammer.part + "." + hammer.name);
+  for (const scene::Hammer& hammer : assembled.scene.hammers) {
+    const auto& nodes =
+        find_node_set(assembled.scene, assembled.assembly, hammer, "position", hammer.part + "." + hammer.name);
     const auto stays = [&](int n) { return force_is_held(held, n, hammer.direction); };
     if (std::all_of(nodes.begin(), nodes.end(), stays))
-      refuse(model, "hammers", hammer,
+      refuse(assembled.scene, "hammers", hammer,
              fmt::format("strikes {} along {}, where constraints or prescribed motions hold all that it strikes; "
                          "strike another place, or in another direction",
-                         at(model.assembly.nodes[nodes.front()]), along(hammer.direction)));
+                         at(assembled.assembly.nodes[nodes.front()]), along(hammer.direction)));
   }
 }
 
 /// The entry that holds or drives a node.
-std::string holder_of(const Model& model, int node) {
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
+std::string holder_of(const AssembledScene& assembled, int node) {
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
       return fmt::format("[prescribed_motion.{}] (line {})", motion.name, motion.line);
   }
-  for (const scene::Constraint& constraint : model.scene.constraints) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, constraint, "target", constraint.target);
+  for (const scene::Constraint& constraint : assembled.scene.constraints) {
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target);
     if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
       return fmt::format("[constraints.{}] (line {})", constraint.name, constraint.line);
   }
@@ -238,21 +239,19 @@ std::string holder_of(const Model& model, int node) {
 }
 
 /// m, no less than any node of that motion goes in the run.
-double travel_of(const Model& model, const scene::PrescribedMotion& motion) {
-  const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-  const Vec3 centre = motion.centre
-                          ? *motion.centre
-                          : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+double travel_of(const AssembledScene& assembled, const scene::PrescribedMotion& motion) {
+  const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
+  const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
   double fastest = 0;
   for (int n : nodes)
-    fastest = std::max(fastest, length(prescribed_at(motion, centre, model.assembly.nodes[n]).velocity));
-  const scene::Curve *curve = curve_of(model.scene, motion.curve),
-                     *displacement = curve_of(model.scene, motion.displacement_curve);
+    fastest = std::max(fastest, length(prescribed_at(motion, centre, assembled.assembly.nodes[n]).velocity));
+  const scene::Curve *curve = curve_of(assembled.scene, motion.curve),
+                     *displacement = curve_of(assembled.scene, motion.displacement_curve);
   constexpr int instants = 1000;
   double way = 0, most = 0;
   for (int i = 0; i < instants; ++i) {
-    const double time = (i + 0.5) * model.scene.time.end / instants;
-    way += std::fabs(curve_value(curve, time)) * fastest * model.scene.time.end / instants;
+    const double time = (i + 0.5) * assembled.scene.time.end / instants;
+    way += std::fabs(curve_value(curve, time)) * fastest * assembled.scene.time.end / instants;
     most = std::max(most, std::fabs(curve_value(displacement, time)));
   }
   return way + most * length(motion.displacement);
@@ -266,11 +265,11 @@ Vec3 doubled_area(const Assembly& assembly, const std::vector<int>& nodes, const
 }
 
 /// Slave nodes of a pair that no force along their normals moves.
-std::vector<int> stiff_slaves(const Model& model, const ContactPair& pair, const HeldNodes& held) {
+std::vector<int> stiff_slaves(const Assembly& assembly, const ContactPair& pair, const HeldNodes& held) {
   std::vector<Vec3> normal(pair.slave_nodes.size(), Vec3{0, 0, 0});
   for (const auto& face : pair.slave_facets)
     for (int corner : face)
-      for (int i = 0; i < 3; ++i) normal[corner][i] += doubled_area(model.assembly, pair.slave_nodes, face)[i];
+      for (int i = 0; i < 3; ++i) normal[corner][i] += doubled_area(assembly, pair.slave_nodes, face)[i];
   std::vector<int> stiff;
   for (std::size_t s = 0; s < normal.size(); ++s)
     if (length(normal[s]) > 0 && force_is_held(held, pair.slave_nodes[s], normal[s]))
@@ -279,10 +278,10 @@ std::vector<int> stiff_slaves(const Model& model, const ContactPair& pair, const
 }
 
 /// Faces of a pair's master of which no corner moves under a force along the normal, as nodes of the model.
-std::vector<std::array<int, 4>> stiff_faces(const Model& model, const ContactPair& pair, const HeldNodes& held) {
+std::vector<std::array<int, 4>> stiff_faces(const Assembly& assembly, const ContactPair& pair, const HeldNodes& held) {
   std::vector<std::array<int, 4>> stiff;
   for (std::array<int, 4> face : pair.master_segments) {
-    const Vec3 normal = doubled_area(model.assembly, pair.master_nodes, face);
+    const Vec3 normal = doubled_area(assembly, pair.master_nodes, face);
     for (int& n : face) n = pair.master_nodes[n];
     if (std::all_of(face.begin(), face.end(), [&](int n) { return force_is_held(held, n, normal); }))
       stiff.push_back(face);
@@ -291,8 +290,8 @@ std::vector<std::array<int, 4>> stiff_faces(const Model& model, const ContactPai
 }
 
 /// Whether a node may come to a face that is so far from it, or lies on it.
-bool may_meet(const Model& model, int node, const std::array<int, 4>& face, double travel) {
-  const auto& x = model.assembly.nodes;
+bool may_meet(const Assembly& assembly, int node, const std::array<int, 4>& face, double travel) {
+  const auto& x = assembly.nodes;
   double away = std::numeric_limits<double>::infinity();
   for (int second : {1, 2})
     away = std::min(
@@ -303,42 +302,43 @@ bool may_meet(const Model& model, int node, const std::array<int, 4>& face, doub
 
 /// Multipliers find the force that lets surfaces move as far as they must: between two that no force moves there is
 /// none, and it grows without end. Springs just press as far as they are pressed in.
-void refuse_stiff_multipliers(const Model& model) {
-  if (std::none_of(model.contacts.begin(), model.contacts.end(),
-                   [](const ContactPair& pair) { return !pair.has_springs(); }))
+void refuse_stiff_multipliers(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
+  if (std::none_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
     return;
-  const HeldNodes held = held_directions(model.scene, model.assembly);
+  const HeldNodes held = held_directions(assembled.scene, assembled.assembly);
   double travel = 0;
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) travel += travel_of(model, motion);
-  for (const ContactPair& pair : model.contacts) {
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
+    travel += travel_of(assembled, motion);
+  for (const ContactPair& pair : contacts) {
     if (pair.has_springs()) continue;
-    const auto slaves = stiff_slaves(model, pair, held);
-    const auto faces = stiff_faces(model, pair, held);
+    const auto slaves = stiff_slaves(assembled.assembly, pair, held);
+    const auto faces = stiff_faces(assembled.assembly, pair, held);
     const bool wholly = slaves.size() == pair.slave_nodes.size() && faces.size() == pair.master_segments.size();
     for (int n : slaves)
       for (const auto& face : faces) {
-        if (!wholly && !may_meet(model, n, face, travel)) continue;
-        refuse(model, "contacts", *pair.contact,
+        if (!wholly && !may_meet(assembled.assembly, n, face, travel)) continue;
+        refuse(assembled.scene, "contacts", *pair.contact,
                fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' "
                            "along its normal at {} and {} '{}' at {}: no force moves either, "
                            "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive "
                            "one of the two bodies at another surface",
-                           holder_of(model, n), pair.contact->slave, at(model.assembly.nodes[n]),
-                           holder_of(model, face[0]), pair.contact->master.text(), at(model.assembly.nodes[face[0]])));
+                           holder_of(assembled, n), pair.contact->slave, at(assembled.assembly.nodes[n]),
+                           holder_of(assembled, face[0]), pair.contact->master.text(),
+                           at(assembled.assembly.nodes[face[0]])));
       }
   }
 }
 
 }  // namespace
 
-void refuse_contradictions(const Model& model) {
-  refuse_moved_constraints(model);
-  refuse_double_pairs(model);
-  refuse_inner_faces(model);
-  refuse_coincident_parts(model);
-  refuse_empty_connectors(model);
-  refuse_held_hammers(model);
-  refuse_stiff_multipliers(model);
+void refuse_contradictions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
+  refuse_moved_constraints(assembled);
+  refuse_double_pairs(assembled);
+  refuse_inner_faces(assembled);
+  refuse_coincident_parts(assembled);
+  refuse_empty_connectors(assembled);
+  refuse_held_hammers(assembled);
+  refuse_stiff_multipliers(assembled, contacts);
 }
 
 }  // namespace railwave

@@ -6,14 +6,14 @@
 #include <cmath>
 
 #include "mesh/vectors.hpp"
-#include "model/boundaries/absorbing_layer.hpp"
-#include "model/checks/centre_of_mass.hpp"
-#include "model/checks/outside.hpp"
-#include "model/checks/overlapping_parts.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
+#include "model/boundaries/held_directions.hpp"
+#include "model/checks/inside_bodies.hpp"
 #include "model/checks/round_part.hpp"
-#include "model/contact/contact_paths.hpp"
 #include "model/contact/initial_overlap.hpp"
 #include "model/contact/rolling.hpp"
+#include "model/loads/load_model.hpp"
 
 namespace railwave {
 namespace {
@@ -34,13 +34,13 @@ bool joined(const scene::Scene& scene, const std::string& a, const std::string& 
          std::any_of(scene.ties.begin(), scene.ties.end(), joins);
 }
 
-void overlapping_parts(const Model& model, Doubts& doubts) {
+void overlapping_parts(const AssembledScene& assembled, Doubts& doubts) {
   // Of the smaller part's nodes; surfaces that are joined may cut into each other a little, as a leaning pad into the
   // sleeper under it.
   constexpr double least = 0.005, least_joined = 0.1;
-  for (const PartOverlap& overlap : part_overlaps(model.assembly)) {
-    const scene::Part &first = model.scene.parts[overlap.first], &second = model.scene.parts[overlap.second];
-    if (overlap.inside < (joined(model.scene, first.name, second.name) ? least_joined : least) * overlap.nodes)
+  for (const PartOverlap& overlap : part_overlaps(assembled.assembly)) {
+    const scene::Part &first = assembled.scene.parts[overlap.first], &second = assembled.scene.parts[overlap.second];
+    if (overlap.inside < (joined(assembled.scene, first.name, second.name) ? least_joined : least) * overlap.nodes)
       continue;
     doubts.push_back(
         fmt::format("[parts.{}] (line {}) and [parts.{}] (line {}) overlap: {} nodes of one lie inside elements of the "
@@ -52,14 +52,15 @@ void overlapping_parts(const Model& model, Doubts& doubts) {
 }
 
 /// Whose forces constraints and prescribed motions take up before they move anything.
-void loads_on_held_nodes(const Model& model, Doubts& doubts) {
-  const auto held = held_directions(model.scene, model.assembly);
+void loads_on_held_nodes(const AssembledScene& assembled, Doubts& doubts) {
+  const auto held = held_directions(assembled.scene, assembled.assembly);
   if (held.empty()) return;
-  for (const scene::Load& load : model.scene.loads) {
+  for (const scene::Load& load : assembled.scene.loads) {
     const bool surface = load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction;
     const std::vector<int> nodes =
-        surface ? surface_nodes(model.assembly, find_surface(model.scene, model.assembly, load, "target", load.target))
-                : find_node_set(model.scene, model.assembly, load, "target", load.target);
+        surface ? surface_nodes(assembled.assembly,
+                                find_surface(assembled.scene, assembled.assembly, load, "target", load.target))
+                : find_node_set(assembled.scene, assembled.assembly, load, "target", load.target);
     const Vec3 force = load.type == scene::LoadType::nodal_force ? load.force : load.traction;
     const bool directed = load.type == scene::LoadType::nodal_force || load.type == scene::LoadType::traction;
     // Of a beam's end constraints know the rotations too: its torque is no matter of nodes.
@@ -80,23 +81,21 @@ void loads_on_held_nodes(const Model& model, Doubts& doubts) {
 }
 
 /// Where a body begins with one velocity and its driven nodes with another.
-void unlike_starts(const Model& model, Doubts& doubts) {
-  for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions) {
+void unlike_starts(const AssembledScene& assembled, Doubts& doubts) {
+  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
     const std::string part = part_of_name(motion.target);
-    const auto own =
-        std::find_if(model.scene.initial_motions.begin(), model.scene.initial_motions.end(), [&](const auto& initial) {
+    const auto own = std::find_if(
+        assembled.scene.initial_motions.begin(), assembled.scene.initial_motions.end(), [&](const auto& initial) {
           return std::find(initial.parts.begin(), initial.parts.end(), part) != initial.parts.end();
         });
-    if (own == model.scene.initial_motions.end()) continue;
-    const auto& nodes = find_node_set(model.scene, model.assembly, motion, "target", motion.target);
-    const Vec3 centre = motion.centre
-                            ? *motion.centre
-                            : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
-    const double factor = curve_value(curve_of(model.scene, motion.curve), 0);
+    if (own == assembled.scene.initial_motions.end()) continue;
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
+    const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
+    const double factor = curve_value(curve_of(assembled.scene, motion.curve), 0);
     double most = 0, fastest = 0, prescribed_speed = 0, initial_speed = 0;
     for (int n : nodes) {
-      const Vec3 turning = cross(motion.angular_velocity, difference(model.assembly.nodes[n], centre)),
-                 initial = initial_velocity(model, part, model.assembly.nodes[n]);
+      const Vec3 turning = cross(motion.angular_velocity, difference(assembled.assembly.nodes[n], centre)),
+                 initial = initial_velocity(assembled, part, assembled.assembly.nodes[n]);
       Vec3 prescribed, jump{0, 0, 0};
       for (int i = 0; i < 3; ++i) prescribed[i] = factor * (motion.velocity[i] + turning[i]);
       for (int a = 0; a < 3; ++a)
@@ -118,23 +117,24 @@ void unlike_starts(const Model& model, Doubts& doubts) {
 }
 
 /// Ends that are held, springs between held nodes: they do nothing.
-void entries_without_effect(const Model& model, Doubts& doubts) {
-  const auto held = held_directions(model.scene, model.assembly);
+void entries_without_effect(const AssembledScene& assembled, Doubts& doubts) {
+  const auto held = held_directions(assembled.scene, assembled.assembly);
   if (held.empty()) return;
   const auto all_held = [&](const std::vector<int>& nodes) {
     return std::all_of(nodes.begin(), nodes.end(), [&](int n) { return wholly_held(held, n); });
   };
-  for (const scene::NonReflecting& end : model.scene.non_reflecting)
-    if (all_held(surface_nodes(model.assembly, find_surface(model.scene, model.assembly, end, "target", end.target))))
+  for (const scene::NonReflecting& end : assembled.scene.non_reflecting)
+    if (all_held(surface_nodes(assembled.assembly,
+                               find_surface(assembled.scene, assembled.assembly, end, "target", end.target))))
       doubts.push_back(
           fmt::format("[non_reflecting.{}] (line {}): constraints hold all nodes of '{}', so that it reflects as a "
                       "fixed end; leave one of the two out",
                       end.name, end.line, end.target));
-  for (const scene::Connector& connector : model.scene.connectors) {
+  for (const scene::Connector& connector : assembled.scene.connectors) {
     const auto stays = [&](const char* key, const std::string& name) {
-      return name == "ground" || all_held(find_node_set(model.scene, model.assembly, connector, key, name));
+      return name == "ground" || all_held(find_node_set(assembled.scene, assembled.assembly, connector, key, name));
     };
-    const bool driven = !model.scene.prescribed_motions.empty();  // held nodes may move then
+    const bool driven = !assembled.scene.prescribed_motions.empty();  // held nodes may move then
     if (!driven && stays("from", connector.from) && stays("to", connector.to))
       doubts.push_back(
           fmt::format("[connectors.{}] (line {}): '{}' and '{}' are held, so that it is never stretched; leave it out, "
@@ -144,11 +144,11 @@ void entries_without_effect(const Model& model, Doubts& doubts) {
 }
 
 /// Pressure between two elements, and ties to faces inside a body, are computed as they are written.
-void inner_faces(const Model& model, Doubts& doubts) {
-  if (model.scene.loads.empty() && model.scene.ties.empty()) return;
-  const OutsideFaces outside(model.assembly);
+void inner_faces(const AssembledScene& assembled, Doubts& doubts) {
+  if (assembled.scene.loads.empty() && assembled.scene.ties.empty()) return;
+  const OutsideFaces outside(assembled.assembly);
   const auto look = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name) {
-    const auto& surface = find_surface(model.scene, model.assembly, entry, key, name);
+    const auto& surface = find_surface(assembled.scene, assembled.assembly, entry, key, name);
     const auto inside =
         std::count_if(surface.begin(), surface.end(), [&](const Face& face) { return !outside.has(face); });
     if (inside > 0)
@@ -157,41 +157,44 @@ void inner_faces(const Model& model, Doubts& doubts) {
                       "whether a surface on the outside is meant",
                       section, entry.name, entry.line, key, inside, surface.size(), name));
   };
-  for (const scene::Load& load : model.scene.loads)
+  for (const scene::Load& load : assembled.scene.loads)
     if (load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction)
       look("loads", load, "target", load.target);
-  for (const scene::Tie& tie : model.scene.ties) {
+  for (const scene::Tie& tie : assembled.scene.ties) {
     look("ties", tie, "slave", tie.slave);
     look("ties", tie, "master", tie.master);
   }
 }
 
-void overlapping_contacts(const Model& model, Doubts& doubts) {
-  for (const InitialOverlap& overlap : initial_overlaps(model))
-    if (overlap.deep) doubts.push_back(describe(model, overlap));
+void overlapping_contacts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, double step_size,
+                          Doubts& doubts) {
+  for (const InitialOverlap& overlap : initial_overlaps(assembled, contacts, step_size))
+    if (overlap.deep) doubts.push_back(describe(assembled.scene, overlap));
 }
 
 }  // namespace
 
-std::vector<std::string> mesh_doubts(const Model& model) {
+std::vector<std::string> mesh_doubts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                                     double step_size) {
   Doubts doubts;
-  overlapping_parts(model, doubts);
-  overlapping_contacts(model, doubts);
-  inner_faces(model, doubts);
-  entries_without_effect(model, doubts);
+  overlapping_parts(assembled, doubts);
+  overlapping_contacts(assembled, contacts, step_size, doubts);
+  inner_faces(assembled, doubts);
+  entries_without_effect(assembled, doubts);
   return doubts;
 }
 
-std::vector<std::string> scene_doubts(const Model& model) {
-  Doubts doubts = rolling_doubts(model);
-  unlike_starts(model, doubts);
-  overlapping_parts(model, doubts);
-  overlapping_contacts(model, doubts);
-  loads_on_held_nodes(model, doubts);
-  inner_faces(model, doubts);
-  entries_without_effect(model, doubts);
-  for (std::string& path : path_doubts(model)) doubts.push_back(std::move(path));
-  for (std::string& doubt : absorbing_doubts(model)) doubts.push_back(std::move(doubt));
+std::vector<std::string> scene_doubts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                                      const AbsorbingLayers& absorbing, double step_size) {
+  Doubts doubts = rolling_doubts(assembled);
+  unlike_starts(assembled, doubts);
+  overlapping_parts(assembled, doubts);
+  overlapping_contacts(assembled, contacts, step_size, doubts);
+  loads_on_held_nodes(assembled, doubts);
+  inner_faces(assembled, doubts);
+  entries_without_effect(assembled, doubts);
+  for (std::string& path : path_doubts(assembled, contacts)) doubts.push_back(std::move(path));
+  for (std::string& doubt : absorbing_doubts(assembled, absorbing)) doubts.push_back(std::move(doubt));
   return doubts;
 }
 

@@ -14,10 +14,10 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 /// How far from the axis a body of revolution reaches at each place along it.
 class Profile {
  public:
-  Profile(const Model& model, const RoundPart& round, const std::vector<Face>& surface) : round_(round) {
+  Profile(const Assembly& assembly, const RoundPart& round, const std::vector<Face>& surface) : round_(round) {
     constexpr double same = 1e-7;  // m: nodes of one circle
     std::vector<std::array<double, 2>> all;
-    for (int n : surface_nodes(model.assembly, surface)) all.push_back(seen(model.assembly.nodes[n]));
+    for (int n : surface_nodes(assembly, surface)) all.push_back(seen(assembly.nodes[n]));
     std::sort(all.begin(), all.end());
     for (const auto& [along, radius] : all) {
       if (points_.empty() || along > points_.back()[0] + same)
@@ -98,14 +98,14 @@ Nearest nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner) {
   return nearest;
 }
 
-Nearest nearest_of(const Model& model, const Profile& profile, const std::vector<Face>& surface) {
+Nearest nearest_of(const Assembly& assembly, const Profile& profile, const std::vector<Face>& surface) {
   std::vector<std::array<Vec3, 4>> faces;
   std::vector<double> at_least;  // m, the gap that a face may have
   double least = nowhere;
   for (const Face& face : surface) {
-    const auto node = model.assembly.face_nodes(face);
+    const auto node = assembly.face_nodes(face);
     std::array<Vec3, 4> corner;
-    for (int k = 0; k < 4; ++k) corner[k] = model.assembly.nodes[node[k]];
+    for (int k = 0; k < 4; ++k) corner[k] = assembly.nodes[node[k]];
     const double size = std::max(length(difference(corner[0], corner[2])), length(difference(corner[1], corner[3])));
     double gap = profile.gap(place_on(corner, 0, 0));
     for (const Vec3& x : corner) gap = std::min(gap, profile.gap(x));
@@ -127,8 +127,8 @@ Nearest nearest_of(const Model& model, const Profile& profile, const std::vector
 
 std::string part_of_name(const std::string& name) { return name.substr(0, name.find('.')); }
 
-std::optional<RoundPart> round_part(const Model& model, const std::string& name) {
-  const scene::Scene& scene = model.scene;
+std::optional<RoundPart> round_part(const AssembledScene& assembled, const std::string& name) {
+  const scene::Scene& scene = assembled.scene;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     const scene::Part& part = scene.parts[p];
     if (part.name != name) continue;
@@ -145,7 +145,7 @@ std::optional<RoundPart> round_part(const Model& model, const std::string& name)
     }
     if (!(round.nominal_radius > 0)) return std::nullopt;
     round.part = &part;
-    round.origin = model.assembly.parts[p].origin;
+    round.origin = assembled.assembly.parts[p].origin;
     round.axis = turned_with(part, round.own_axis);
     return round;
   }
@@ -156,15 +156,15 @@ namespace {
 
 /// Where the part is nearest to the other surface of a contact, or to one of its masters; none: it is no part of the
 /// pair, or far off.
-std::optional<Touch> touch_of(const Model& model, const RoundPart& round, const scene::Contact& contact,
+std::optional<Touch> touch_of(const AssembledScene& assembled, const RoundPart& round, const scene::Contact& contact,
                               const std::string& master_name) {
   const std::string slave = part_of_name(contact.slave), master = part_of_name(master_name);
   const std::string& own = round.part->name;
   if ((slave == own) == (master == own)) return std::nullopt;
-  const auto& slaves = find_surface(model.scene, model.assembly, contact, "slave", contact.slave);
-  const auto& masters = find_surface(model.scene, model.assembly, contact, "master", master_name);
-  const Profile profile(model, round, slave == own ? slaves : masters);
-  const Nearest nearest = nearest_of(model, profile, slave == own ? masters : slaves);
+  const auto& slaves = find_surface(assembled.scene, assembled.assembly, contact, "slave", contact.slave);
+  const auto& masters = find_surface(assembled.scene, assembled.assembly, contact, "master", master_name);
+  const Profile profile(assembled.assembly, round, slave == own ? slaves : masters);
+  const Nearest nearest = nearest_of(assembled.assembly, profile, slave == own ? masters : slaves);
   if (!(nearest.gap < round.nominal_radius)) return std::nullopt;
   const auto [along, distance] = profile.seen(nearest.place);
   if (!(distance > 0)) return std::nullopt;
@@ -176,13 +176,13 @@ std::optional<Touch> touch_of(const Model& model, const RoundPart& round, const 
 
 }  // namespace
 
-std::vector<Touch> touches(const Model& model, const RoundPart& round) {
+std::vector<Touch> touches(const AssembledScene& assembled, const RoundPart& round) {
   std::vector<Touch> found;
-  for (const scene::Contact& contact : model.scene.contacts) {
+  for (const scene::Contact& contact : assembled.scene.contacts) {
     // Of several masters the one that is nearest: the next rail along the track is not what the wheel stands on.
     std::optional<Touch> best;
     for (const std::string& name : contact.master)
-      if (const auto touch = touch_of(model, round, contact, name); touch && (!best || touch->gap < best->gap))
+      if (const auto touch = touch_of(assembled, round, contact, name); touch && (!best || touch->gap < best->gap))
         best = touch;
     if (best) found.push_back(*best);
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
 
 namespace railwave {
 
@@ -18,7 +18,7 @@ struct RoundPart {
 };
 
 /// Nothing where the name is a point's, or of a part with another mesh.
-std::optional<RoundPart> round_part(const Model& model, const std::string& name);
+std::optional<RoundPart> round_part(const AssembledScene& assembled, const std::string& name);
 
 /// Where a round part is nearest to the other surface of a contact.
 struct Touch {
@@ -33,7 +33,7 @@ struct Touch {
 /// The nearest place of each contact of the part, undeformed, after close_gap: between the other surface's faces, as
 /// they are curved, and the profile that the part's own nodes make about its axis. Contacts farther away than the
 /// radius are left out.
-std::vector<Touch> touches(const Model& model, const RoundPart& round);
+std::vector<Touch> touches(const AssembledScene& assembled, const RoundPart& round);
 
 /// `part` of `part.set`.
 std::string part_of_name(const std::string& name);

@@ -27,18 +27,18 @@ std::vector<std::array<int, 4>> local_facets(const Assembly& assembly, const std
   return facets;
 }
 
-const scene::Material& material_of(const Model& model, int element) {
-  return model.scene.materials[model.assembly.parts[part_of_element(model.assembly, element)].material];
+const scene::Material& material_of(const AssembledScene& assembled, int element) {
+  return assembled.scene.materials[assembled.assembly.parts[part_of_element(assembled.assembly, element)].material];
 }
 
 /// k = f_SI K A^2 / V of the element under the segment, thesis eq. 2.26d.
-double penalty_stiffness(const Model& model, const Face& face, double scale) {
-  const Assembly& assembly = model.assembly;
+double penalty_stiffness(const AssembledScene& assembled, const Face& face, double scale) {
+  const Assembly& assembly = assembled.assembly;
   const auto corner = assembly.face_nodes(face);
   const auto& x = assembly.nodes;
   const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
   const double volume = hexahedron_volume(corners_of(x, assembly.elements[face.element]));
-  return scale * material_of(model, face.element).bulk_modulus() * area * area / volume;
+  return scale * material_of(assembled, face.element).bulk_modulus() * area * area / volume;
 }
 
 /// Whether two sorted lists share a number.
@@ -61,15 +61,14 @@ std::map<int, Vec3> normals_at_nodes(const Assembly& assembly, const std::vector
 }
 
 /// m: a crack, slot or gap in the master as wide as that is crossed: what slides there is not let down between.
-double widest_mouth(const Model& model, const scene::Contact& contact, const std::vector<Face>& slave) {
+double widest_mouth(const Assembly& assembly, const scene::Contact& contact, const std::vector<Face>& slave) {
   if (contact.bridged_gap) return *contact.bridged_gap;
   double smallest = 1e300;
   for (const Face& face : slave) {
-    const auto corner = model.assembly.face_nodes(face);
+    const auto corner = assembly.face_nodes(face);
     double longest = 0;
     for (int k = 0; k < 4; ++k)
-      longest = std::max(
-          longest, length(difference(model.assembly.nodes[corner[k]], model.assembly.nodes[corner[(k + 1) % 4]])));
+      longest = std::max(longest, length(difference(assembly.nodes[corner[k]], assembly.nodes[corner[(k + 1) % 4]])));
     smallest = std::min(smallest, longest);
   }
   return std::max(smallest, std::min(scene::usual_bridged_gap, 4 * smallest));
@@ -79,9 +78,11 @@ double widest_mouth(const Model& model, const scene::Contact& contact, const std
 constexpr double facing = -0.5;
 
 /// Which slaves are nodes of the master too. Only the ends of a seam may be: there the surfaces face each other.
-std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contact, const std::vector<Face>& slave,
-                                const std::vector<Face>& master, const std::vector<int>& slave_nodes) {
-  const auto of_slave = normals_at_nodes(model.assembly, slave), of_master = normals_at_nodes(model.assembly, master);
+std::vector<char> nodes_on_both(const AssembledScene& assembled, const scene::Contact& contact,
+                                const std::vector<Face>& slave, const std::vector<Face>& master,
+                                const std::vector<int>& slave_nodes) {
+  const auto of_slave = normals_at_nodes(assembled.assembly, slave),
+             of_master = normals_at_nodes(assembled.assembly, master);
   std::vector<char> on_both(slave_nodes.size(), 0);
   std::size_t shared = 0, no_seam = 0;
   for (std::size_t s = 0; s < slave_nodes.size(); ++s) {
@@ -97,26 +98,26 @@ std::vector<char> nodes_on_both(const Model& model, const scene::Contact& contac
         fmt::format("{}:{}: [contacts.{}]: '{}' and '{}' share {} nodes, so they cannot press on each other; "
                     "choose surfaces without common nodes (but for the ends of a seam, whose two sides face each "
                     "other and have nodes of their own)",
-                    model.scene.path, contact.line, contact.name, contact.slave, contact.master.text(), shared));
+                    assembled.scene.path, contact.line, contact.name, contact.slave, contact.master.text(), shared));
   return on_both;
 }
 
-void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
-  const Assembly& assembly = model.assembly;
+ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& contact, bool reversed) {
+  const Assembly& assembly = assembled.assembly;
   ContactPair pair;
   pair.contact = &contact;
   pair.reversed = reversed;
-  std::vector<Face> slave = find_surface(model.scene, assembly, contact, "slave", contact.slave);
-  std::vector<Face> master = master_faces(model.scene, assembly, contact);
+  std::vector<Face> slave = find_surface(assembled.scene, assembly, contact, "slave", contact.slave);
+  std::vector<Face> master = master_faces(assembled.scene, assembly, contact);
   if (reversed) std::swap(slave, master);
   pair.slave_nodes = surface_nodes(assembly, slave);
   pair.master_nodes = surface_nodes(assembly, master);
-  pair.on_both = nodes_on_both(model, contact, slave, master, pair.slave_nodes);
+  pair.on_both = nodes_on_both(assembled, contact, slave, master, pair.slave_nodes);
   pair.slave_facets = local_facets(assembly, slave, pair.slave_nodes);
   pair.master_segments = local_facets(assembly, master, pair.master_nodes);
   for (const Face& face : master) {
     pair.segment_stiffness.push_back(
-        penalty_stiffness(model, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
+        penalty_stiffness(assembled, face, (contact.symmetric ? 0.5 : 1.0) * contact.penalty_scale));
     const auto corner = assembly.face_nodes(face);
     for (int k : {0, 1}) {
       const Vec3 &a = assembly.nodes[corner[k]], &b = assembly.nodes[corner[k + 2]];
@@ -149,7 +150,7 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
     const auto corner = assembly.face_nodes(face);
     corners.push_back({corner[0], corner[1], corner[2], corner[3]});
   }
-  LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(model, contact, slave));
+  LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(assembly, contact, slave));
   for (MouthCorner& corner : linked.mouth_corners)
     for (int p = 0; p < MouthCorner::pieces; ++p)
       corner.master[p] =
@@ -175,22 +176,23 @@ void build_pair(Model& model, const scene::Contact& contact, bool reversed) {
   pair.law = make_contact_law(contact, arrays.slave_count);
   pair.growth = largest_growth(contact);
   pair.missed = Array<int*>("missed", 1);
-  model.contacts.push_back(pair);
+  return pair;
 }
 
 }  // namespace
 
-void build_contacts(Model& model) {
-  for (const scene::Contact& contact : model.scene.contacts) build_pair(model, contact, false);
-  for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
-    if (!model.scene.contacts[c].symmetric) continue;
-    model.contacts[c].partner = static_cast<int>(model.contacts.size());
-    build_pair(model, model.scene.contacts[c], true);
-    model.contacts.back().partner = static_cast<int>(c);
+void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts) {
+  for (const scene::Contact& contact : assembled.scene.contacts)
+    contacts.push_back(build_pair(assembled, contact, false));
+  for (std::size_t c = 0; c < assembled.scene.contacts.size(); ++c) {
+    if (!assembled.scene.contacts[c].symmetric) continue;
+    contacts[c].partner = static_cast<int>(contacts.size());
+    contacts.push_back(build_pair(assembled, assembled.scene.contacts[c], true));
+    contacts.back().partner = static_cast<int>(c);
   }
-  for (ContactPair& pair : model.contacts) {
+  for (ContactPair& pair : contacts) {
     pair.own_master = !common(pair.master_nodes, pair.slave_nodes);
-    for (const ContactPair& other : model.contacts)
+    for (const ContactPair& other : contacts)
       if (&other != &pair &&
           (common(pair.master_nodes, other.slave_nodes) || common(pair.master_nodes, other.master_nodes)))
         pair.own_master = false;

@@ -1,4 +1,4 @@
-#include "model/contact/contact_paths.hpp"
+#include "model/checks/doubts.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,11 @@
 
 #include "kernels/contact/contact_ends.hpp"
 #include "mesh/vectors.hpp"
-#include "model/checks/centre_of_mass.hpp"
+#include "model/assembled_scene.hpp"
 #include "model/checks/round_part.hpp"
 #include "model/contact/rolling.hpp"
 #include "model/contact/surface_ends.hpp"
+#include "model/loads/load_model.hpp"
 
 namespace railwave {
 namespace {
@@ -30,25 +31,24 @@ Vec3 turned(const Vec3& x, const Vec3& axis, double angle) {
 class BodyWay {
  public:
   /// @param place on the axis of a round part, else at the contact
-  BodyWay(const Model& model, const std::string& part, const Vec3& place) : model_(model), centre_(place) {
-    velocity_ = initial_velocity(model, part, place);
+  BodyWay(const AssembledScene& assembled, const std::string& part, const Vec3& place)
+      : assembled_(assembled), centre_(place) {
+    velocity_ = initial_velocity(assembled, part, place);
     for (int i = 0; i < 3; ++i) {
       Vec3 unit{0, 0, 0};
       unit[i] = 1;
-      spin_ =
-          sum(spin_, scaled(0.5, cross(unit, difference(initial_velocity(model, part, sum(place, unit)), velocity_))));
+      spin_ = sum(spin_,
+                  scaled(0.5, cross(unit, difference(initial_velocity(assembled, part, sum(place, unit)), velocity_))));
     }
-    for (const scene::PrescribedMotion& motion : model.scene.prescribed_motions)
+    for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
       if (part_of_name(motion.target) == part) prescribed_ = &motion;
     if (prescribed_ == nullptr) return;
-    const auto& nodes = find_node_set(model.scene, model.assembly, *prescribed_, "target", prescribed_->target);
-    const Vec3 own = prescribed_->centre
-                         ? *prescribed_->centre
-                         : centre_of_mass(model, nodes, [&](int n, int i) { return model.assembly.nodes[n][i]; });
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, *prescribed_, "target", prescribed_->target);
+    const Vec3 own = prescribed_->centre ? *prescribed_->centre : centre_of_mass(assembled, nodes);
     prescribed_velocity_ = sum(prescribed_->velocity, cross(prescribed_->angular_velocity, difference(place, own)));
     if (length(prescribed_->angular_velocity) > 0) {
       spin_ = prescribed_->angular_velocity;
-      spin_curve_ = curve_of(model.scene, prescribed_->curve);
+      spin_curve_ = curve_of(assembled.scene, prescribed_->curve);
     }
   }
 
@@ -57,10 +57,10 @@ class BodyWay {
     Vec3 way = scaled(time, velocity_);
     if (prescribed_ == nullptr) return way;
     const Vec3 wanted =
-        sum(scaled(curve_integral(curve_of(model_.scene, prescribed_->curve), time), prescribed_velocity_),
+        sum(scaled(curve_integral(curve_of(assembled_.scene, prescribed_->curve), time), prescribed_velocity_),
             scaled(prescribed_->displacement_curve.empty()
                        ? 0
-                       : curve_value(curve_of(model_.scene, prescribed_->displacement_curve), time),
+                       : curve_value(curve_of(assembled_.scene, prescribed_->displacement_curve), time),
                    prescribed_->displacement));
     for (int a = 0; a < 3; ++a)
       if (prescribed_->directions[a])
@@ -77,7 +77,7 @@ class BodyWay {
   }
 
  private:
-  const Model& model_;
+  const AssembledScene& assembled_;
   Vec3 centre_, velocity_{0, 0, 0}, spin_{0, 0, 0}, prescribed_velocity_{0, 0, 0};
   const scene::PrescribedMotion* prescribed_ = nullptr;
   const scene::Curve* spin_curve_ = nullptr;
@@ -94,23 +94,23 @@ struct Places {
 };
 using Way = WayOverFacets<FacetRows, Places>;
 
-Way way_over(const Model& model, const SurfaceEnds& ends) {
-  return {{ends.corners}, {ends.beyond}, {model.assembly.nodes}};
+Way way_over(const Assembly& assembly, const SurfaceEnds& ends) {
+  return {{ends.corners}, {ends.beyond}, {assembly.nodes}};
 }
 
 Vector3 as_vector(const Vec3& x) { return {{x[0], x[1], x[2]}}; }
 
-Vec3 middle_of(const Model& model, const std::array<int, 4>& corners) {
+Vec3 middle_of(const Assembly& assembly, const std::array<int, 4>& corners) {
   Vec3 middle{0, 0, 0};
-  for (int n : corners) middle = sum(middle, scaled(0.25, model.assembly.nodes[n]));
+  for (int n : corners) middle = sum(middle, scaled(0.25, assembly.nodes[n]));
   return middle;
 }
 
-int nearest_facet(const Model& model, const SurfaceEnds& ends, const Vec3& place) {
+int nearest_facet(const Assembly& assembly, const SurfaceEnds& ends, const Vec3& place) {
   int nearest = 0;
   double least = 1e300;
   for (std::size_t f = 0; f < ends.corners.size(); ++f) {
-    const double distance = length(difference(middle_of(model, ends.corners[f]), place));
+    const double distance = length(difference(middle_of(assembly, ends.corners[f]), place));
     if (distance >= least) continue;
     least = distance;
     nearest = static_cast<int>(f);
@@ -118,8 +118,8 @@ int nearest_facet(const Model& model, const SurfaceEnds& ends, const Vec3& place
   return nearest;
 }
 
-double side_of(const Model& model, const std::array<int, 4>& corners) {
-  const auto& x = model.assembly.nodes;
+double side_of(const Assembly& assembly, const std::array<int, 4>& corners) {
+  const auto& x = assembly.nodes;
   return std::min(length(difference(x[corners[1]], x[corners[0]])), length(difference(x[corners[2]], x[corners[1]])));
 }
 
@@ -136,19 +136,19 @@ struct Met {
 /// @param ahead how many elements beyond it count
 /// @return the end of the fine zone, if it passes that, and of the surface
 template <class Place>
-std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::string& part, double ahead,
+std::vector<Met> follow(const AssembledScene& assembled, const SurfaceEnds& ends, const std::string& part, double ahead,
                         const Place& place) {
-  const double end_time = model.scene.time.end, wanted = finest_wanted(model.scene, part);
-  int facet = nearest_facet(model, ends, place(0)), side = -1;
-  const Way way = way_over(model, ends);
-  const double size = side_of(model, ends.corners[facet]);
+  const double end_time = assembled.scene.time.end, wanted = finest_wanted(assembled.scene, part);
+  int facet = nearest_facet(assembled.assembly, ends, place(0)), side = -1;
+  const Way way = way_over(assembled.assembly, ends);
+  const double size = side_of(assembled.assembly, ends.corners[facet]);
   // It may begin beside the surface, as over the rail before: then what it comes to first is this facet.
   const int begin = facet;
   bool over = false, fine = false;
   const auto arrive = [&](const Vec3& x) {
     facet = begin;
     over = !way.leads_out(as_vector(x), least_way * size, facet, side) && side < 0;
-    fine = over && wanted > 0 && longest_side(model.assembly.nodes, ends.corners[facet]) <= wanted;
+    fine = over && wanted > 0 && longest_side(assembled.assembly.nodes, ends.corners[facet]) <= wanted;
   };
   arrive(place(0));
   double travelled = 0;
@@ -165,39 +165,39 @@ std::vector<Met> follow(const Model& model, const SurfaceEnds& ends, const std::
     if (!(moved > 0)) continue;
     if (!over) arrive(here);
     if (!over) continue;
-    if (way.leads_out(as_vector(here), least_way * side_of(model, ends.corners[facet]), facet, side)) {
+    if (way.leads_out(as_vector(here), least_way * side_of(assembled.assembly, ends.corners[facet]), facet, side)) {
       met.push_back({time, here, true, static_cast<Beyond>(ends.beyond[facet][side])});
       return met;
     }
     if (side >= 0) return met;  // over a gap, or too far to be followed
-    const double own_size = side_of(model, ends.corners[facet]);
+    const double own_size = side_of(assembled.assembly, ends.corners[facet]);
     const Vec3 foremost = sum(here, scaled(ahead * own_size / moved, step));
     int last = facet;
     if (ahead > 0 && way.leads_out(as_vector(foremost), least_way * own_size, last, side)) {
       met.push_back({time, foremost, true, static_cast<Beyond>(ends.beyond[last][side])});
       return met;
     }
-    if (!fine || longest_side(model.assembly.nodes, ends.corners[last]) <= wanted) continue;
+    if (!fine || longest_side(assembled.assembly.nodes, ends.corners[last]) <= wanted) continue;
     met.push_back({time, foremost, false});
     fine = false;  // told once
   }
   return met;
 }
 
-std::string told(const Model& model, const scene::Contact& contact, const std::string& surface, const std::string& part,
-                 const Met& met) {
+std::string told(const scene::Scene& scene, const scene::Contact& contact, const std::string& surface,
+                 const std::string& part, const Met& met) {
   const std::string head =
       fmt::format("[contacts.{}] (line {}): if its parts go on as initial and prescribed motions say, its patch ",
                   contact.name, contact.line);
   const std::string where =
       fmt::format("near ({:.4g}, {:.4g}, {:.4g}) m at t = {:.4g} s, and the run ends at {:.4g} s; ", met.place[0],
-                  met.place[1], met.place[2], met.time, model.scene.time.end);
+                  met.place[1], met.place[2], met.time, scene.time.end);
   if (!met.end)
     return head + fmt::format("leaves the fine zone of '{}' ", part) + where +
            fmt::format(
                "beyond it elements are longer than {:.3g} m: make the zone of its mesh reach farther, or end the run "
                "before",
-               finest_wanted(model.scene, part));
+               finest_wanted(scene, part));
   return head + fmt::format("comes to the end of '{}' ", surface) + where +
          (met.beyond == Beyond::set_ends
               ? fmt::format("the body goes on there, but contact beyond is not seen: name a surface that reaches "
@@ -207,10 +207,10 @@ std::string told(const Model& model, const scene::Contact& contact, const std::s
 }
 
 /// How far a surface reaches along a direction, m.
-double extent(const Model& model, const std::vector<int>& nodes, const Vec3& along) {
+double extent(const Assembly& assembly, const std::vector<int>& nodes, const Vec3& along) {
   double low = 1e300, high = -1e300;
   for (int n : nodes) {
-    const double at = dot(model.assembly.nodes[n], along);
+    const double at = dot(assembly.nodes[n], along);
     low = std::min(low, at);
     high = std::max(high, at);
   }
@@ -219,8 +219,9 @@ double extent(const Model& model, const std::vector<int>& nodes, const Vec3& alo
 
 class PairPath {
  public:
-  PairPath(const Model& model, const ContactPair& pair)
-      : model_(model),
+  PairPath(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, const ContactPair& pair)
+      : assembled_(assembled),
+        contacts_(contacts),
         pair_(pair),
         contact_(*pair.contact),
         slave_(part_name(pair.slave_nodes)),
@@ -229,9 +230,9 @@ class PairPath {
   void tell(std::vector<std::string>& doubts) {
     if (slave_.empty() || master_.empty() || slave_ == master_) return;
     if (!moves(slave_) && !moves(master_)) return;
-    ends_ = pair_ends(model_, pair_);
+    ends_ = pair_ends(assembled_.assembly, contacts_, pair_);
     for (const bool reversed : {false, true})
-      if (const auto round = round_part(model_, reversed ? master_ : slave_)) {
+      if (const auto round = round_part(assembled_, reversed ? master_ : slave_)) {
         if (const auto place = where_it_rolls(*round)) return tell_rolling(*round, reversed, *place, doubts);
         return;  // it hangs in the air
       }
@@ -240,16 +241,16 @@ class PairPath {
 
  private:
   std::string part_name(const std::vector<int>& nodes) const {
-    const int part = nodes.empty() ? -1 : part_of_node(model_.assembly, nodes.front());
-    return part < 0 ? "" : model_.assembly.parts[part].name;
+    const int part = nodes.empty() ? -1 : part_of_node(assembled_.assembly, nodes.front());
+    return part < 0 ? "" : assembled_.assembly.parts[part].name;
   }
 
   bool moves(const std::string& part) const {
     const auto named = [&](const std::string& name) { return part_of_name(name) == part; };
     return std::any_of(
-               model_.scene.initial_motions.begin(), model_.scene.initial_motions.end(),
+               assembled_.scene.initial_motions.begin(), assembled_.scene.initial_motions.end(),
                [&](const auto& motion) { return std::any_of(motion.parts.begin(), motion.parts.end(), named); }) ||
-           std::any_of(model_.scene.prescribed_motions.begin(), model_.scene.prescribed_motions.end(),
+           std::any_of(assembled_.scene.prescribed_motions.begin(), assembled_.scene.prescribed_motions.end(),
                        [&](const auto& motion) { return named(motion.target); });
   }
 
@@ -262,7 +263,7 @@ class PairPath {
   std::optional<Vec3> where_it_rolls(const RoundPart& round) const {
     std::optional<Vec3> place, nearest;
     double least = 1e300, own = 1e300;
-    for (const Touch& touch : touches(model_, round)) {
+    for (const Touch& touch : touches(assembled_, round)) {
       if (touch.gap < least) {
         least = touch.gap;
         nearest = touch.place;
@@ -278,26 +279,26 @@ class PairPath {
                     std::vector<std::string>& doubts) const {
     // Abreast of the contact.
     const Vec3 on_axis = sum(round.origin, scaled(dot(difference(place, round.origin), round.axis), round.axis));
-    const BodyWay carrier(model_, round.part->name, on_axis);
+    const BodyWay carrier(assembled_, round.part->name, on_axis);
     const std::string& other = round_is_master ? slave_ : master_;
-    const auto other_round = round_part(model_, other);
+    const auto other_round = round_part(assembled_, other);
     const Vec3 other_place =
         other_round ? sum(other_round->origin,
                           scaled(dot(difference(place, other_round->origin), other_round->axis), other_round->axis))
                     : place;
-    const BodyWay carried(model_, other, other_place);
+    const BodyWay carried(assembled_, other, other_place);
     // Of both surfaces what comes first, end and zone apart.
     std::optional<Met> first[2];
     std::string line[2];
     for (const bool own : {false, true}) {
       const bool of_master = own == round_is_master;
       const BodyWay& body = own ? carrier : carried;
-      const auto all = follow(model_, ends_[of_master], own ? round.part->name : other, elements_ahead,
+      const auto all = follow(assembled_, ends_[of_master], own ? round.part->name : other, elements_ahead,
                               [&](double time) { return body.material(sum(place, carrier.travel(time)), time); });
       for (const Met& met : all) {
         if (first[met.end] && first[met.end]->time <= met.time) continue;
         first[met.end] = met;
-        line[met.end] = told(model_, contact_, surface(of_master), own ? round.part->name : other, met);
+        line[met.end] = told(assembled_.scene, contact_, surface(of_master), own ? round.part->name : other, met);
       }
     }
     for (const int end : {0, 1})
@@ -308,11 +309,12 @@ class PairPath {
     const auto mean = [&](const std::vector<int>& nodes) {
       Vec3 middle{0, 0, 0};
       for (int n : nodes)
-        middle = sum(middle, scaled(1.0 / static_cast<double>(nodes.size()), model_.assembly.nodes[n]));
+        middle = sum(middle, scaled(1.0 / static_cast<double>(nodes.size()), assembled_.assembly.nodes[n]));
       return middle;
     };
-    const BodyWay ways[2] = {{model_, slave_, mean(pair_.slave_nodes)}, {model_, master_, mean(pair_.master_nodes)}};
-    const double end = model_.scene.time.end;
+    const BodyWay ways[2] = {{assembled_, slave_, mean(pair_.slave_nodes)},
+                             {assembled_, master_, mean(pair_.master_nodes)}};
+    const double end = assembled_.scene.time.end;
     // By the way at the end: what goes forth and back is at its foremost at some other time, which its curve knows.
     Vec3 way{0, 0, 0};
     for (int i = 1; i <= 200; ++i) {
@@ -321,35 +323,37 @@ class PairPath {
     }
     if (!(length(way) > 0)) return;
     way = scaled(1 / length(way), way);
-    const bool master_is_short = extent(model_, pair_.master_nodes, way) < extent(model_, pair_.slave_nodes, way);
+    const bool master_is_short =
+        extent(assembled_.assembly, pair_.master_nodes, way) < extent(assembled_.assembly, pair_.slave_nodes, way);
     const auto& nodes = master_is_short ? pair_.master_nodes : pair_.slave_nodes;
     const SurfaceEnds& ends = ends_[!master_is_short];
     const BodyWay &carrier = ways[master_is_short], &under = ways[!master_is_short];
     const Vec3 forward = master_is_short ? scaled(-1, way) : way;
     // The foremost of the nodes that lie over the other surface.
-    const Way over = way_over(model_, ends);
+    const Way over = way_over(assembled_.assembly, ends);
     int foremost = -1;
-    const int start = nearest_facet(model_, ends, mean(nodes));
+    const int start = nearest_facet(assembled_.assembly, ends, mean(nodes));
     for (int n : nodes) {
-      const Vec3& x = model_.assembly.nodes[n];
-      if (foremost >= 0 && dot(x, forward) <= dot(model_.assembly.nodes[foremost], forward)) continue;
+      const Vec3& x = assembled_.assembly.nodes[n];
+      if (foremost >= 0 && dot(x, forward) <= dot(assembled_.assembly.nodes[foremost], forward)) continue;
       int facet = start, side = -1;
       bool out = false;
       for (int leap = 0; leap < 1000; ++leap) {
-        out = over.leads_out(as_vector(x), least_way * side_of(model_, ends.corners[facet]), facet, side);
+        out = over.leads_out(as_vector(x), least_way * side_of(assembled_.assembly, ends.corners[facet]), facet, side);
         if (out || side < 0 || ends.beyond[facet][side] < 0) break;
       }
       if (!out) foremost = n;
     }
     if (foremost < 0) return;
-    const Vec3 from = model_.assembly.nodes[foremost];
+    const Vec3 from = assembled_.assembly.nodes[foremost];
     const bool over_master = !master_is_short;
-    for (const Met& met : follow(model_, ends, over_master ? master_ : slave_, 0,
+    for (const Met& met : follow(assembled_, ends, over_master ? master_ : slave_, 0,
                                  [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
-      doubts.push_back(told(model_, contact_, surface(over_master), over_master ? master_ : slave_, met));
+      doubts.push_back(told(assembled_.scene, contact_, surface(over_master), over_master ? master_ : slave_, met));
   }
 
-  const Model& model_;
+  const AssembledScene& assembled_;
+  const std::vector<ContactPair>& contacts_;
   const ContactPair& pair_;
   const scene::Contact& contact_;
   std::string slave_, master_;
@@ -358,10 +362,10 @@ class PairPath {
 
 }  // namespace
 
-std::vector<std::string> path_doubts(const Model& model) {
+std::vector<std::string> path_doubts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
   std::vector<std::string> doubts;
-  for (const ContactPair& pair : model.contacts)
-    if (!pair.reversed) PairPath(model, pair).tell(doubts);
+  for (const ContactPair& pair : contacts)
+    if (!pair.reversed) PairPath(assembled, contacts, pair).tell(doubts);
   return doubts;
 }
 

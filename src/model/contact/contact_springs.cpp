@@ -6,8 +6,8 @@
 
 #include "mesh/hexahedron.hpp"
 #include "mesh/vectors.hpp"
-#include "model/contact/nearest_point.hpp"
 #include "model/host_copy.hpp"
+#include "model/sets/point_search.hpp"
 
 namespace railwave {
 namespace {
@@ -89,25 +89,25 @@ void place_on_segment(const ContactPair& pair, const std::vector<Vec3>& position
 }
 
 /// Of critical damping of the slave's mass and the segment's, which is felt most in its middle.
-double damping_of(const Model& model, double share_of_critical, const ContactSpring& spring) {
+double damping_of(const std::vector<double>& mass, double share_of_critical, const ContactSpring& spring) {
   double heaviest = 0;
-  for (int n : spring.master_nodes) heaviest = std::fmax(heaviest, model.mass[n]);
-  const double inverse_mass = 1 / model.mass[spring.slave_node] + 0.25 / heaviest;
+  for (int n : spring.master_nodes) heaviest = std::fmax(heaviest, mass[n]);
+  const double inverse_mass = 1 / mass[spring.slave_node] + 0.25 / heaviest;
   return 2 * share_of_critical * std::sqrt(spring.stiffness / inverse_mass);
 }
 
-void add_pair(const Model& model, const ContactPair& pair, ContactOnNodes& sum) {
-  std::vector<double> stiffness(model.mass.size(), 0), damping(model.mass.size(), 0);
+void add_pair(const AssembledScene& assembled, const ContactPair& pair, ContactOnNodes& sum) {
+  std::vector<double> stiffness(assembled.mass.size(), 0), damping(assembled.mass.size(), 0);
   const auto put = [&](int n, double k, double springs) {
     stiffness[n] = std::fmax(stiffness[n], springs * k);
-    damping[n] = std::fmax(damping[n], springs * 2 * pair.contact->damping * std::sqrt(k * model.mass[n]));
+    damping[n] = std::fmax(damping[n], springs * 2 * pair.contact->damping * std::sqrt(k * assembled.mass[n]));
   };
   double stiffest = 0;
   for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, pair.growth * k);
   for (int n : pair.slave_nodes) put(n, stiffest, 1);
 
   const auto area = [&](const std::array<int, 4>& facet, const std::vector<int>& nodes) {
-    const auto x = [&](int k) { return model.assembly.nodes[nodes[facet[k]]]; };
+    const auto x = [&](int k) { return assembled.assembly.nodes[nodes[facet[k]]]; };
     return facet_area(x(0), x(1), x(2), x(3));
   };
   double slave_area = std::numeric_limits<double>::infinity();
@@ -116,7 +116,7 @@ void add_pair(const Model& model, const ContactPair& pair, ContactOnNodes& sum) 
     const double springs = std::fmax(1.0, area(pair.master_segments[s], pair.master_nodes) / slave_area);
     for (int m : pair.master_segments[s]) put(pair.master_nodes[m], pair.growth * pair.segment_stiffness[s], springs);
   }
-  for (std::size_t n = 0; n < model.mass.size(); ++n) {
+  for (std::size_t n = 0; n < assembled.mass.size(); ++n) {
     sum.stiffness[n] += stiffness[n];
     sum.damping[n] += damping[n];
   }
@@ -124,15 +124,16 @@ void add_pair(const Model& model, const ContactPair& pair, ContactOnNodes& sum) 
 
 }  // namespace
 
-ContactOnNodes contact_on_nodes(const Model& model) {
-  ContactOnNodes sum{std::vector<double>(model.mass.size(), 0), std::vector<double>(model.mass.size(), 0)};
-  for (const ContactPair& pair : model.contacts)
-    if (pair.has_springs()) add_pair(model, pair, sum);
+ContactOnNodes contact_on_nodes(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
+  ContactOnNodes sum{std::vector<double>(assembled.mass.size(), 0), std::vector<double>(assembled.mass.size(), 0)};
+  for (const ContactPair& pair : contacts)
+    if (pair.has_springs()) add_pair(assembled, pair, sum);
   return sum;
 }
 
-std::vector<ContactSpring> possible_contact_springs(const Model& model, const ContactPair& pair, double horizon) {
-  const auto position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
+std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& mass, const NodeArrays& nodes,
+                                                    const ContactPair& pair, double horizon) {
+  const auto position = to_host(nodes.position), velocity = to_host(nodes.velocity);
   const auto slaves = rows_of(position, pair.slave_nodes), slave_velocities = rows_of(velocity, pair.slave_nodes);
   const auto masters = rows_of(position, pair.master_nodes), master_velocities = rows_of(velocity, pair.master_nodes);
   const MasterNodes around(pair, masters);
@@ -158,7 +159,7 @@ std::vector<ContactSpring> possible_contact_springs(const Model& model, const Co
     ContactSpring spring{
         static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);
-    spring.damping = damping_of(model, pair.contact->damping, spring);
+    spring.damping = damping_of(mass, pair.contact->damping, spring);
     springs.push_back(spring);
   }
   return springs;

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "model/model.hpp"
+#include "kernels/nodes/nodes.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/contact/contact_pair.hpp"
 
 namespace railwave {
 
@@ -17,7 +19,9 @@ struct ContactSpring {
 
 /// The springs of every slave node that touches now or may within `horizon` seconds at the bodies' present velocities.
 /// A pair far apart has none.
-std::vector<ContactSpring> possible_contact_springs(const Model& model, const ContactPair& pair, double horizon);
+/// @param mass kg, by node
+std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& mass, const NodeArrays& nodes,
+                                                    const ContactPair& pair, double horizon);
 
 /// What contact may put on each node at worst, by model node number; zero where no surface is.
 struct ContactOnNodes {
@@ -27,6 +31,6 @@ struct ContactOnNodes {
 /// The stiffest and most strongly damped springs that the pairs' laws allow, wherever the bodies may touch; where
 /// slaves are finer than the master, several on each of its nodes; and those of all pairs that a node belongs to
 /// together.
-ContactOnNodes contact_on_nodes(const Model& model);
+ContactOnNodes contact_on_nodes(const AssembledScene& assembled, const std::vector<ContactPair>& contacts);
 
 }  // namespace railwave

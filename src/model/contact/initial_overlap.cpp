@@ -11,8 +11,8 @@
 #include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
 #include "model/checks/round_part.hpp"
-#include "model/sets/node_grid.hpp"
-#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
+#include "model/sets/point_search.hpp"
 
 namespace railwave {
 namespace {
@@ -144,16 +144,15 @@ double size_of(const Assembly& assembly, const std::array<int, 4>& c) {
   return std::sqrt(facet_area(x[c[0]], x[c[1]], x[c[2]], x[c[3]]));
 }
 
-bool is_deep(const Model& model, const InitialOverlap& overlap) {
-  if (overlap.share > (model.scene.settle.active ? deep_share_settled : deep_share)) return true;
-  return overlap.contact->algorithm == scene::ContactAlgorithm::multiplier && !model.scene.settle.active &&
-         overlap.depth > thrown * model.step_size;
+bool is_deep(const scene::Scene& scene, double step_size, const InitialOverlap& overlap) {
+  if (overlap.share > (scene.settle.active ? deep_share_settled : deep_share)) return true;
+  return overlap.contact->algorithm == scene::ContactAlgorithm::multiplier && !scene.settle.active &&
+         overlap.depth > thrown * step_size;
 }
 
 /// A pair's slave nodes in its master's bodies.
 /// @param sign -1 where the pair is the second half of a symmetric contact: its slave is the contact's master
-void look(const Model& model, const ContactPair& pair, double sign, InitialOverlap& overlap) {
-  const Assembly& assembly = model.assembly;
+void look(const Assembly& assembly, const ContactPair& pair, double sign, InitialOverlap& overlap) {
   std::vector<int> inside;
   for (const auto& part : assembly.parts) {
     const auto is_own = [&](int n) { return n >= part.first_node && n < part.first_node + part.node_count; };
@@ -180,16 +179,17 @@ void look(const Model& model, const ContactPair& pair, double sign, InitialOverl
 
 }  // namespace
 
-std::vector<InitialOverlap> initial_overlaps(const Model& model) {
+std::vector<InitialOverlap> initial_overlaps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                                             double step_size) {
   std::vector<InitialOverlap> overlaps;
-  for (const ContactPair& pair : model.contacts) {
+  for (const ContactPair& pair : contacts) {
     if (pair.reversed) continue;
     InitialOverlap overlap;
     overlap.contact = pair.contact;
-    look(model, pair, 1, overlap);
-    if (pair.partner >= 0) look(model, model.contacts[pair.partner], -1, overlap);
+    look(assembled.assembly, pair, 1, overlap);
+    if (pair.partner >= 0) look(assembled.assembly, contacts[pair.partner], -1, overlap);
     if (overlap.nodes == 0) continue;
-    overlap.deep = is_deep(model, overlap);
+    overlap.deep = is_deep(assembled.scene, step_size, overlap);
     overlaps.push_back(overlap);
   }
   return overlaps;
@@ -211,7 +211,7 @@ std::string mend_of(const InitialOverlap& overlap) {
       rounded(overlap.outwards[2]));
 }
 
-std::string describe(const Model& model, const InitialOverlap& overlap) {
+std::string describe(const scene::Scene& scene, const InitialOverlap& overlap) {
   const scene::Contact& contact = *overlap.contact;
   const Vec3& x = overlap.place;
   const std::string what = fmt::format(
@@ -223,7 +223,7 @@ std::string describe(const Model& model, const InitialOverlap& overlap) {
   if (overlap.deep)
     return fmt::format("{}: more than a contact can push apart without a blow; {}", what, mend_of(overlap));
   return fmt::format("{}: {}", what,
-                     model.scene.settle.active
+                     scene.settle.active
                          ? "settling pushes them apart"
                          : "its forces push them apart in the first steps, and both bodies ring a little");
 }

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/contact/contact_pair.hpp"
 
 namespace railwave {
 
@@ -19,10 +20,12 @@ struct InitialOverlap {
 };
 
 /// Overlaps beyond rounding (a hundred-thousandth of a face's size), the scene's contacts in order.
-std::vector<InitialOverlap> initial_overlaps(const Model& model);
+/// @param step_size s, of the run: within a step multipliers close a gap
+std::vector<InitialOverlap> initial_overlaps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                                             double step_size);
 
 /// A sentence: the contact's entry and line, depth, place, and how to mend it.
-std::string describe(const Model& model, const InitialOverlap& overlap);
+std::string describe(const scene::Scene& scene, const InitialOverlap& overlap);
 
 /// How to mend it: where the slave's part should go, or how the gap is closed.
 std::string mend_of(const InitialOverlap& overlap);

@@ -23,6 +23,8 @@ LinkedSegments link_segments(const std::vector<Vec3>& nodes, const std::vector<s
                              double widest_mouth);
 
 /// The order of SegmentBoxes, and room for its boxes.
+/// @param nodes     where they are, m
+/// @param segments  of each the numbers of its corners
 SegmentBoxes make_boxes(const std::vector<Vec3>& nodes, const std::vector<std::array<int, 4>>& segments);
 
 }  // namespace railwave

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
 
 namespace railwave {
 
@@ -25,13 +25,13 @@ struct CarriedAxis {
 };
 
 /// Nothing for motions that do not roll, have a `centre`, or no round part.
-std::optional<CarriedAxis> carried_axis(const Model& model, const scene::InitialMotion& motion);
+std::optional<CarriedAxis> carried_axis(const AssembledScene& assembled, const scene::InitialMotion& motion);
 
 /// The velocity that the initial motions give a part at a place, m/s; those that roll count once they are resolved.
-Vec3 initial_velocity(const Model& model, const std::string& part, const Vec3& place);
+Vec3 initial_velocity(const AssembledScene& assembled, const std::string& part, const Vec3& place);
 
 /// Round parts in frictional contact whose initial velocities slide by more than a twentieth of their rolling velocity:
 /// one line each, with the angular velocity that rolls and how to get it.
-std::vector<std::string> rolling_doubts(const Model& model);
+std::vector<std::string> rolling_doubts(const AssembledScene& assembled);
 
 }  // namespace railwave

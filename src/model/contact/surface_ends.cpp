@@ -153,14 +153,14 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
   return ends;
 }
 
-std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair) {
-  const Assembly& assembly = model.assembly;
+std::array<SurfaceEnds, 2> pair_ends(const Assembly& assembly, const std::vector<ContactPair>& contacts,
+                                     const ContactPair& pair) {
   const auto part = [&](const std::vector<int>& nodes) {
     return nodes.empty() ? -1 : part_of_node(assembly, nodes.front());
   };
   const int slave = part(pair.slave_nodes), master = part(pair.master_nodes);
   std::array<std::vector<std::vector<Corners>>, 2> others;
-  for (const ContactPair& other : model.contacts) {
+  for (const ContactPair& other : contacts) {
     if (other.contact == pair.contact) continue;
     for (const bool exchanged : {false, true}) {
       const auto& its_slaves = exchanged ? other.master_nodes : other.slave_nodes;

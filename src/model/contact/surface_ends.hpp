@@ -3,7 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembly.hpp"
+#include "model/contact/contact_pair.hpp"
 
 namespace railwave {
 
@@ -28,9 +29,10 @@ struct SurfaceEnds {
 SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4>> corners,
                          const std::vector<std::vector<std::array<int, 4>>>& others);
 
-/// Both surfaces of one of the model's contact pairs, in the order slave, master; what other contacts of one's part
+/// Both surfaces of one of the contact pairs, in the order slave, master; what other contacts of one's part
 /// touch continues the other.
-std::array<SurfaceEnds, 2> pair_ends(const Model& model, const ContactPair& pair);
+std::array<SurfaceEnds, 2> pair_ends(const Assembly& assembly, const std::vector<ContactPair>& contacts,
+                                     const ContactPair& pair);
 
 /// The direction in which a surface ends at a facet's side, unit: in the facet's plane, away from it.
 Vec3 outward(const std::vector<Vec3>& place, const std::array<int, 4>& corners, int side);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "kernels/elements/element_blocks.hpp"
-#include "model/elements/divide_into_blocks.hpp"
 
 namespace railwave {
 namespace {

@@ -18,4 +18,14 @@ struct BlockOrder {
 /// @param levels of each element; empty: all 0. No block holds elements of two levels.
 BlockOrder order_in_blocks(Assembly& assembly, const std::vector<int>& levels = {});
 
+/// Divides elements[begin, end), numbers of an assembly's elements, into blocks that keep to the limits of
+/// kernels/elements/element_blocks.hpp: orders the range block by block and appends the place where each block begins
+/// to `first`. By halving, between layers of elements: as good as can be where the elements lie in straight rows.
+void halve_into_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end,
+                       std::vector<int>& first);
+
+/// The same by growing one block after the other, each time by the element that fits in best: fills blocks also where
+/// rows bend, and where element sizes are graded.
+void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first);
+
 }  // namespace railwave

@@ -17,7 +17,8 @@ namespace {
 
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
 /// (the inner nodes of MacNeal & Harder's block have one), and `railwave check` reports it.
-void check_element(const Model& model, const Assembly::PartRange& part, int element, const HexahedronCorners& corners) {
+void check_element(const AssembledScene& assembled, const Assembly::PartRange& part, int element,
+                   const HexahedronCorners& corners) {
   const double g = 1 / std::sqrt(3.0);
   for (const auto& s : hexahedron_corner_signs) {
     if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
@@ -25,7 +26,7 @@ void check_element(const Model& model, const Assembly::PartRange& part, int elem
         "{}: part '{}': element {} (counted from 0 in its mesh) near ({:.6g}, {:.6g}, {:.6g}) m is inverted or flat; "
         "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the "
         "same way",
-        model.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
+        assembled.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
   }
 }
 
@@ -36,25 +37,26 @@ struct GroupKind {
   bool operator==(const GroupKind& other) const { return material == other.material && damped == other.damped; }
 };
 
-int group_of(Model& model, std::vector<GroupKind>& kinds, const scene::Part& part, const GroupKind& kind, int level) {
-  for (std::size_t g = 0; g < model.elements.size(); ++g)
-    if (model.elements[g].hourglass == part.hourglass && kinds[g] == kind && model.elements[g].level == level) {
-      model.elements[g].parts += ", " + part.name;
+int group_of(std::vector<ElementGroup>& groups, std::vector<GroupKind>& kinds, const scene::Part& part,
+             const GroupKind& kind, int level) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (groups[g].hourglass == part.hourglass && kinds[g] == kind && groups[g].level == level) {
+      groups[g].parts += ", " + part.name;
       return static_cast<int>(g);
     }
-  model.elements.emplace_back();
-  model.elements.back().hourglass = part.hourglass;
-  model.elements.back().level = level;
-  model.elements.back().parts = part.name;
+  groups.emplace_back();
+  groups.back().hourglass = part.hourglass;
+  groups.back().level = level;
+  groups.back().parts = part.name;
   kinds.push_back(kind);
-  return static_cast<int>(model.elements.size()) - 1;
+  return static_cast<int>(groups.size()) - 1;
 }
 
 /// Masses and lengths of a part's elements, and their hourglass scales by element.
-void element_values(Model& model, const Assembly::PartRange& range, const scene::Part& part, std::vector<float>& scale,
-                    std::vector<float>& settling) {
-  const Assembly& assembly = model.assembly;
-  const scene::Material& material = model.scene.materials[range.material];
+void element_values(AssembledScene& assembled, const Assembly::PartRange& range, const scene::Part& part,
+                    std::vector<float>& scale, std::vector<float>& settling) {
+  const Assembly& assembly = assembled.assembly;
+  const scene::Material& material = assembled.scene.materials[range.material];
   const double own = part.hourglass_coefficient;
   const double while_settling = settling_hourglass_coefficient(part);
   for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
@@ -65,9 +67,9 @@ void element_values(Model& model, const Assembly::PartRange& range, const scene:
     scale[e] = static_cast<float>(hourglass_scale(part.hourglass, own, material, volume));
     settling[e] =
         static_cast<float>(hourglass_scale(scene::HourglassType::stiffness, while_settling, material, volume));
-    model.element_length[e] = hexahedron_length(x);
+    assembled.element_length[e] = hexahedron_length(x);
     // Lumped mass by row sums (thesis 2.2.2).
-    for (int N = 0; N < 8; ++N) model.mass[assembly.elements[e][N]] += material.density * integrals[N];
+    for (int N = 0; N < 8; ++N) assembled.mass[assembly.elements[e][N]] += material.density * integrals[N];
   }
 }
 
@@ -209,18 +211,18 @@ ElementBlocks arrays_of(const BlockLists& lists, bool single_precision) {
 }
 
 /// m3, of a group's elements in the reference, by slot; zero in slots that only fill up.
-std::vector<double> reference_volumes(const Model& model, const ElementGroup& group) {
+std::vector<double> reference_volumes(const Assembly& assembly, const ElementGroup& group) {
   std::vector<double> volume(group.first_element.size() * elements_of_block, 0.0);
   for (std::size_t p = 0; p < group.first_element.size(); ++p)
     for (int slot = 0; slot < group.element_count[p]; ++slot)
       volume[p * elements_of_block + slot] =
-          hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[group.first_element[p] + slot]));
+          hexahedron_volume(corners_of(assembly.nodes, assembly.elements[group.first_element[p] + slot]));
   return volume;
 }
 
 /// Constants of damped parts, and the drag of their blocks' nodes.
-DampingArrays damping_arrays(const Model& model, const ElementGroup& group, const std::vector<std::vector<int>>& nodes,
-                             const std::vector<const scene::Part*>& parts,
+DampingArrays damping_arrays(const Assembly& assembly, const AbsorbingLayers& absorbing, const ElementGroup& group,
+                             const std::vector<std::vector<int>>& nodes, const std::vector<const scene::Part*>& parts,
                              const std::vector<const scene::Material*>& materials) {
   std::vector<DampingConstants> constants;
   for (std::size_t r = 0; r < parts.size(); ++r) {
@@ -238,13 +240,13 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
     for (std::size_t l = 0; l < nodes[p].size(); ++l)
       place[nodes[p][l]] = static_cast<std::size_t>(p) * group.blocks.node_stride + l;
     for (int e = group.first_element[p]; e < group.first_element[p] + group.element_count[p]; ++e) {
-      const auto& corners = model.assembly.elements[e];
-      const auto integrals = hexahedron_shape_integrals(corners_of(model.assembly.nodes, corners));
+      const auto& corners = assembly.elements[e];
+      const auto integrals = hexahedron_shape_integrals(corners_of(assembly.nodes, corners));
       for (int N = 0; N < 8; ++N) mass[place[corners[N]]] += materials[row(p)]->density * integrals[N];
     }
   }
   std::vector<double> drag(mass.size(), 0.0);
-  const auto& layers = model.absorbing.rate;
+  const auto& layers = absorbing.rate;
   for (int p = 0; p < group.blocks.count; ++p)
     for (std::size_t l = 0; l < nodes[p].size(); ++l) {
       const std::size_t at = static_cast<std::size_t>(p) * group.blocks.node_stride + l;
@@ -256,13 +258,12 @@ DampingArrays damping_arrays(const Model& model, const ElementGroup& group, cons
 }
 
 /// Whether elements [first, end) have a node that an absorbing layer damps.
-bool in_absorbing_layer(const Model& model, int first, int end) {
-  const auto& rate = model.absorbing.rate;
+bool in_absorbing_layer(const Assembly& assembly, const AbsorbingLayers& absorbing, int first, int end) {
+  const auto& rate = absorbing.rate;
   if (rate.empty()) return false;
-  return std::any_of(model.assembly.elements.begin() + first, model.assembly.elements.begin() + end,
-                     [&](const auto& corners) {
-                       return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; });
-                     });
+  return std::any_of(assembly.elements.begin() + first, assembly.elements.begin() + end, [&](const auto& corners) {
+    return std::any_of(corners.begin(), corners.end(), [&](int n) { return rate[n] > 0; });
+  });
 }
 
 /// The blocks' numbers, level by level, so that groups ascend by it.
@@ -275,23 +276,25 @@ std::vector<int> blocks_by_level(const BlockOrder& order) {
 
 }  // namespace
 
-void check_elements(const Model& model) {
-  for (const auto& part : model.assembly.parts)
+void check_elements(const AssembledScene& assembled) {
+  for (const auto& part : assembled.assembly.parts)
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-      check_element(model, part, e, corners_of(model.assembly.nodes, model.assembly.elements[e]));
+      check_element(assembled, part, e, corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
 }
 
-void build_elements(Model& model) {
-  const Assembly& assembly = model.assembly;
-  model.mass.assign(assembly.nodes.size(), 0);
-  model.element_length.resize(assembly.elements.size());
+void build_elements(AssembledScene& assembled, const AbsorbingLayers& absorbing, ElementModel& elements,
+                    PartialForces& partial) {
+  const Assembly& assembly = assembled.assembly;
+  assembled.mass.assign(assembly.nodes.size(), 0);
+  assembled.element_length.resize(assembly.elements.size());
   std::vector<float> scale(assembly.elements.size()), settling(scale.size());
   for (std::size_t p = 0; p < assembly.parts.size(); ++p)
-    element_values(model, assembly.parts[p], model.scene.parts[p], scale, settling);
-  for (std::size_t i = 0; i < model.scene.points.size(); ++i)
-    model.mass[assembly.point_nodes[i]] = model.scene.points[i].mass;
+    element_values(assembled, assembly.parts[p], assembled.scene.parts[p], scale, settling);
+  for (std::size_t i = 0; i < assembled.scene.points.size(); ++i)
+    assembled.mass[assembly.point_nodes[i]] = assembled.scene.points[i].mass;
 
-  const bool single = model.scene.solver.elements_in_single();
+  std::vector<ElementGroup>& groups = elements.elements;
+  const bool single = elements.in_single = assembled.scene.solver.elements_in_single();
   const int lanes = single ? lane_count<float> : lane_count<double>;
   std::vector<BlockLists> lists;
   std::vector<std::vector<const scene::Material*>> materials;
@@ -300,54 +303,60 @@ void build_elements(Model& model) {
   std::size_t part = 0;
   std::map<std::array<int, 3>, std::array<int, 2>>
       rows_of;  // by level, part and damping: group, and row of constants in it
-  for (const int p : blocks_by_level(model.order)) {
-    const int first = model.order.first_element[p], end = model.order.first_element[p + 1];
+  for (const int p : blocks_by_level(elements.order)) {
+    const int first = elements.order.first_element[p], end = elements.order.first_element[p + 1];
     part = 0;
     while (first >= assembly.parts[part].first_element + assembly.parts[part].element_count) ++part;
     const auto& range = assembly.parts[part];
-    const scene::Part& of_scene = model.scene.parts[part];
-    const bool damped = of_scene.damped() || in_absorbing_layer(model, first, end);
-    const auto [found, is_new] = rows_of.try_emplace({model.order.level[p], static_cast<int>(part), damped ? 1 : 0});
+    const scene::Part& of_scene = assembled.scene.parts[part];
+    const bool damped = of_scene.damped() || in_absorbing_layer(assembly, absorbing, first, end);
+    const auto [found, is_new] = rows_of.try_emplace({elements.order.level[p], static_cast<int>(part), damped ? 1 : 0});
     int& group = found->second[0];
     if (is_new) {
-      const scene::Material& material = model.scene.materials[range.material];
-      group = group_of(model, kinds, of_scene, {material_number(material), damped}, model.order.level[p]);
-      lists.resize(model.elements.size());
-      materials.resize(model.elements.size());
-      parts.resize(model.elements.size());
+      const scene::Material& material = assembled.scene.materials[range.material];
+      group = group_of(groups, kinds, of_scene, {material_number(material), damped}, elements.order.level[p]);
+      lists.resize(groups.size());
+      materials.resize(groups.size());
+      parts.resize(groups.size());
       materials[group].push_back(&material);
       parts[group].push_back(&of_scene);
       found->second[1] = static_cast<int>(materials[group].size()) - 1;
     }
-    append_block(assembly, model.order, first, end, lanes, lists[group]);
+    append_block(assembly, elements.order, first, end, lanes, lists[group]);
     lists[group].material.push_back(found->second[1]);
     for (int slot = 0; slot < elements_of_block; ++slot) {
       // Slots that only fill up must not dissipate.
       lists[group].scale.push_back(slot < end - first ? scale[first + slot] : 0.0f);
       lists[group].settling.push_back(slot < end - first ? settling[first + slot] : 0.0f);
     }
-    model.elements[group].first_element.push_back(first);
-    model.elements[group].element_count.push_back(end - first);
+    groups[group].first_element.push_back(first);
+    groups[group].element_count.push_back(end - first);
   }
   int rows = 0;
-  for (std::size_t g = 0; g < model.elements.size(); ++g) {
-    ElementGroup& elements = model.elements[g];
-    elements.blocks = arrays_of(lists[g], single);
-    elements.block_energy = unset_array<double* [2]>("block energy", elements.blocks.count);
-    elements.block_energy_fetched = PinnedArray<double* [2]>("block energy fetched", elements.blocks.count);
-    elements.material =
-        material_arrays(kinds[g].material, materials[g], elements.first_element.size() * elements_of_block);
-    if (elements.material.flows())
-      elements.material.volume = to_device("reference volume", reference_volumes(model, elements));
-    elements.first_partial = rows;
-    if (kinds[g].damped) elements.damping = damping_arrays(model, elements, lists[g].node, parts[g], materials[g]);
-    rows = elements.rows_end();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    ElementGroup& built = groups[g];
+    built.blocks = arrays_of(lists[g], single);
+    built.block_energy = unset_array<double* [2]>("block energy", built.blocks.count);
+    built.block_energy_fetched = PinnedArray<double* [2]>("block energy fetched", built.blocks.count);
+    built.material = material_arrays(kinds[g].material, materials[g], built.first_element.size() * elements_of_block);
+    if (built.material.flows())
+      built.material.volume = to_device("reference volume", reference_volumes(assembly, built));
+    built.first_partial = rows;
+    if (kinds[g].damped)
+      built.damping = damping_arrays(assembly, absorbing, built, lists[g].node, parts[g], materials[g]);
+    rows = built.rows_end();
   }
-  model.partial.single_precision = single;
+  partial.single_precision = single;
   if (single)
-    model.partial.in_single = Array<PartialForce<float>*>("partial forces", rows);
+    partial.in_single = Array<PartialForce<float>*>("partial forces", rows);
   else
-    model.partial.in_double = Array<PartialForce<double>*>("partial forces", rows);
+    partial.in_double = Array<PartialForce<double>*>("partial forces", rows);
+}
+
+void renew_frames(const NodeArrays& nodes, const ElementGroup& group) {
+  if (group.blocks.frame.extent(0) == 0) return;
+  Kokkos::parallel_for("renew_frames", Range(0, group.blocks.count),
+                       RenewFrames{group.blocks, nodes.position, nodes.reference});
 }
 
 }  // namespace railwave

@@ -4,7 +4,6 @@
 
 #include "kernels/elements/logarithmic_strain.hpp"
 #include "model/build_steps.hpp"
-#include "model/element_precision.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/history_sets.hpp"
 #include "model/elements/materials.hpp"
@@ -63,9 +62,10 @@ auto& stress_tiles(const ListedElements& listed) {
 }
 
 template <class S>
-void evaluate(const Model& model, const ElementHistories& histories) {
-  for (std::size_t g = 0; g < model.elements.size(); ++g) {
-    const ElementGroup& group = model.elements[g];
+void evaluate(const ElementModel& elements, const NodeArrays& nodes) {
+  const ElementHistories& histories = *elements.element_histories;
+  for (std::size_t g = 0; g < elements.elements.size(); ++g) {
+    const ElementGroup& group = elements.elements[g];
     const ListedElements& listed = histories.listed[g];
     const int blocks = static_cast<int>(listed.blocks.extent(0)), count = static_cast<int>(listed.places.extent(0));
     if (count == 0) continue;
@@ -73,7 +73,7 @@ void evaluate(const Model& model, const ElementHistories& histories) {
       with_material(group, [&](const auto& material) {
         using State = ElementState<S, std::decay_t<decltype(material)>, ViscousHourglass>;
         launch_teams(blocks, State::scratch_size(group.blocks),
-                     State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, stress_tiles<S>(listed),
+                     State{material, group.blocks, group.blocks.hourglass_scale, nodes, stress_tiles<S>(listed),
                            listed.energy, listed.blocks});
       });
       Kokkos::parallel_for("take_stress", Range(0, count),
@@ -90,11 +90,11 @@ void evaluate(const Model& model, const ElementHistories& histories) {
   }
   if (histories.wants_strain)
     Kokkos::parallel_for("listed_strain", Range(0, static_cast<int>(histories.corner.extent(0))),
-                         ListedStrain{model.nodes, histories.corner, histories.strain});
+                         ListedStrain{nodes, histories.corner, histories.strain});
 }
 
 /// The listed elements of one group.
-ListedElements list_of(const Model& model, const ElementGroup& group, const std::vector<int>& elements) {
+ListedElements list_of(bool in_single, const ElementGroup& group, const std::vector<int>& elements) {
   std::vector<int> blocks;
   std::vector<std::array<int, 3>> places;
   for (int p = 0; p < group.blocks.count; ++p) {
@@ -113,7 +113,7 @@ ListedElements list_of(const Model& model, const ElementGroup& group, const std:
   listed.blocks = to_device("listed blocks", blocks);
   listed.places = to_device("places of listed elements", places);
   const std::size_t slots = 6 * blocks.size() * elements_of_block;
-  if (model.scene.solver.elements_in_single())
+  if (in_single)
     listed.stress_single = unset_array<float*>("listed stress", slots);
   else
     listed.stress_double = unset_array<double*>("listed stress", slots);
@@ -123,45 +123,47 @@ ListedElements list_of(const Model& model, const ElementGroup& group, const std:
 
 }  // namespace
 
-void build_element_histories(Model& model) {
-  std::vector<int> elements, item, first{0};
+void build_element_histories(const AssembledScene& assembled, ElementModel& elements) {
+  std::vector<int> listed, item, first{0};
   std::vector<double> weight;
   ElementHistories histories;
-  const auto sets = resolve_history_sets(model.scene, model.assembly);
+  const auto sets = resolve_history_sets(assembled.scene, assembled.assembly);
   for (const HistorySet& set : sets) {
     if (!set.inside()) continue;
-    elements.insert(elements.end(), set.elements.begin(), set.elements.end());
+    listed.insert(listed.end(), set.elements.begin(), set.elements.end());
     histories.wants_stress |= set.has("stress");
     histories.wants_strain |= set.has("strain");
     histories.wants_plastic_strain |= set.has("plastic_strain");
   }
-  if (elements.empty()) return;
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+  if (listed.empty()) return;
+  std::sort(listed.begin(), listed.end());
+  listed.erase(std::unique(listed.begin(), listed.end()), listed.end());
   for (const HistorySet& set : sets) {
     if (!set.inside()) continue;
     for (int e : set.elements)
-      item.push_back(static_cast<int>(std::lower_bound(elements.begin(), elements.end(), e) - elements.begin()));
-    for (double share : volume_shares(model.assembly, set.elements)) weight.push_back(share);
+      item.push_back(static_cast<int>(std::lower_bound(listed.begin(), listed.end(), e) - listed.begin()));
+    for (double share : volume_shares(assembled.assembly, set.elements)) weight.push_back(share);
     first.push_back(static_cast<int>(item.size()));
   }
   std::vector<std::array<int, 8>> corner;
-  for (int e : elements) corner.push_back(model.assembly.elements[e]);
+  for (int e : listed) corner.push_back(assembled.assembly.elements[e]);
   histories.first_of_set = first;
   histories.item = to_device("items of element histories", item);
   histories.weight = to_device("weights of element histories", weight);
   histories.corner = to_device("corners of listed elements", corner);
-  for (const ElementGroup& group : model.elements) histories.listed.push_back(list_of(model, group, elements));
-  histories.stress = Array<double* [6]>("stress of listed elements", elements.size());
-  histories.strain = Array<double* [6]>("strain of listed elements", elements.size());
-  histories.plastic_strain = Array<double*>("plastic strain of listed elements", elements.size());
-  model.element_histories = std::make_shared<ElementHistories>(std::move(histories));
+  for (const ElementGroup& group : elements.elements)
+    histories.listed.push_back(list_of(elements.in_single, group, listed));
+  histories.stress = Array<double* [6]>("stress of listed elements", listed.size());
+  histories.strain = Array<double* [6]>("strain of listed elements", listed.size());
+  histories.plastic_strain = Array<double*>("plastic strain of listed elements", listed.size());
+  elements.element_histories = std::make_shared<ElementHistories>(std::move(histories));
 }
 
-void queue_element_means(const Model& model, std::vector<ElementMeans>& means, Reductions& sums) {
-  if (!model.element_histories) return;
-  const ElementHistories& histories = *model.element_histories;
-  with_element_precision(model.scene, [&](auto number) { evaluate<decltype(number)>(model, histories); });
+void queue_element_means(const ElementModel& elements, const NodeArrays& nodes, std::vector<ElementMeans>& means,
+                         Reductions& sums) {
+  if (!elements.element_histories) return;
+  const ElementHistories& histories = *elements.element_histories;
+  with_element_precision(elements, [&](auto number) { evaluate<decltype(number)>(elements, nodes); });
   means.resize(histories.first_of_set.size() - 1);
   for (std::size_t s = 0; s < means.size(); ++s) {
     ElementMeans& mean = means[s];

@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reductions.hpp"
+#include "model/elements/element_model.hpp"
 #include "model/elements/history_sets.hpp"
-#include "model/model.hpp"
 
 namespace railwave {
 
@@ -32,6 +33,7 @@ struct ElementHistories {
 
 /// Queues the means at the present instant of each of these sets: one for each set that resolve_history_sets() gives
 /// elements to. Quantities that no set asks for stay zero.
-void queue_element_means(const Model& model, std::vector<ElementMeans>& means, Reductions& sums);
+void queue_element_means(const ElementModel& elements, const NodeArrays& nodes, std::vector<ElementMeans>& means,
+                         Reductions& sums);
 
 }  // namespace railwave

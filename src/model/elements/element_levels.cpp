@@ -3,7 +3,7 @@
 #include <limits>
 #include <set>
 
-#include "model/boundaries/absorbing_layer.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/build_steps.hpp"
 #include "model/subcycling.hpp"
 #include "model/time_step/stable_step.hpp"
@@ -33,19 +33,21 @@ std::set<int> pulled_nodes(const std::vector<ConnectorCell>& cells) {
 /// and only the finest level is asked whether they are.
 class OwnSteps {
  public:
-  explicit OwnSteps(const Model& model) : model_(model), at_node_(model.assembly.nodes.size(), 0) {
-    for (const ContactPair& pair : model.contacts) add_contact(pair);
-    const double connector = model.stable_step.connector;
+  /// @param connector s, stable step of the connectors alone; 0: none
+  OwnSteps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+           const std::vector<ConnectorCell>& cells, double connector)
+      : assembled_(assembled), at_node_(assembled.assembly.nodes.size(), 0) {
+    for (const ContactPair& pair : contacts) add_contact(pair);
     if (connector > 0 && std::isfinite(connector))
-      for (int n : pulled_nodes(model.connectors.cells)) at_node_[n] += 4 / (connector * connector);
+      for (int n : pulled_nodes(cells)) at_node_[n] += 4 / (connector * connector);
   }
 
   /// The square of a sum's highest frequency is at most the sum of the squares.
-  std::vector<double> steps() const {
-    std::vector<double> steps = safe_steps(model_);
+  /// @param steps s, of the elements without springs
+  std::vector<double> with_springs(std::vector<double> steps) const {
     for (std::size_t e = 0; e < steps.size(); ++e) {
       double springs = 0;
-      for (int n : model_.assembly.elements[e]) springs = std::fmax(springs, at_node_[n]);
+      for (int n : assembled_.assembly.elements[e]) springs = std::fmax(springs, at_node_[n]);
       steps[e] = 2 / std::sqrt(4 / (steps[e] * steps[e]) + springs);
     }
     return steps;
@@ -57,22 +59,22 @@ class OwnSteps {
     double stiffest = 0;
     for (double k : pair.segment_stiffness) stiffest = std::fmax(stiffest, pair.growth * k);
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes) at_node_[n] += 2 * stiffest / model_.mass[n];
+      for (int n : *nodes) at_node_[n] += 2 * stiffest / assembled_.mass[n];
   }
 
-  const Model& model_;
+  const AssembledScene& assembled_;
   std::vector<double> at_node_;  ///< squared frequency of springs, 1/s2
 };
 
 /// Bodies in contact are neighbours wherever they may touch: one level for the elements of both surfaces.
-void level_contacts(const Model& model, std::vector<int>& fit) {
-  for (const ContactPair& pair : model.contacts) {
-    std::vector<char> of_pair(model.assembly.nodes.size(), 0);
+void level_contacts(const Assembly& assembly, const std::vector<ContactPair>& contacts, std::vector<int>& fit) {
+  for (const ContactPair& pair : contacts) {
+    std::vector<char> of_pair(assembly.nodes.size(), 0);
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes) of_pair[n] = 1;
     std::vector<int> elements;
     for (std::size_t e = 0; e < fit.size(); ++e)
-      for (int n : model.assembly.elements[e])
+      for (int n : assembly.elements[e])
         if (of_pair[n] != 0) {
           elements.push_back(static_cast<int>(e));
           break;
@@ -112,12 +114,13 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   model.scene = scene;
   model.assembly = assembly;
   model.absorbing = absorbing_layers(scene, assembly);
-  build_elements(model);
-  build_contacts(model);
+  build_elements(model, model.absorbing, model, model.partial);
+  build_contacts(model, model.contacts);
   model.connectors.cells = connector_cells(scene, assembly, model.mass);
   build_stable_step(model);
 
-  auto steps = OwnSteps(model).steps();
+  const OwnSteps own(model, model.contacts, model.connectors.cells, model.stable_step.connector);
+  auto steps = own.with_springs(safe_steps(model, model.absorbing));
   if (steps.empty()) return {};
   const double finest = *std::min_element(steps.begin(), steps.end());
   const double scale = scene.time.step > 0 ? std::min(1.0, model.step_size / finest) : scene.time.step_scale;
@@ -127,7 +130,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
     fit[e] =
         std::clamp(static_cast<int>(std::floor(std::log2(steps[e] / (margin * model.step_size)))), 0, most_levels - 1);
   }
-  level_contacts(model, fit);
+  level_contacts(assembly, model.contacts, fit);
 
   std::vector<int> levels(steps.size(), 0);
   std::vector<char> in(steps.size(), 1);

@@ -8,17 +8,12 @@
 #include "kernels/elements/damping_arrays.hpp"
 #include "kernels/elements/element_force.hpp"
 #include "kernels/materials/material.hpp"
-#include "kernels/nodes/carried_nodes.hpp"
+#include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
 #include "model/elements/block_order.hpp"
+#include "model/elements/carriers.hpp"
 
 namespace railwave {
-
-/// What blocks have besides where nodes are in single precision; see CarriedArrays. Empty otherwise.
-struct CarriedBlocks {
-  Array<float*> local;
-  Array<CarriedArm*> arm;
-};
 
 /// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control,
 /// damped or not.
@@ -46,9 +41,19 @@ struct ElementHistories;
 
 /// The elements of a model with their materials.
 struct ElementModel {
+  bool in_single = false;  ///< they are computed in single precision
   BlockOrder order;
   std::vector<ElementGroup> elements;
   std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
 };
+
+/// Lays the frames from which single precision measures a group's displacements where its blocks are now.
+void renew_frames(const NodeArrays& nodes, const ElementGroup& group);
+
+/// Calls `work` with a number of the type in which the elements are computed.
+template <class Work>
+auto with_element_precision(const ElementModel& elements, const Work& work) {
+  return elements.in_single ? work(float{}) : work(double{});
+}
 
 }  // namespace railwave

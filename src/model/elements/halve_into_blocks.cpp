@@ -1,4 +1,4 @@
-#include "model/elements/divide_into_blocks.hpp"
+#include "model/elements/block_order.hpp"
 
 #include <algorithm>
 #include <cmath>

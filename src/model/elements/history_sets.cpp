@@ -5,7 +5,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
-#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
 
 namespace railwave {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/materials/all.hpp"
-#include "model/model.hpp"
+#include "model/elements/element_model.hpp"
 
 /// What materials of elements are to the host: which of a case's materials a kernel is for, the constants that it gets,
 /// and the words for it. A new material has its kernel in kernels/materials/, its line in kernels/materials/all.hpp,

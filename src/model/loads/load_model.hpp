@@ -42,6 +42,12 @@ struct LoadModel {
   TorqueArrays torques;
 };
 
+/// What loads, connectors and beams do to nodes, one entry for each force on one node.
+struct Contributions {
+  std::vector<int> node;
+  std::vector<RowShare> share;  ///< what each is worth at each step
+};
+
 /// The scene's curve of that name; null for an empty name.
 const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name);
 

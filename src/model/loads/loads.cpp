@@ -16,7 +16,7 @@ namespace {
 
 /// Collects sets and contributions on the host before they go to the device.
 struct Collector {
-  Model& model;
+  const AssembledScene& assembled;
   std::vector<std::vector<int>> sets;
   std::vector<std::vector<double>> set_weights;
   std::vector<std::string> set_names;  ///< empty: weights of its own, which nobody else can mean
@@ -26,9 +26,9 @@ struct Collector {
 
   std::vector<double> weights(const std::vector<int>& nodes) const {
     double total = 0;
-    for (int n : nodes) total += model.mass[n];
+    for (int n : nodes) total += assembled.mass[n];
     std::vector<double> weight;
-    for (int n : nodes) weight.push_back(model.mass[n] / total);
+    for (int n : nodes) weight.push_back(assembled.mass[n] / total);
     return weight;
   }
 
@@ -36,7 +36,7 @@ struct Collector {
     if (name == "ground") return -1;
     const auto known = std::find(set_names.begin(), set_names.end(), name);
     if (known != set_names.end()) return static_cast<int>(known - set_names.begin());
-    const auto& nodes = find_node_set(model.scene, model.assembly, entry, key, name);
+    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, entry, key, name);
     return add({nodes, weights(nodes), name});
   }
 
@@ -59,19 +59,20 @@ struct Collector {
 
 /// Amplitudes of a load whose direction never turns.
 std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {
-  const Model& model = collector.model;
+  const scene::Scene& scene = collector.assembled.scene;
+  const Assembly& assembly = collector.assembled.assembly;
   std::vector<Vec3> amplitude;
   if (load.type == scene::LoadType::nodal_force) {
-    const auto& nodes = find_node_set(model.scene, model.assembly, load, "target", load.target);
+    const auto& nodes = find_node_set(scene, assembly, load, "target", load.target);
     const auto weight = collector.weights(nodes);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       collector.contribution_node.push_back(nodes[k]);
       amplitude.push_back(scaled(weight[k], load.force));
     }
   } else {
-    for (const Face& face : find_surface(model.scene, model.assembly, load, "target", load.target)) {
-      const auto corner = model.assembly.face_nodes(face);
-      const auto& x = model.assembly.nodes;
+    for (const Face& face : find_surface(scene, assembly, load, "target", load.target)) {
+      const auto corner = assembly.face_nodes(face);
+      const auto& x = assembly.nodes;
       const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
       for (int n : corner) {
         collector.contribution_node.push_back(n);
@@ -83,37 +84,40 @@ std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {
 }
 
 bool is_one_node(const Collector& collector, const scene::Load& load) {
-  return find_node_set(collector.model.scene, collector.model.assembly, load, "target", load.target).size() == 1;
+  return find_node_set(collector.assembled.scene, collector.assembled.assembly, load, "target", load.target).size() ==
+         1;
 }
 
-void build_load(Collector& collector, const scene::Load& load) {
-  Model& model = collector.model;
+void build_load(Collector& collector, const scene::Load& load, const std::shared_ptr<BeamModel>& beams,
+                std::vector<LoadArrays>& loads) {
+  const scene::Scene& scene = collector.assembled.scene;
+  const Assembly& assembly = collector.assembled.assembly;
   LoadArrays arrays;
   arrays.load = &load;
-  arrays.curve = curve_of(model.scene, load.curve);
+  arrays.curve = curve_of(scene, load.curve);
   arrays.first = collector.contributions();
   if (load.type == scene::LoadType::torque && is_one_node(collector, load)) {
-    arrays.beam_node = beam_node_of(model, find_node_set(model.scene, model.assembly, load, "target", load.target));
+    arrays.beam_node = beam_node_of(beams, find_node_set(scene, assembly, load, "target", load.target));
     if (arrays.beam_node < 0)
       throw InputError(fmt::format(
           "{}:{}: [loads.{}] target: '{}' is one node, which has a rotation only where beams end; add a section "
           "[beams.NAME] from there, or name a set of several nodes",
-          model.scene.path, load.line, load.name, load.target));
+          scene.path, load.line, load.name, load.target));
   } else if (load.type == scene::LoadType::torque) {
     arrays.set = collector.set(load, "target", load.target);
     arrays.torque = static_cast<int>(collector.torque_set.size());
-    const Vec3 a = turned_with_part_of(model.scene, load.target, load.axis);
+    const Vec3 a = turned_with_part_of(scene, load.target, load.axis);
     collector.torque_axis.push_back(scaled(1 / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), a));
     collector.torque_set.push_back(arrays.set);
     if (collector.torque_set.size() > TorqueArrays::most)
-      throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", model.scene.path,
+      throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", scene.path,
                                    load.line, load.name, TorqueArrays::most));
     for (int n : collector.sets[arrays.set]) collector.contribution_node.push_back(n);
     arrays.count = static_cast<int>(collector.sets[arrays.set].size());
   } else if (load.type == scene::LoadType::pressure) {
     std::vector<std::array<int, 4>> facets;
-    for (const Face& face : find_surface(model.scene, model.assembly, load, "target", load.target)) {
-      facets.push_back(model.assembly.face_nodes(face));
+    for (const Face& face : find_surface(scene, assembly, load, "target", load.target)) {
+      facets.push_back(assembly.face_nodes(face));
       for (int n : facets.back()) collector.contribution_node.push_back(n);
     }
     arrays.count = static_cast<int>(facets.size());
@@ -123,21 +127,20 @@ void build_load(Collector& collector, const scene::Load& load) {
     arrays.count = static_cast<int>(amplitude.size());
     arrays.amplitude = to_device("load amplitude", amplitude);
   }
-  model.loads.push_back(arrays);
+  loads.push_back(arrays);
 }
 
-void build_connectors(Collector& collector) {
-  Model& model = collector.model;
-  const auto& nodes = model.assembly.nodes;
-  ConnectorModel& built = model.connectors;
-  built.cells = connector_cells(model.scene, model.assembly, model.mass);
+void build_connectors(Collector& collector, ConnectorModel& built) {
+  const scene::Scene& scene = collector.assembled.scene;
+  const auto& nodes = collector.assembled.assembly.nodes;
+  built.cells = connector_cells(scene, collector.assembled.assembly, collector.assembled.mass);
   const int count = static_cast<int>(built.cells.size());
   std::vector<std::array<int, 2>> ends;
   std::vector<Vec3> rest, stiffness, damping, preload;
   built.first = collector.contributions();
   for (int c = 0; c < count; ++c) {
     const ConnectorCell& cell = built.cells[c];
-    const scene::Connector& connector = model.scene.connectors[cell.connector];
+    const scene::Connector& connector = scene.connectors[cell.connector];
     ends.push_back({collector.set(cell.from), collector.set(cell.to)});
     const Vec3 a = mean_place(cell.from, nodes), b = mean_place(cell.to, nodes);
     rest.push_back({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
@@ -162,27 +165,27 @@ void build_connectors(Collector& collector) {
   const auto axes = Kokkos::create_mirror_view(arrays.axes);
   for (int c = 0; c < count; ++c)
     for (int a = 0; a < 3; ++a)
-      for (int i = 0; i < 3; ++i) axes(c, a, i) = model.scene.connectors[built.cells[c].connector].axes[a][i];
+      for (int i = 0; i < 3; ++i) axes(c, a, i) = scene.connectors[built.cells[c].connector].axes[a][i];
   Kokkos::deep_copy(arrays.axes, axes);
   arrays.force = Array<double* [3]>("connector force", count);
   arrays.energy = Array<double* [2]>("connector energy", count);
 }
 
 /// Both ends of each beam's elements, and moments on them.
-void build_beam_forces(Collector& collector) {
-  Model& model = collector.model;
-  if (!model.beams) return;
-  BeamArrays& beams = model.beams->arrays;
-  beams.first = collector.contributions();
-  const auto end = to_host(beams.end);
-  const auto node = to_host(beams.node);
-  for (int e = 0; e < beams.count; ++e)
+void build_beam_forces(Collector& collector, const std::vector<LoadArrays>& loads,
+                       const std::shared_ptr<BeamModel>& beams) {
+  if (!beams) return;
+  BeamArrays& arrays = beams->arrays;
+  arrays.first = collector.contributions();
+  const auto end = to_host(arrays.end);
+  const auto node = to_host(arrays.node);
+  for (int e = 0; e < arrays.count; ++e)
     for (int side : {0, 1}) collector.contribution_node.push_back(node(end(e, side)));
-  add_moments(model);
+  add_moments(collector.assembled.scene, loads, *beams);
 }
 
 /// @param moving sets that connectors and torques need; histories need the rest
-void build_sets(const Collector& collector, int moving) {
+void build_sets(const Collector& collector, int moving, LoadModel& loads) {
   std::vector<int> first{0}, first_chunk{0}, nodes;
   std::vector<SetChunk> chunks;
   std::vector<double> weight;
@@ -197,11 +200,11 @@ void build_sets(const Collector& collector, int moving) {
       chunks.push_back({static_cast<int>(s), k, std::min(k + SetChunk::size, end), 0});
     first_chunk.push_back(static_cast<int>(chunks.size()));
   }
-  NodeSets& sets = collector.model.sets;
+  NodeSets& sets = loads.sets;
   sets.count = static_cast<int>(collector.sets.size());
   sets.moving = moving;
   sets.first = to_device("first of set", first);
-  collector.model.first_of_set = first;
+  loads.first_of_set = first;
   sets.nodes = to_device("nodes of set", nodes);
   sets.weight = to_device("weight in set", weight);
   sets.first_chunk = to_device("first chunk of set", first_chunk);
@@ -210,8 +213,7 @@ void build_sets(const Collector& collector, int moving) {
   sets.sums = Array<double * [NodeSets::values]>("sums of sets", moving);
 }
 
-void build_torques(const Collector& collector) {
-  TorqueArrays& torques = collector.model.torques;
+void build_torques(const Collector& collector, TorqueArrays& torques) {
   torques.count = static_cast<int>(collector.torque_set.size());
   torques.set = to_device("torque set", collector.torque_set);
   torques.axis = to_device("torque axis", collector.torque_axis);
@@ -219,114 +221,37 @@ void build_torques(const Collector& collector) {
 }
 
 /// What each contribution is worth at each step.
-std::vector<RowShare> contribution_shares(const Collector& collector) {
-  const Model& model = collector.model;
+std::vector<RowShare> contribution_shares(const Collector& collector, const LoadModel& loads) {
   std::vector<RowShare> shares(collector.contribution_node.size());
   for (std::size_t c = 0; c < shares.size(); ++c) shares[c] = {static_cast<int>(c), RowShare::given, 1};
-  for (std::size_t i = 0; i < model.connectors.cell.size(); ++i) {
-    shares[model.connectors.first + i].law = model.connectors.cell[i];
-    shares[model.connectors.first + i].weight = model.connectors.share[i];
+  for (std::size_t i = 0; i < loads.connectors.cell.size(); ++i) {
+    shares[loads.connectors.first + i].law = loads.connectors.cell[i];
+    shares[loads.connectors.first + i].weight = loads.connectors.share[i];
   }
-  for (const LoadArrays& load : model.loads) {
+  for (const LoadArrays& load : loads.loads) {
     if (load.torque < 0) continue;
     const auto& weight = collector.set_weights[load.set];
     for (int k = 0; k < load.count; ++k) {
-      shares[load.first + k].law = model.connectors.arrays.count + load.torque;
+      shares[load.first + k].law = loads.connectors.arrays.count + load.torque;
       shares[load.first + k].weight = weight[k];
     }
   }
   return shares;
 }
 
-/// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa
-/// on the segment, whatever the penalty's scale) is the largest that the sum of contact forces must hold.
-double contact_quantum(const Model& model) {
-  double largest = 1e-30;
-  for (const ContactPair& pair : model.contacts)
-    for (double stiffness : pair.segment_stiffness)
-      largest = std::max(
-          largest, 0.1 * pair.segment_size * pair.growth * stiffness / std::min(1.0, pair.contact->penalty_scale));
-  return std::exp2(std::ceil(std::log2(largest / ExtraForceSum::largest)));
-}
-
-/// Numbers the nodes that can feel extra forces, and lists each one's contributions.
-void build_extra(const Collector& collector) {
-  Model& model = collector.model;
-  std::vector<int> concerned = collector.contribution_node;
-  for (const ContactPair& pair : model.contacts) {
-    concerned.insert(concerned.end(), pair.slave_nodes.begin(), pair.slave_nodes.end());
-    concerned.insert(concerned.end(), pair.master_nodes.begin(), pair.master_nodes.end());
-  }
-  // What ties and non-reflecting ends do to nodes is added to their loads, so these have a sum of loads, if of none.
-  std::vector<char> added(model.assembly.nodes.size(), 0);
-  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes})
-    for (int n : *nodes) added[n] = 1;
-  for (const auto* nodes : {&model.ties.masters, &model.ends.nodes})
-    concerned.insert(concerned.end(), nodes->begin(), nodes->end());
-  std::sort(concerned.begin(), concerned.end());
-  concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
-  const int rows = static_cast<int>(concerned.size());
-  std::vector<int> row_of_node(model.assembly.nodes.size(), -1);
-  for (int r = 0; r < rows; ++r) row_of_node[concerned[r]] = r;
-
-  std::vector<int> first(rows + 1, 0);
-  for (int n : collector.contribution_node) ++first[row_of_node[n] + 1];
-  for (int r = 0; r < rows; ++r) first[r + 1] += first[r];
-  for (ContactPair& pair : model.contacts)
-    for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes)
-        pair.loaded = pair.loaded || added[n] != 0 || first[row_of_node[n]] < first[row_of_node[n] + 1];
-  std::vector<int> filled(first.begin(), first.end() - 1);
-  std::vector<RowShare> sorted(collector.contribution_node.size());
-  for (const RowShare& share : contribution_shares(collector))
-    sorted[filled[row_of_node[collector.contribution_node[share.contribution]]]++] = share;
-  std::vector<LoadedRow> loaded;
-  for (int r = 0; r < rows; ++r)
-    if (first[r + 1] > first[r] || added[concerned[r]] != 0)
-      loaded.push_back({r, concerned[r], first[r], first[r + 1]});
-
-  ExtraForces& extra = model.extra;
-  extra.row_count = rows;
-  extra.contribution_count = collector.contributions();
-  extra.sum.load = Array<double* [3]>("load on row", rows);
-  extra.sum.contact = Array<std::uint64_t* [3]>("contact force on row", rows);
-  extra.sum.quantum = contact_quantum(model);
-  extra.loaded_count = static_cast<int>(loaded.size());
-  extra.loaded = to_device("loaded rows", loaded);
-  std::vector<int> loaded_of_row(extra.row_count, -1);
-  for (std::size_t k = 0; k < loaded.size(); ++k) loaded_of_row[loaded[k].row] = static_cast<int>(k);
-  extra.loaded_of_row = to_device("loaded of row", loaded_of_row);
-  extra.shares = to_device("shares of rows", sorted);
-  extra.contribution = Array<double* [3]>("contribution", extra.contribution_count);
-  extra.contribution_node = to_device("node of contribution", collector.contribution_node);
-  extra.work = Array<double*>("work of contribution", extra.contribution_count);
-  model.nodes.extra = to_device("extra row", row_of_node);
-
-  std::vector<int> master_rows;
-  for (int n : model.ties.masters) master_rows.push_back(row_of_node[n]);
-  model.ties.arrays.master_rows = to_device("rows of ties", master_rows);
-  if (model.ends.nodes.empty()) return;
-  model.ends.alone.assign(model.assembly.nodes.size(), 0);
-  for (int n : model.ends.nodes) model.ends.alone[n] = first[row_of_node[n]] == first[row_of_node[n] + 1] ? 1 : 0;
-  for (const ContactPair& pair : model.contacts)
-    for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
-      for (int n : *nodes) model.ends.alone[n] = 0;
-  for (int n : model.ties.masters) model.ends.alone[n] = 0;
-}
-
 }  // namespace
 
-void build_loads(Model& model) {
-  Collector collector{model, {}, {}, {}, {}, {}, {}};
-  for (const scene::Load& load : model.scene.loads) build_load(collector, load);
-  build_connectors(collector);
-  build_beam_forces(collector);
+Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads) {
+  Collector collector{assembled, {}, {}, {}, {}, {}, {}};
+  for (const scene::Load& load : assembled.scene.loads) build_load(collector, load, beams, loads.loads);
+  build_connectors(collector, loads.connectors);
+  build_beam_forces(collector, loads.loads, beams);
   const int moving = static_cast<int>(collector.sets.size());
-  for (const HistorySet& set : resolve_history_sets(model.scene, model.assembly))
-    if (set.motion()) model.history_sets.push_back(collector.set({"history_sets", 0}, "output", set.name));
-  build_sets(collector, moving);
-  build_torques(collector);
-  build_extra(collector);
+  for (const HistorySet& set : resolve_history_sets(assembled.scene, assembled.assembly))
+    if (set.motion()) loads.history_sets.push_back(collector.set({"history_sets", 0}, "output", set.name));
+  build_sets(collector, moving, loads);
+  build_torques(collector, loads.torques);
+  return {collector.contribution_node, contribution_shares(collector, loads)};
 }
 
 }  // namespace railwave

@@ -1,4 +1,4 @@
-#include "model/sets/place_element_sets.hpp"
+#include "model/sets/place_sets.hpp"
 
 #include <fmt/format.h>
 

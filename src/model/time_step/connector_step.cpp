@@ -1,4 +1,4 @@
-#include "model/time_step/connector_step.hpp"
+#include "model/time_step/stable_step.hpp"
 
 #include <algorithm>
 #include <cmath>

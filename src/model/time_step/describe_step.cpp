@@ -8,9 +8,9 @@
 namespace railwave {
 namespace {
 
-std::string near(const Model& model, int element) {
+std::string near(const Assembly& assembly, int element) {
   if (element < 0) return {};
-  const Vec3& at = model.assembly.nodes[model.assembly.elements[element][0]];
+  const Vec3& at = assembly.nodes[assembly.elements[element][0]];
   return fmt::format(" (element near {:.4g}, {:.4g}, {:.4g} m)", at[0], at[1], at[2]);
 }
 
@@ -35,10 +35,9 @@ bool shortened(const StableStep& stable) {
 
 }  // namespace
 
-std::string what_sets_step(const Model& model) {
-  const StableStep& stable = model.stable_step;
-  if (model.scene.time.step > 0) return "time.step";
-  const bool heights = model.scene.solver.step_estimate == scene::StepEstimate::element;
+std::string what_sets_step(const AssembledScene& assembled, const StableStep& stable) {
+  if (assembled.scene.time.step > 0) return "time.step";
+  const bool heights = assembled.scene.solver.step_estimate == scene::StepEstimate::element;
   const double elements = heights ? stable.elements : stable.eigenvalue,
                contact = heights ? stable.contact : stable.eigenvalue_contact;
   const auto least = [&](double step) { return step > 0 && step <= elements; };
@@ -47,35 +46,37 @@ std::string what_sets_step(const Model& model) {
   if (least(contact)) return "contact springs, by penalty_scale and damping";
   if (least(stable.beam)) return "beams, by their sections, lengths and material";
   const int element = heights ? stable.element : stable.eigenvalue_element;
-  if (const int part = part_of_element(model.assembly, element); part >= 0)
-    return fmt::format("elements of part {} by their size, material and damping{}", model.assembly.parts[part].name,
-                       near(model, element));
+  if (const int part = part_of_element(assembled.assembly, element); part >= 0)
+    return fmt::format("elements of part {} by their size, material and damping{}", assembled.assembly.parts[part].name,
+                       near(assembled.assembly, element));
   return "the scene as a whole";
 }
 
-std::vector<std::string> describe_stable_step(const Model& model) {
-  const StableStep& stable = model.stable_step;
-  const scene::StepEstimate choice = model.scene.solver.step_estimate;
-  std::vector<std::string> lines{line("stable by element heights", stable.by_elements, stable.elements,
-                                      near(model, stable.element), stable, stable.contact),
-                                 line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue,
-                                      near(model, stable.eigenvalue_element), stable, stable.eigenvalue_contact)};
+std::vector<std::string> describe_stable_step(const AssembledScene& assembled, const StableStep& stable,
+                                              const std::shared_ptr<BeamModel>& beams) {
+  const scene::StepEstimate choice = assembled.scene.solver.step_estimate;
+  std::vector<std::string> lines{
+      line("stable by element heights", stable.by_elements, stable.elements, near(assembled.assembly, stable.element),
+           stable, stable.contact),
+      line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue,
+           near(assembled.assembly, stable.eigenvalue_element), stable, stable.eigenvalue_contact)};
   if (shortened(stable)) lines[0] += "; shortened to what they allow together at free surfaces and in contact";
   if (choice == scene::StepEstimate::global)
     lines.push_back(
-        fmt::format("stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
-                    stable.global,
-                    model.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
-                    stable.global / stable.by_elements) +
+        fmt::format(
+            "stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
+            stable.global,
+            assembled.scene.contacts.empty() ? "" : fmt::format(" ({} contact springs counted in)", stable.springs),
+            stable.global / stable.by_elements) +
         (stable.limit < stable.global
              ? fmt::format("; {:.4g} s for contact springs that bodies strike undamped", stable.limit)
              : ""));
   const char* names[] = {"element", "eigenvalue", "global"};
-  lines.push_back(model.scene.time.step > 0
-                      ? fmt::format("set by time.step = {:.4g} s", model.scene.time.step)
+  lines.push_back(assembled.scene.time.step > 0
+                      ? fmt::format("set by time.step = {:.4g} s", assembled.scene.time.step)
                       : fmt::format("set by solver.step_estimate = {}, times time.step_scale = {:.4g}",
-                                    names[static_cast<int>(choice)], model.scene.time.step_scale));
-  if (const std::string inertia = describe_beam_inertia(model); !inertia.empty()) lines.push_back(inertia);
+                                    names[static_cast<int>(choice)], assembled.scene.time.step_scale));
+  if (const std::string inertia = describe_beam_inertia(beams); !inertia.empty()) lines.push_back(inertia);
   return lines;
 }
 

@@ -1,4 +1,4 @@
-#include "model/time_step/element_frequency.hpp"
+#include "model/time_step/stable_step.hpp"
 
 #include <Eigen/Dense>
 #include <limits>

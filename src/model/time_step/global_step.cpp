@@ -1,14 +1,15 @@
 #include "model/time_step/global_step.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "kernels/support/reductions.hpp"
 #include "kernels/ties/tie.hpp"
+#include "model/contact/contact_springs.hpp"
 #include "model/elements/hourglass_scale.hpp"
 #include "model/host_copy.hpp"
-#include "model/time_step/lanczos.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "model/time_step/tangent_springs.hpp"
 
@@ -54,16 +55,35 @@ struct Scale {
   }
 };
 
-double inner(const Model& model, const NodeVector& a, const NodeVector& b) {
+double inner(ReductionSpace& space, const NodeVector& a, const NodeVector& b) {
   double sum = 0;
-  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, *model.reduction_space);
+  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, space);
   return sum;
 }
 
 }  // namespace
 
-GlobalEstimate::GlobalEstimate(const Model& model) : tangent_(model.assembly) {
-  const std::size_t nodes = model.assembly.nodes.size();
+RitzValue largest_ritz_value(const std::vector<double>& diagonal, const std::vector<double>& beside) {
+  const auto size = static_cast<Eigen::Index>(diagonal.size());
+  const Eigen::VectorXd along = Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size);
+  const Eigen::VectorXd off = Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(along, off);
+  const Eigen::Index last = size - 1;
+  return {solver.eigenvalues()[last], beside.back() * std::fabs(solver.eigenvectors()(last, last))};
+}
+
+GlobalEstimate::GlobalEstimate(const AssembledScene& assembled, const NodalState& nodal,
+                               const std::vector<ConnectorCell>& cells, const std::vector<ContactPair>& contacts,
+                               const Ties& ties, const AbsorbingLayers& absorbing)
+    : assembled_(assembled),
+      nodal_(nodal),
+      cells_(cells),
+      contacts_(contacts),
+      ties_(ties),
+      absorbing_(absorbing),
+      tangent_(assembled.assembly) {
+  const std::size_t nodes = assembled_.assembly.nodes.size();
   now_ = unset_array<double* [3]>("tangent vector", nodes);
   before_ = unset_array<double* [3]>("tangent vector before", nodes);
   image_ = unset_array<double* [3]>("tangent image", nodes);
@@ -72,15 +92,15 @@ GlobalEstimate::GlobalEstimate(const Model& model) : tangent_(model.assembly) {
 
 std::size_t GlobalEstimate::bytes() const { return tangent_.bytes() + 4 * now_.span() * sizeof(double); }
 
-void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep& result) {
-  SpringCollector collector(model);
-  collector.add_connectors();
-  for (const ContactPair& pair : model.contacts) {
+void GlobalEstimate::set_springs(double horizon, GlobalStep& result) {
+  SpringCollector collector;
+  collector.add_connectors(assembled_.scene, cells_);
+  for (const ContactPair& pair : contacts_) {
     if (!pair.has_springs()) {
       result.seen.emplace_back(pair.slave_nodes.size(), 1);
       continue;
     }
-    const auto springs = possible_contact_springs(model, pair, horizon);
+    const auto springs = possible_contact_springs(assembled_.mass, nodal_.nodes, pair, horizon);
     collector.add_contact(springs, pair.arrays.friction > 0);
     result.springs += static_cast<long>(springs.size());
     auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
@@ -89,18 +109,18 @@ void GlobalEstimate::set_springs(const Model& model, double horizon, GlobalStep&
   tangent_.set_springs(collector.on_device());
 }
 
-void GlobalEstimate::apply(const Model& model, double inverse_time) {
-  const int nodes = static_cast<int>(model.assembly.nodes.size());
-  Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, model.nodes.mass});
-  const TieArrays& ties = model.ties.arrays;
+void GlobalEstimate::apply(double inverse_time) {
+  const int nodes = static_cast<int>(assembled_.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, nodal_.nodes.mass});
+  const TieArrays& ties = ties_.arrays;
   if (ties.active())
     Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count),
-                         TieMotion{ties, model.nodes.position, displacement_});
-  const double speed = largest_initial_speed(model.scene);
+                         TieMotion{ties, nodal_.nodes.position, displacement_});
+  const double speed = largest_initial_speed(assembled_.scene);
   std::vector<ElementStiffness> stiffness;
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const scene::Part& part = model.scene.parts[p];
-    const scene::Material& material = model.scene.materials[model.assembly.parts[p].material];
+  for (std::size_t p = 0; p < assembled_.assembly.parts.size(); ++p) {
+    const scene::Part& part = assembled_.scene.parts[p];
+    const scene::Material& material = assembled_.scene.materials[assembled_.assembly.parts[p].material];
     const bool viscous = part.hourglass == scene::HourglassType::viscous;
     const double factor =
         hourglass_factor(part.hourglass, part.hourglass_coefficient, material) * (viscous ? inverse_time : 1);
@@ -110,24 +130,24 @@ void GlobalEstimate::apply(const Model& model, double inverse_time) {
         material.density * inverse_time;
     stiffness.push_back({damped * (material.dilatational_modulus() - 2 * mu), damped * mu, factor, viscous, bulk});
   }
-  tangent_.apply(model.assembly, stiffness, model.nodes.position, displacement_, inverse_time, image_);
+  tangent_.apply(assembled_.assembly, stiffness, nodal_.nodes.position, displacement_, inverse_time, image_);
   if (ties.active()) {
     Kokkos::parallel_for("tangent_tie_force", SpreadRange(0, ties.slave_count),
-                         TieMotionForce{ties, model.nodes.position, image_});
+                         TieMotionForce{ties, nodal_.nodes.position, image_});
     Kokkos::parallel_for("tangent_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
                          TieGather{ties, ties.master_nodes, image_});
   }
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
-                       ToWeighted{image_, model.nodes.mass, model.nodes.constraint, model.constraints});
+                       ToWeighted{image_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
 }
 
-double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough,
-                                          GlobalStep& result) {
-  const int nodes = static_cast<int>(model.assembly.nodes.size());
-  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, model.nodes.mass});
+double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, double enough, GlobalStep& result) {
+  const int nodes = static_cast<int>(assembled_.assembly.nodes.size());
+  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, nodal_.nodes.mass});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
-                       ToWeighted{now_, model.nodes.mass, model.nodes.constraint, model.constraints});
-  const double size = std::sqrt(inner(model, now_, now_));
+                       ToWeighted{now_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
+  ReductionSpace& space = *nodal_.reduction_space;
+  const double size = std::sqrt(inner(space, now_, now_));
   if (!(size > 0)) return 0;  // everything is held
   Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
   Kokkos::deep_copy(before_, 0.0);
@@ -135,12 +155,12 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
   std::vector<double> diagonal, beside;
   RitzValue ritz;
   while (true) {
-    apply(model, inverse_time);
+    apply(inverse_time);
     ++result.applications;
-    diagonal.push_back(inner(model, now_, image_));
+    diagonal.push_back(inner(space, now_, image_));
     Kokkos::parallel_for("tangent_recur", Range(0, nodes),
                          Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
-    beside.push_back(std::sqrt(inner(model, image_, image_)));
+    beside.push_back(std::sqrt(inner(space, image_, image_)));
     const int iterations = static_cast<int>(diagonal.size());
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
     if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {
@@ -157,40 +177,40 @@ double GlobalEstimate::largest_eigenvalue(const Model& model, double inverse_tim
   return ritz.value + ritz.residual;
 }
 
-GlobalStep GlobalEstimate::operator()(const Model& model, double horizon, double guess) {
+GlobalStep GlobalEstimate::operator()(double horizon, double guess) {
   GlobalStep result;
-  set_springs(model, horizon, result);
-  return solve(model, guess, false, std::move(result));
+  set_springs(horizon, result);
+  return solve(guess, false, std::move(result));
 }
 
-GlobalStep GlobalEstimate::of_elements(const Model& model, double longest) {
-  SpringCollector collector(model);
-  const ContactOnNodes contact = contact_on_nodes(model);
+GlobalStep GlobalEstimate::of_elements(double longest) {
+  SpringCollector collector;
+  const ContactOnNodes contact = contact_on_nodes(assembled_, contacts_);
   for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
     if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
   tangent_.set_springs(collector.on_device());
-  return solve(model, longest, true, {});
+  return solve(longest, true, {});
 }
 
-GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_guess, GlobalStep result) {
+GlobalStep GlobalEstimate::solve(double guess, bool at_most_guess, GlobalStep result) {
   result.step = guess;
   bool damped = false;
   double mass_rate = 0;  // counted as if all nodes had the largest
-  for (const scene::Part& part : model.scene.parts) {
+  for (const scene::Part& part : assembled_.scene.parts) {
     damped =
         damped || part.damped() || (part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0);
     mass_rate = std::fmax(mass_rate, part.mass_damping);
   }
-  for (const AbsorbingLayers::Zone& zone : model.absorbing.zones) {
+  for (const AbsorbingLayers::Zone& zone : absorbing_.zones) {
     damped = true;
     mass_rate = std::fmax(mass_rate, zone.rate);
   }
-  for (const scene::Connector& connector : model.scene.connectors)
+  for (const scene::Connector& connector : assembled_.scene.connectors)
     damped = damped || connector.damping != Vec3{0, 0, 0};
-  for (const ContactPair& pair : model.contacts) damped = damped || pair.contact->damping > 0;
+  for (const ContactPair& pair : contacts_) damped = damped || pair.contact->damping > 0;
   const double enough = at_most_guess ? 4 / (guess * guess) : 0;
   if (!damped) {
-    const double eigenvalue = largest_eigenvalue(model, 0, tolerance, enough, result);
+    const double eigenvalue = largest_eigenvalue(0, tolerance, enough, result);
     if (eigenvalue > enough) result.step = 2 / std::sqrt(eigenvalue);
     return result;
   }
@@ -202,7 +222,7 @@ GlobalStep GlobalEstimate::solve(const Model& model, double guess, bool at_most_
   for (int k = 0; k < most_passes; ++k) {
     const bool first = k == 0;
     const double eigenvalue =
-        mass_rate * 2 / step + largest_eigenvalue(model, 2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
+        mass_rate * 2 / step + largest_eigenvalue(2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
                                                   first ? enough - mass_rate * 2 / step : 0, result);
     if (!(eigenvalue > 0) || (first && eigenvalue <= enough)) break;
     result.step = 2 / std::sqrt(eigenvalue);

@@ -1,9 +1,25 @@
 #pragma once
 
-#include "model/contact/contact_springs.hpp"
+#include <vector>
+
+#include "model/boundaries/absorbing_boundaries.hpp"
+#include "model/boundaries/ties.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/loads/connector_cells.hpp"
+#include "model/nodal_state.hpp"
 #include "model/time_step/tangent_operator.hpp"
 
 namespace railwave {
+
+/// The largest eigenvalue of the tridiagonal matrix that Lanczos' recurrence has made of a symmetric operator so far.
+struct RitzValue {
+  double value = 0;     ///< at most the operator's largest eigenvalue
+  double residual = 0;  ///< an eigenvalue of the operator lies within this of `value`
+};
+
+/// @param diagonal alpha_1 ... alpha_m
+/// @param beside beta_1 ... beta_m; the last one leads to the vector not yet used
+RitzValue largest_ritz_value(const std::vector<double>& diagonal, const std::vector<double>& beside);
 
 /// The stable step of the assembled scene.
 struct GlobalStep {
@@ -23,27 +39,34 @@ class GlobalEstimate {
   static constexpr double tolerance = 0.01;
   static constexpr int most_iterations = 150;
 
-  explicit GlobalEstimate(const Model& model);
+  /// What it is given must outlive it.
+  GlobalEstimate(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ConnectorCell>& cells,
+                 const std::vector<ContactPair>& contacts, const Ties& ties, const AbsorbingLayers& absorbing);
 
   /// @param horizon s: contact springs that may press within that time count
   /// @param guess s: near the answer, if anything on the short side; the answer where everything is held
-  GlobalStep operator()(const Model& model, double horizon, double guess);
+  GlobalStep operator()(double horizon, double guess);
 
   /// The longest step up to `longest` that is stable for the elements with everything that contact may put on them,
   /// wherever the bodies touch; without connectors and beams. A spring k between two nodes is at most 2 k from each to
   /// the ground: (u - w)^2 <= 2 u^2 + 2 w^2, with equality where the two move against each other.
-  GlobalStep of_elements(const Model& model, double longest);
+  GlobalStep of_elements(double longest);
 
   std::size_t bytes() const;
 
  private:
-  void set_springs(const Model& model, double horizon, GlobalStep& result);
-  GlobalStep solve(const Model& model, double guess, bool at_most_guess, GlobalStep result);
-  void apply(const Model& model, double inverse_time);
+  void set_springs(double horizon, GlobalStep& result);
+  GlobalStep solve(double guess, bool at_most_guess, GlobalStep result);
+  void apply(double inverse_time);
   /// @param enough a Ritz value with three times its residual below this will do; 0: none
-  double largest_eigenvalue(const Model& model, double inverse_time, double accuracy, double enough,
-                            GlobalStep& result);
+  double largest_eigenvalue(double inverse_time, double accuracy, double enough, GlobalStep& result);
 
+  const AssembledScene& assembled_;
+  const NodalState& nodal_;
+  const std::vector<ConnectorCell>& cells_;
+  const std::vector<ContactPair>& contacts_;
+  const Ties& ties_;
+  const AbsorbingLayers& absorbing_;
   TangentOperator tangent_;
   NodeVector now_, before_, image_, displacement_;
 };

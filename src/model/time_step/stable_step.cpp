@@ -10,8 +10,6 @@
 #include "model/beams/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_springs.hpp"
-#include "model/time_step/connector_step.hpp"
-#include "model/time_step/element_frequency.hpp"
 #include "model/time_step/global_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -47,26 +45,27 @@ double dragged_element_step(double rate, double step) {
 }
 
 /// Shortens elements' steps by absorbing layers, in whose elements the fastest decay counts everywhere.
-void drag(const Model& model, std::vector<double>& steps) {
-  const auto& rate = model.absorbing.rate;
+void drag(const Assembly& assembly, const AbsorbingLayers& absorbing, std::vector<double>& steps) {
+  const auto& rate = absorbing.rate;
   if (rate.empty()) return;
   for (std::size_t e = 0; e < steps.size(); ++e) {
     double most = 0;
-    for (int n : model.assembly.elements[e]) most = std::fmax(most, rate[n]);
+    for (int n : assembly.elements[e]) most = std::fmax(most, rate[n]);
     if (most > 0) steps[e] = dragged_element_step(most, steps[e]);
   }
 }
 
 /// Shortens each element's step by its part's damping.
-void damp(const Model& model, std::vector<double>& steps) {
-  const double speed = largest_initial_speed(model.scene);
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const scene::Part& part = model.scene.parts[p];
+void damp(const AssembledScene& assembled, std::vector<double>& steps) {
+  const double speed = largest_initial_speed(assembled.scene);
+  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
+    const scene::Part& part = assembled.scene.parts[p];
     if (!part.damped()) continue;
-    const auto& range = model.assembly.parts[p];
+    const auto& range = assembled.assembly.parts[p];
     for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const double volume = hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
-      steps[e] = damped_element_step(part, model.scene.materials[range.material], std::cbrt(volume), speed, steps[e]);
+      const double volume = hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
+      steps[e] =
+          damped_element_step(part, assembled.scene.materials[range.material], std::cbrt(volume), speed, steps[e]);
     }
   }
 }
@@ -76,46 +75,48 @@ struct EigenvalueSteps {
   std::vector<double> step, control;
 };
 
-EigenvalueSteps eigenvalue_steps(const Model& model) {
-  const std::size_t count = model.assembly.elements.size();
+EigenvalueSteps eigenvalue_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
+  const std::size_t count = assembled.assembly.elements.size();
   EigenvalueSteps steps{std::vector<double>(count), std::vector<double>(count)};
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const auto& range = model.assembly.parts[p];
-    const scene::Part& part = model.scene.parts[p];
+  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
+    const auto& range = assembled.assembly.parts[p];
+    const scene::Part& part = assembled.scene.parts[p];
     for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const ElementStep own =
-          element_eigenvalue_step(corners_of(model.assembly.nodes, model.assembly.elements[e]),
-                                  model.scene.materials[range.material], part.hourglass, part.hourglass_coefficient);
+      const ElementStep own = element_eigenvalue_step(
+          corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]),
+          assembled.scene.materials[range.material], part.hourglass, part.hourglass_coefficient);
       steps.step[e] = own.step;
       steps.control[e] = own.control;
     }
   }
-  damp(model, steps.step);
-  drag(model, steps.step);
+  damp(assembled, steps.step);
+  drag(assembled.assembly, absorbing, steps.step);
   return steps;
 }
 
 /// Stable step of each element, V / (A_max C_d), which knows of waves only, and no more than its hourglass control
 /// allows: a viscous one of more than about 0.13 would else go unstable.
-std::vector<double> element_steps(const Model& model, const EigenvalueSteps& eigenvalues) {
-  std::vector<double> steps(model.element_length.size());
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const auto& part = model.assembly.parts[p];
-    const double speed = model.scene.materials[part.material].dilatational_speed();
+std::vector<double> element_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
+                                  const EigenvalueSteps& eigenvalues) {
+  std::vector<double> steps(assembled.element_length.size());
+  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
+    const auto& part = assembled.assembly.parts[p];
+    const double speed = assembled.scene.materials[part.material].dilatational_speed();
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
       // Heights can be somewhat too long, which stiff damping makes worse: damped elements go by their eigenvalues.
-      steps[e] = model.scene.parts[p].damped() ? eigenvalues.step[e]
-                                               : std::fmin(model.element_length[e] / speed, eigenvalues.control[e]);
+      steps[e] = assembled.scene.parts[p].damped()
+                     ? eigenvalues.step[e]
+                     : std::fmin(assembled.element_length[e] / speed, eigenvalues.control[e]);
   }
-  drag(model, steps);
+  drag(assembled.assembly, absorbing, steps);
   return steps;
 }
 
 /// Smallest step of the elements around each node.
-std::vector<double> steps_at_nodes(const Model& model, const std::vector<double>& steps) {
-  std::vector<double> least(model.assembly.nodes.size(), std::numeric_limits<double>::infinity());
+std::vector<double> steps_at_nodes(const Assembly& assembly, const std::vector<double>& steps) {
+  std::vector<double> least(assembly.nodes.size(), std::numeric_limits<double>::infinity());
   for (std::size_t e = 0; e < steps.size(); ++e)
-    for (int n : model.assembly.elements[e]) least[n] = std::fmin(least[n], steps[e]);
+    for (int n : assembly.elements[e]) least[n] = std::fmin(least[n], steps[e]);
   return least;
 }
 
@@ -182,30 +183,36 @@ std::pair<int, double> least_of(const std::vector<double>& steps) {
 /// Step of two systems together: the square of the sum's highest frequency is at most the sum of the squares.
 double together(double step, double frequency) { return 2 / std::sqrt(4 / (step * step) + frequency * frequency); }
 
+/// The estimate of the assembled scene.
+std::shared_ptr<GlobalEstimate> global_estimate_of(const Model& model) {
+  return std::make_shared<GlobalEstimate>(model, model, model.connectors.cells, model.contacts, model.ties,
+                                          model.absorbing);
+}
+
 /// What heights promise is the limit of waves inside a body: free surfaces, edges and corners, bodies few elements
 /// thick, and contact on top of that go below it. Where the eigenvalues do not vouch for a step, the scene's own
 /// highest frequency is asked. A model without nodes (of which levels are told) can't be.
 double stable_together(const Model& model, double by_elements, double by_eigenvalues) {
   if (by_eigenvalues >= by_elements || model.nodes.count == 0) return by_elements;
-  return std::fmax(by_eigenvalues, GlobalEstimate(model).of_elements(model, by_elements).step);
+  return std::fmax(by_eigenvalues, global_estimate_of(model)->of_elements(by_elements).step);
 }
 
 /// Whether bodies begin apart, not settled on one another, and neither their hourglass control nor their contact takes
 /// what they vibrate with.
-bool strikes_undamped(const Model& model) {
-  if (model.scene.settle.active) return false;
-  const bool viscous = std::all_of(model.scene.parts.begin(), model.scene.parts.end(), [](const scene::Part& part) {
+bool strikes_undamped(const scene::Scene& scene, const std::vector<ContactPair>& contacts) {
+  if (scene.settle.active) return false;
+  const bool viscous = std::all_of(scene.parts.begin(), scene.parts.end(), [](const scene::Part& part) {
     return part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0;
   });
-  return !viscous && std::any_of(model.contacts.begin(), model.contacts.end(), [](const ContactPair& pair) {
+  return !viscous && std::any_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) {
     return pair.has_springs() && !(pair.contact->damping > 0);
   });
 }
 
 void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
-  const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
-  const auto heights = element_steps(model, eigenvalues);
+  const EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
+  const auto heights = element_steps(model, model.absorbing, eigenvalues);
   std::tie(stable.element, stable.elements) = least_of(heights);
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
   stable.by_elements = stable.elements;
@@ -213,18 +220,19 @@ void estimate_by_elements(Model& model) {
   // Multipliers are constraints: they add no frequency above the elements' own.
   if (std::any_of(model.contacts.begin(), model.contacts.end(),
                   [](const ContactPair& pair) { return pair.has_springs(); })) {
-    const auto at_node = steps_at_nodes(model, heights);
-    const ContactOnNodes contact = contact_on_nodes(model);
+    const auto at_node = steps_at_nodes(model.assembly, heights);
+    const ContactOnNodes contact = contact_on_nodes(model, model.contacts);
     stable.contact =
         contacts_step(contact, [&](double k, int n) { return contact_step_at(k, model.mass[n], at_node[n]); });
-    const auto step = steps_at_nodes(model, eigenvalues.step), control = steps_at_nodes(model, eigenvalues.control);
+    const auto step = steps_at_nodes(model.assembly, eigenvalues.step),
+               control = steps_at_nodes(model.assembly, eigenvalues.control);
     stable.eigenvalue_contact = contacts_step(
         contact, [&](double k, int n) { return contact_step_on_eigenvalues(k, model.mass[n], step[n], control[n]); });
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
   stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues);
-  const bool strikes = strikes_undamped(model);
+  const bool strikes = strikes_undamped(model.scene, model.contacts);
   if (strikes && stable.contact > 0 && stable.contact < stable.elements) stable.by_elements *= springs_that_open;
   if (strikes && stable.eigenvalue_contact > 0 && stable.eigenvalue_contact < stable.eigenvalue)
     stable.by_eigenvalues *= springs_that_open;
@@ -245,13 +253,16 @@ void estimate_by_elements(Model& model) {
 
 }  // namespace
 
-std::vector<double> own_steps(const Model& model) {
-  const EigenvalueSteps eigenvalues = eigenvalue_steps(model);
-  return model.scene.solver.step_estimate == scene::StepEstimate::eigenvalue ? eigenvalues.step
-                                                                             : element_steps(model, eigenvalues);
+std::vector<double> own_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
+  const EigenvalueSteps eigenvalues = eigenvalue_steps(assembled, absorbing);
+  return assembled.scene.solver.step_estimate == scene::StepEstimate::eigenvalue
+             ? eigenvalues.step
+             : element_steps(assembled, absorbing, eigenvalues);
 }
 
-std::vector<double> safe_steps(const Model& model) { return eigenvalue_steps(model).step; }
+std::vector<double> safe_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
+  return eigenvalue_steps(assembled, absorbing).step;
+}
 
 double largest_initial_speed(const scene::Scene& scene) {
   double largest = 0;
@@ -262,25 +273,25 @@ double largest_initial_speed(const scene::Scene& scene) {
   return largest;
 }
 
-double largest_step(const Model& model) {
-  const scene::Time& time = model.scene.time;
-  const double largest = below_the_limit * model.stable_step.limit;
-  return std::fmin(largest, time.step > 0 ? time.step : time.step_scale * model.stable_step.limit);
+double largest_step(const scene::Time& time, const StableStep& stable) {
+  const double largest = below_the_limit * stable.limit;
+  return std::fmin(largest, time.step > 0 ? time.step : time.step_scale * stable.limit);
 }
 
-void renew_global_step(Model& model) {
-  StableStep& stable = model.stable_step;
-  const int renew_steps = model.scene.solver.renew_steps;
-  const double left = model.scene.time.end - model.time;
+void renew_global_step(const scene::Scene& scene, const std::vector<ContactPair>& contacts, double time,
+                       StepSizes& sizes) {
+  StableStep& stable = sizes.stable_step;
+  const int renew_steps = scene.solver.renew_steps;
+  const double left = scene.time.end - time;
   const double horizon = renew_steps > 0 ? std::fmin(left, renew_steps * stable.by_elements) : left;
   // A scene of point masses on dashpots alone has no elements to begin from.
-  const double first_guess = std::isfinite(stable.by_elements) ? stable.by_elements : model.scene.time.end;
-  GlobalStep found = (*model.global_estimate)(model, horizon, stable.global > 0 ? 0.99 * stable.global : first_guess);
+  const double first_guess = std::isfinite(stable.by_elements) ? stable.by_elements : scene.time.end;
+  GlobalStep found = (*sizes.global_estimate)(horizon, stable.global > 0 ? 0.99 * stable.global : first_guess);
   // It knows beams by their mass only.
-  if (model.beams) found.step = together(found.step, 2 / stable.beam);
+  if (stable.beam > 0) found.step = together(found.step, 2 / stable.beam);
   stable.global = stable.limit = found.step;
   // Springs that the scene's highest mode hardly feels open in other modes all the same.
-  if (found.springs > 0 && stable.contact < stable.elements && strikes_undamped(model))
+  if (found.springs > 0 && stable.contact < stable.elements && strikes_undamped(scene, contacts))
     stable.limit *= springs_that_open;
   stable.springs = found.springs;
   stable.seen = std::move(found.seen);
@@ -292,8 +303,8 @@ void build_stable_step(Model& model) {
   const scene::StepEstimate choice = model.scene.solver.step_estimate;
   stable.limit = choice == scene::StepEstimate::eigenvalue ? stable.by_eigenvalues : stable.by_elements;
   if (choice == scene::StepEstimate::global) {
-    model.global_estimate = std::make_shared<GlobalEstimate>(model);
-    renew_global_step(model);
+    model.global_estimate = global_estimate_of(model);
+    renew_global_step(model.scene, model.contacts, model.time, model);
   }
   const scene::Time& time = model.scene.time;
   if (time.step > stable.limit)
@@ -305,13 +316,14 @@ void build_stable_step(Model& model) {
                                               : ", or see whether [solver] step_estimate = \"global\" allows more"));
   // Nobody waits for so many; far below where they can't be counted.
   constexpr double most_steps = 1e15;
-  if (const double steps = time.end / largest_step(model); !(steps <= most_steps))
+  const double largest = largest_step(time, stable);
+  if (const double steps = time.end / largest; !(steps <= most_steps))
     throw InputError(
         fmt::format("{}: [time] end = {:.4g} s takes {:.3g} steps of {:.3g} s, at most {:.0g} are run; the step is set "
                     "by {}, times time.step_scale = {:.3g}: mend that, or end it earlier{}",
-                    model.scene.path, time.end, steps, largest_step(model), most_steps, what_sets_step(model),
+                    model.scene.path, time.end, steps, largest, most_steps, what_sets_step(model, stable),
                     time.step_scale, time.step > 0 ? ", or give a longer step" : ""));
-  plan_steps(model, 1);
+  plan_steps(model.scene, 1, model);
 }
 
 }  // namespace railwave

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
+#include "case/scene.hpp"
 #include "model/output_times.hpp"
 
 namespace railwave {
@@ -38,5 +40,11 @@ struct StepSizes {
   long step_count = 0;   ///< steps from 0 to the end, if the step stays
   OutputTimes output_times;
 };
+
+/// Lays a scene's steps (lay_steps) with the stable step there is: sets step_size, step_count and output_times.
+void plan_steps(const scene::Scene& scene, long round, StepSizes& sizes);
+
+/// Lines that say how far apart the outputs are.
+std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long round);
 
 }  // namespace railwave

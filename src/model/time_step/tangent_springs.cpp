@@ -23,9 +23,9 @@ void SpringCollector::add_end(const WeightedNodes& end, double sign, const Vec3&
   for (std::size_t k = 0; k < end.nodes.size(); ++k) add(end.nodes[k], sign * end.weight[k], direction);
 }
 
-void SpringCollector::add_connectors() {
-  for (const ConnectorCell& cell : model_.connectors.cells) {
-    const scene::Connector& connector = model_.scene.connectors[cell.connector];
+void SpringCollector::add_connectors(const scene::Scene& scene, const std::vector<ConnectorCell>& cells) {
+  for (const ConnectorCell& cell : cells) {
+    const scene::Connector& connector = scene.connectors[cell.connector];
     for (int a = 0; a < 3; ++a) {
       if (connector.stiffness[a] == 0 && connector.damping[a] == 0) continue;
       add_end(cell.from, -1, connector.axes[a]);
@@ -35,24 +35,24 @@ void SpringCollector::add_connectors() {
   }
 }
 
-void SpringCollector::add_beams(bool held) {
-  if (!model_.beams) return;
-  const BeamArrays& beams = model_.beams->arrays;
+void SpringCollector::add_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes, bool held) {
+  if (!beams) return;
+  const BeamArrays& arrays = beams->arrays;
   const BeamTangent tangent{
-      beams, model_.nodes.position, held,
-      unset_array<double * [BeamTangent::springs][BeamTangent::ends][3]>("beam tangent", beams.count),
-      unset_array<double * [BeamTangent::springs]>("beam tangent stiffness", beams.count)};
-  Kokkos::parallel_for("beam_tangent", Range(0, beams.count), tangent);
+      arrays, nodes.position, held,
+      unset_array<double * [BeamTangent::springs][BeamTangent::ends][3]>("beam tangent", arrays.count),
+      unset_array<double * [BeamTangent::springs]>("beam tangent stiffness", arrays.count)};
+  Kokkos::parallel_for("beam_tangent", Range(0, arrays.count), tangent);
   const auto share = to_host(tangent.share);
   const auto stiffness = to_host(tangent.stiffness);
-  const auto end = to_host(beams.end);
-  const auto node = to_host(beams.node);
-  for (int e = 0; e < beams.count; ++e)
+  const auto end = to_host(arrays.end);
+  const auto node = to_host(arrays.node);
+  for (int e = 0; e < arrays.count; ++e)
     for (int s = 0; s < BeamTangent::springs; ++s) {
       if (!(stiffness(e, s) > 0)) continue;
       for (int k = 0; k < BeamTangent::ends; ++k) {
         const int b = end(e, k % 2);
-        add(k < 2 ? node(b) : model_.nodes.count + b, 1, {share(e, s, k, 0), share(e, s, k, 1), share(e, s, k, 2)});
+        add(k < 2 ? node(b) : nodes.count + b, 1, {share(e, s, k, 0), share(e, s, k, 1), share(e, s, k, 2)});
       }
       close(stiffness(e, s), 0);
     }

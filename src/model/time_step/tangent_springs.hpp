@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/statics/tangent.hpp"
+#include "model/beams/beams.hpp"
 #include "model/contact/contact_springs.hpp"
 
 namespace railwave {
@@ -8,18 +9,17 @@ namespace railwave {
 /// Collects springs on the host.
 class SpringCollector {
  public:
-  explicit SpringCollector(const Model& model) : model_(model) {}
-
   /// Springs and dashpots of all connectors.
-  void add_connectors();
+  void add_connectors(const scene::Scene& scene, const std::vector<ConnectorCell>& cells);
   /// A pair's contact springs: along the normal, there with their dashpots, and with friction the stick springs across
   /// it. The spring to a place on a segment becomes four to its corners by the place's shape functions N: (u - sum N
   /// u_k)^2 <= sum N (u - u_k)^2. That is never softer, and hardly less stiff between nodes than on one, where the
   /// slave may be a moment later.
   void add_contact(const std::vector<ContactSpring>& springs, bool friction);
   /// Beams (kernels/beams/beam_tangent.hpp); the rows of their rotations follow the nodes'.
+  /// @param beams null: none
   /// @param held as they settle, when bolts keep their pretension whatever their stretch
-  void add_beams(bool held = true);
+  void add_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes, bool held = true);
 
   /// Springs and dashpots along all axes from a node to the ground.
   void add_ground(int node, double stiffness, double damping);
@@ -43,7 +43,6 @@ class SpringCollector {
   void add_end(const WeightedNodes& end, double sign, const Vec3& direction);
   void close(double stiffness, double damping);
 
-  const Model& model_;
   std::vector<int> first_{0}, node_;
   std::vector<Vec3> share_;
   std::vector<double> stiffness_, damping_;

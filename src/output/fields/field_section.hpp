@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "output/fields/field_source.hpp"
+#include "output/fields/field_snapshot.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
 

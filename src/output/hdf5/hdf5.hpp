@@ -71,7 +71,7 @@ struct Storage {
   bool compressed = false;
 };
 
-/// What tells that values were damaged: a checksum with each of their chunks, or one of the whole file (see seal.hpp).
+/// What tells that values were damaged: a checksum with each of their chunks, or one of the whole file (see seal()).
 enum class Check { by_chunk, by_seal };
 
 /// A group, or a file's root.
@@ -175,4 +175,28 @@ class File {
   bool extends_ = false;
 };
 
+/// HDF5 may go round in circles in a damaged file. From now on a call of the readers may take so many seconds of
+/// processor time; one that takes longer ends the process by SIGPROF. For processes that do nothing but read.
+/// @param seconds 0: no limit, as at the start
+void limit_calls(double seconds);
+
+/// A call of HDF5, from making this to its end.
+class LimitedCall {
+ public:
+  LimitedCall();
+  ~LimitedCall();
+  LimitedCall(const LimitedCall&) = delete;
+  LimitedCall& operator=(const LimitedCall&) = delete;
+};
+
 }  // namespace railwave::hdf5
+
+namespace railwave {
+
+/// SI unit of a dataset in results, model, mode and fault files, which each gets as its attribute `unit`; "1" of
+/// numbers, counts and shares. Empty for a dataset that is none of these, as in checkpoints. Files of columns (contact
+/// solutions, signals, responses, decay rates) have units of their own.
+/// @param path in the file, e.g. /history/set/rail.middle/stress
+std::string unit_of(const std::string& path);
+
+}  // namespace railwave

@@ -1,6 +1,6 @@
 #include <stdexcept>
 
-#include "output/call_limit.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 #include "output/room.hpp"
 

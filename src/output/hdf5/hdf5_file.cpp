@@ -10,13 +10,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "output/call_limit.hpp"
+#include "output/atomic_file.hpp"
 #include "output/disk.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_journal.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 #include "output/output_place.hpp"
 #include "output/room.hpp"
-#include "output/unfinished.hpp"
 
 namespace railwave::hdf5 {
 namespace {

@@ -3,8 +3,7 @@
 #include <stdexcept>
 
 #include "case/memory.hpp"
-#include "output/call_limit.hpp"
-#include "output/dataset_units.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 #include "output/room.hpp"
 

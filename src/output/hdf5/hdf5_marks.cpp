@@ -1,4 +1,4 @@
-#include "output/hdf5/hdf5_marks.hpp"
+#include "output/file_kind.hpp"
 
 #include <fcntl.h>
 

@@ -3,7 +3,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "output/histories/energy_terms.hpp"
+#include "output/histories/history_values.hpp"
 
 namespace railwave {
 namespace {

@@ -14,4 +14,23 @@ using ElementValues = const double* (*)(const ElementMeans&);
 MotionValues motion_values(const FieldRow& row);
 ElementValues element_values(const FieldRow& row);
 
+struct EnergyTerm {
+  const char* name;
+  double EnergyAccount::*value;
+};
+
+/// Every term of the energy account under the name that files and tables give it.
+inline constexpr EnergyTerm energy_terms[] = {
+    {"kinetic", &EnergyAccount::kinetic},
+    {"internal", &EnergyAccount::internal},
+    {"hourglass", &EnergyAccount::hourglass},
+    {"contact", &EnergyAccount::contact},
+    {"friction", &EnergyAccount::friction},
+    {"connector", &EnergyAccount::connector},
+    {"damping", &EnergyAccount::damping},
+    {"plastic", &EnergyAccount::plastic},
+    {"external_work", &EnergyAccount::external_work},
+    {"balance_error", &EnergyAccount::balance_error},
+};
+
 }  // namespace railwave

@@ -56,7 +56,7 @@ void archive(Archive& archive_, Model& model) {
   if (model.carried.active()) archive(archive_, model.carried);
   for (std::size_t p = 0; p < model.contacts.size(); ++p)
     archive(archive_, fmt::format("contact_{}_", p), model.contacts[p]);
-  StateArrays<Archive> arrays(archive_, model, false);
+  StateArrays<Archive> arrays(archive_, model.in_single, false);
   visit_model_arrays(arrays, model);
 }
 

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "model/element_precision.hpp"
+#include "model/elements/element_model.hpp"
 #include "model/host_copy.hpp"
 #include "model/visit_arrays.hpp"
 #include "solve/checkpoint/run_state.hpp"
@@ -93,12 +93,13 @@ void tiles(StateLayer& layer, const std::string& name, Array<double*>& view, int
   Kokkos::deep_copy(view, host);
 }
 
-/// Takes or lays what a checkpoint keeps, or of that only what a settled scene is told by.
+/// Takes or lays what a checkpoint keeps, or of that only what a settled scene is told by; `single` says whether the
+/// elements are computed in single precision.
 template <class Archive>
 class StateArrays {
  public:
-  StateArrays(Archive& archive, const Model& model, bool settled_only)
-      : archive_(archive), single_(model.scene.solver.elements_in_single()), settled_only_(settled_only) {}
+  StateArrays(Archive& archive, bool single, bool settled_only)
+      : archive_(archive), single_(single), settled_only_(settled_only) {}
 
   template <class View>
   void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape shape) {

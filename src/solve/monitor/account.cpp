@@ -7,13 +7,12 @@
 #include "kernels/support/reductions.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/contact/contact_law.hpp"
-#include "model/element_precision.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/element_histories.hpp"
+#include "model/elements/element_model.hpp"
 #include "model/elements/materials.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
-#include "solve/monitor/load_totals.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
 namespace railwave {
@@ -161,9 +160,9 @@ struct ConnectorEnergy {
 };
 
 /// Shares a group's energies, fetched, out among its parts: a block lies in one.
-void share_out(const Model& model, const ElementGroup& group, std::vector<PartEnergy>& by_part) {
+void share_out(const std::vector<Assembly::PartRange>& parts, const ElementGroup& group,
+               std::vector<PartEnergy>& by_part) {
   const auto& energy = group.block_energy_fetched;
-  const auto& parts = model.assembly.parts;
   std::size_t p = 0;
   for (int block = 0; block < group.blocks.count; ++block) {
     const auto holds = [&](std::size_t part) {
@@ -188,13 +187,13 @@ void with_flow_work(const ElementGroup& group, const Work& work) {
 }
 
 template <class S, class Hourglass>
-void queue_element_energy(const Model& model, const ElementGroup& group, EnergyAccount& energy, bool by_part,
+void queue_element_energy(const NodeArrays& nodes, const ElementGroup& group, EnergyAccount& energy, bool by_part,
                           Reductions& sums) {
   const int count = group.blocks.count;
   with_material(group, [&](const auto& material) {
     using State = ElementState<S, std::decay_t<decltype(material)>, Hourglass>;
     launch_blocks(group.blocks,
-                  State{material, group.blocks, group.blocks.hourglass_scale, model.nodes, {}, group.block_energy});
+                  State{material, group.blocks, group.blocks.hourglass_scale, nodes, {}, group.block_energy});
   });
   sums.sum(BlockEnergy{group.block_energy, group.blocks.hourglass_energy}, count, [&energy](const double* sum) {
     energy.internal += sum[0];
@@ -217,17 +216,18 @@ void queue_element_energy(const Model& model, const ElementGroup& group, EnergyA
 }
 
 template <class S>
-void queue_element_energies(const Model& model, EnergyAccount& energy, bool by_part, Reductions& sums) {
-  for (const ElementGroup& group : model.elements) {
+void queue_element_energies(const std::vector<ElementGroup>& groups, const NodeArrays& nodes, EnergyAccount& energy,
+                            bool by_part, Reductions& sums) {
+  for (const ElementGroup& group : groups) {
     if (group.hourglass == scene::HourglassType::viscous)
-      queue_element_energy<S, ViscousHourglass>(model, group, energy, by_part, sums);
+      queue_element_energy<S, ViscousHourglass>(nodes, group, energy, by_part, sums);
     else
-      queue_element_energy<S, StiffnessHourglass>(model, group, energy, by_part, sums);
+      queue_element_energy<S, StiffnessHourglass>(nodes, group, energy, by_part, sums);
   }
 }
 
-void queue_contact_energies(const Model& model, EnergyAccount& energy, Reductions& sums) {
-  for (const ContactPair& pair : model.contacts) {
+void queue_contact_energies(const std::vector<ContactPair>& contacts, EnergyAccount& energy, Reductions& sums) {
+  for (const ContactPair& pair : contacts) {
     const int count = pair.arrays.slave_count;
     const auto add = [&energy](const double* sum) {
       energy.contact += sum[0];
@@ -259,9 +259,10 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
              energy.kinetic += sum[0];
              energy.external_work += sum[1];
            });
-  with_element_precision(model.scene,
-                         [&](auto number) { queue_element_energies<decltype(number)>(model, energy, by_part, sums); });
-  queue_contact_energies(model, energy, sums);
+  with_element_precision(model, [&](auto number) {
+    queue_element_energies<decltype(number)>(model.elements, model.nodes, energy, by_part, sums);
+  });
+  queue_contact_energies(model.contacts, energy, sums);
   if (!model.loads.empty()) sums.sum(ArraySum{model.extra.work}, model.extra.contribution_count, external);
   for (const PrescribedSet& set : model.prescribed)
     sums.sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), external);
@@ -271,7 +272,7 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
                energy.damping += sum[0];
                energy.external_work += sum[1];
              });
-  if (model.beams) queue_beam_energies(model, step, energy, sums);
+  if (model.beams) queue_beam_energies(model, model.beams->arrays, step, energy, sums);
   if (model.connectors.arrays.count > 0)
     sums.sum(ConnectorEnergy{model.connectors.arrays.energy}, model.connectors.arrays.count,
              [&energy](const double* sum) {
@@ -281,9 +282,10 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
 }
 
 /// A part's share of the groups' energies, when the sums have been fetched.
-void share_out_all(const Model& model, std::vector<PartEnergy>& by_part) {
-  by_part.assign(model.assembly.parts.size(), {});
-  for (const ElementGroup& group : model.elements) share_out(model, group, by_part);
+void share_out_all(const Assembly& assembly, const std::vector<ElementGroup>& groups,
+                   std::vector<PartEnergy>& by_part) {
+  by_part.assign(assembly.parts.size(), {});
+  for (const ElementGroup& group : groups) share_out(assembly.parts, group, by_part);
 }
 
 }  // namespace
@@ -315,7 +317,7 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
-void queue_pair_totals(const Model& model, const ContactPair& pair, ContactTotals& totals, Reductions& sums) {
+void queue_pair_totals(const NodalState& nodal, const ContactPair& pair, ContactTotals& totals, Reductions& sums) {
   sums.sum(SlaveSums{pair.arrays}, pair.arrays.slave_count, [&totals](const double* sum) {
     for (int i = 0; i < 3; ++i) {
       totals.normal_force[i] = sum[i];
@@ -326,7 +328,7 @@ void queue_pair_totals(const Model& model, const ContactPair& pair, ContactTotal
     totals.nodes_slipping = static_cast<int>(sum[10]);
   });
   if (!pair.own_master) return;
-  sums.sum(MasterSums{model.extra.sum, model.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count,
+  sums.sum(MasterSums{nodal.extra.sum, nodal.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count,
            [&totals](const double* sum) {
              for (int i = 0; i < 3; ++i) totals.master_force[i] = sum[i];
            });
@@ -344,11 +346,12 @@ void add_other_half(ContactTotals& totals, const ContactTotals& other) {
 
 }  // namespace
 
-ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
+ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactPair>& contacts, std::size_t number) {
+  const ContactPair& pair = contacts[number];
   ContactTotals totals, other;
-  Reductions sums(*model.reduction_space);
-  queue_pair_totals(model, pair, totals, sums);
-  if (pair.partner >= 0) queue_pair_totals(model, model.contacts[pair.partner], other, sums);
+  Reductions sums(*nodal.reduction_space);
+  queue_pair_totals(nodal, pair, totals, sums);
+  if (pair.partner >= 0) queue_pair_totals(nodal, contacts[pair.partner], other, sums);
   sums.fetch();
   if (pair.partner >= 0) add_other_half(totals, other);
   return totals;
@@ -357,25 +360,25 @@ ContactTotals contact_totals(const Model& model, const ContactPair& pair) {
 namespace {
 
 /// On the host, for tied nodes move as their masters do.
-MeanMotion mean_motion_with_ties(const Model& model, int set) {
-  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
-  const auto all = to_host(model.sets.nodes);
-  const auto weight = to_host(model.sets.weight);
+MeanMotion mean_motion_with_ties(const NodalState& nodal, const Ties& ties, const LoadModel& loads, int set) {
+  const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
+  const auto all = to_host(loads.sets.nodes);
+  const auto weight = to_host(loads.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
   MeanMotion mean;
   for (auto [field, sum] : {std::pair{NodeField::displacement, &mean.displacement},
                             {NodeField::velocity, &mean.velocity},
                             {NodeField::acceleration, &mean.acceleration}}) {
-    const auto values = node_field(model, field, nodes).values;
+    const auto values = node_field(nodal, ties, field, nodes).values;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       for (int i = 0; i < 3; ++i) (*sum)[i] += weight(begin + static_cast<int>(k)) * values[3 * k + i];
   }
   return mean;
 }
 
-void queue_mean_motion(const Model& model, int set, MeanMotion& mean, Reductions& sums) {
-  const int begin = model.first_of_set[set], end = model.first_of_set[set + 1];
-  sums.sum(MeanMotionSum{model.paced_acceleration(), model.sets, begin, model.velocity_lag}, end - begin,
+void queue_mean_motion(const NodalState& nodal, const LoadModel& loads, int set, MeanMotion& mean, Reductions& sums) {
+  const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
+  sums.sum(MeanMotionSum{nodal.paced_acceleration(), loads.sets, begin, nodal.velocity_lag}, end - begin,
            [&mean](const double* sum) {
              for (int i = 0; i < 3; ++i) {
                mean.displacement[i] = sum[i];
@@ -396,7 +399,7 @@ HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>
   queue_energies(model, step, sample.energy, by_part != nullptr, sums);
   for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
   sums.fetch();
-  if (by_part != nullptr) share_out_all(model, *by_part);
+  if (by_part != nullptr) share_out_all(model.assembly, model.elements, *by_part);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactPair& pair = model.contacts[c];
     if (pair.reversed) continue;
@@ -412,14 +415,14 @@ void add_what_histories_tell(const Model& model, HistorySample& sample) {
   Reductions sums(*model.reduction_space);
   for (std::size_t s = 0; s < sample.sets.size(); ++s) {
     if (tied)
-      sample.sets[s] = mean_motion_with_ties(model, model.history_sets[s]);
+      sample.sets[s] = mean_motion_with_ties(model, model.ties, model, model.history_sets[s]);
     else
-      queue_mean_motion(model, model.history_sets[s], sample.sets[s], sums);
+      queue_mean_motion(model, model, model.history_sets[s], sample.sets[s], sums);
   }
-  queue_element_means(model, sample.elements, sums);
-  queue_load_totals(model, sample.loads, sums);
+  queue_element_means(model, model.nodes, sample.elements, sums);
+  queue_load_totals(model, model.loads, sample.loads, sums);
   sums.fetch();
-  if (model.beams) sample.beams = beam_resultants(model);
+  if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/support/reductions.hpp"
 #include "model/model.hpp"
 #include "solve/observer.hpp"
 
@@ -21,7 +22,11 @@ double deformation_energy(const EnergyAccount& energy);
 /// The largest of the account's entries.
 double largest_energy(const EnergyAccount& energy);
 
-ContactTotals contact_totals(const Model& model, const ContactPair& pair);
+ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactPair>& contacts, std::size_t number);
+
+/// What each of the scene's loads comes to at the present instant, into `totals` when the sums are fetched.
+void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
+                       Reductions& sums);  // load_totals.cpp
 
 /// The energies and contacts of a history row at the present instant: what the watch looks at.
 /// @param by_part if not null: gets the energies of each part of the assembly

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include "model/contact/initial_overlap.hpp"
-#include "solve/monitor/diagnosis_step.hpp"
-#include "solve/monitor/diagnosis_units.hpp"
 
 namespace railwave {
 namespace {
@@ -17,15 +15,15 @@ constexpr double much_strain = 0.05;
 
 double length_of(const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-int part_of_target(const Model& model, const std::string& target) {
+int part_of_target(const scene::Scene& scene, const std::string& target) {
   const std::string name = target.substr(0, target.find('.'));
-  for (std::size_t p = 0; p < model.scene.parts.size(); ++p)
-    if (model.scene.parts[p].name == name) return static_cast<int>(p);
+  for (std::size_t p = 0; p < scene.parts.size(); ++p)
+    if (scene.parts[p].name == name) return static_cast<int>(p);
   return -1;
 }
 
-const scene::Material& material_of(const Model& model, int part) {
-  return model.scene.materials[model.assembly.parts[part].material];
+const scene::Material& material_of(const AssembledScene& assembled, int part) {
+  return assembled.scene.materials[assembled.assembly.parts[part].material];
 }
 
 double largest_of(const scene::Curve* curve) {
@@ -35,8 +33,8 @@ double largest_of(const scene::Curve* curve) {
   return largest;
 }
 
-void curves(const Model& model, std::vector<Cause>& causes) {
-  for (const scene::Curve& curve : model.scene.curves)
+void curves(const scene::Scene& scene, std::vector<Cause>& causes) {
+  for (const scene::Curve& curve : scene.curves)
     for (const auto& point : curve.points)
       if (!std::isfinite(point[0]) || !std::isfinite(point[1]))
         causes.push_back(
@@ -45,13 +43,12 @@ void curves(const Model& model, std::vector<Cause>& causes) {
 }
 
 /// Speed of what begins or is made to move, m/s; its part's waves bound what a body can take.
-void speeds(const Model& model, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  const double limit = model.scene.watch.speed;
+void speeds(const scene::Scene& scene, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  const double limit = scene.watch.speed;
   if (!(evidence.first.speed.value > limit)) return;
   std::string sources;
-  for (const auto& motion : model.scene.initial_motions) sources += fmt::format(" initial_motion.{}", motion.name);
-  for (const auto& motion : model.scene.prescribed_motions)
-    sources += fmt::format(" prescribed_motion.{}", motion.name);
+  for (const auto& motion : scene.initial_motions) sources += fmt::format(" initial_motion.{}", motion.name);
+  for (const auto& motion : scene.prescribed_motions) sources += fmt::format(" prescribed_motion.{}", motion.name);
   causes.push_back(Cause{"speed",
                          fmt::format("bodies begin with {:.4g} m/s: see{} (velocity in m/s, angular_velocity in rad/s)",
                                      evidence.first.speed.value, sources),
@@ -60,30 +57,30 @@ void speeds(const Model& model, const WatchEvidence& evidence, std::vector<Cause
 
 /// Strain that a load makes where it acts: its pressure over Young's modulus, or its force on a node over that and the
 /// square of the elements there.
-void loads(const Model& model, std::vector<Cause>& causes) {
-  for (const LoadArrays& arrays : model.loads) {
+void load_causes(const AssembledScene& assembled, const std::vector<LoadArrays>& all, std::vector<Cause>& causes) {
+  for (const LoadArrays& arrays : all) {
     const scene::Load& load = *arrays.load;
-    const int part = part_of_target(model, load.target);
-    if (part < 0 || model.assembly.parts[part].element_count == 0) continue;
-    const double modulus = material_of(model, part).youngs_modulus, factor = largest_of(arrays.curve);
+    const int part = part_of_target(assembled.scene, load.target);
+    if (part < 0 || assembled.assembly.parts[part].element_count == 0) continue;
+    const double modulus = material_of(assembled, part).youngs_modulus, factor = largest_of(arrays.curve);
     double stress = 0;
     if (load.type == scene::LoadType::pressure)
       stress = std::fabs(load.pressure);
     else if (load.type == scene::LoadType::traction)
       stress = length_of(load.traction);
     else {
-      const auto nodes = model.assembly.node_sets.find(load.target);
-      if (nodes == model.assembly.node_sets.end() || nodes->second.empty()) continue;
-      Vec3 low = model.assembly.nodes[nodes->second[0]], high = low;
+      const auto nodes = assembled.assembly.node_sets.find(load.target);
+      if (nodes == assembled.assembly.node_sets.end() || nodes->second.empty()) continue;
+      Vec3 low = assembled.assembly.nodes[nodes->second[0]], high = low;
       for (int n : nodes->second)
         for (int i = 0; i < 3; ++i) {
-          low[i] = std::fmin(low[i], model.assembly.nodes[n][i]);
-          high[i] = std::fmax(high[i], model.assembly.nodes[n][i]);
+          low[i] = std::fmin(low[i], assembled.assembly.nodes[n][i]);
+          high[i] = std::fmax(high[i], assembled.assembly.nodes[n][i]);
         }
-      const auto& range = model.assembly.parts[part];
+      const auto& range = assembled.assembly.parts[part];
       double size = 0;
       for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
-        size += model.element_length[e] / range.element_count;
+        size += assembled.element_length[e] / range.element_count;
       const double across = size + length_of({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
       const double force =
           load.type == scene::LoadType::torque ? std::fabs(load.moment) / across : length_of(load.force);
@@ -105,25 +102,25 @@ void loads(const Model& model, std::vector<Cause>& causes) {
 }
 
 /// A body that a load drives and nothing holds: a contact that is apart does not.
-void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > model.scene.watch.speed)) return;
-  for (const scene::Load& load : model.scene.loads) {
-    const int part = part_of_target(model, load.target);
+void unheld(const scene::Scene& scene, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > scene.watch.speed)) return;
+  for (const scene::Load& load : scene.loads) {
+    const int part = part_of_target(scene, load.target);
     if (part < 0) continue;
-    const std::string& name = model.scene.parts[part].name;
+    const std::string& name = scene.parts[part].name;
     const auto concerns = [&](const std::string& target) { return target.substr(0, target.find('.')) == name; };
     bool held = false;
-    for (const auto& one : model.scene.constraints) held = held || concerns(one.target);
-    for (const auto& one : model.scene.connectors) held = held || concerns(one.from) || concerns(one.to);
-    for (const auto& one : model.scene.ties) held = held || concerns(one.slave) || concerns(one.master);
-    for (std::size_t c = 0; c < model.scene.contacts.size(); ++c) {
-      const auto& one = model.scene.contacts[c];
+    for (const auto& one : scene.constraints) held = held || concerns(one.target);
+    for (const auto& one : scene.connectors) held = held || concerns(one.from) || concerns(one.to);
+    for (const auto& one : scene.ties) held = held || concerns(one.slave) || concerns(one.master);
+    for (std::size_t c = 0; c < scene.contacts.size(); ++c) {
+      const auto& one = scene.contacts[c];
       held = held || ((concerns(one.slave) || std::any_of(one.master.begin(), one.master.end(), concerns)) &&
                       c < evidence.touching.size() && evidence.touching[c] > 0);
     }
-    for (const auto& one : model.scene.beams) held = held || concerns(one.from) || concerns(one.to);
-    for (const auto& one : model.scene.prescribed_motions) held = held || concerns(one.target);
-    for (const auto& one : model.scene.non_reflecting) held = held || concerns(one.target);
+    for (const auto& one : scene.beams) held = held || concerns(one.from) || concerns(one.to);
+    for (const auto& one : scene.prescribed_motions) held = held || concerns(one.target);
+    for (const auto& one : scene.non_reflecting) held = held || concerns(one.target);
     if (held || !(evidence.kinetic_share > 0.5)) continue;
     causes.push_back(Cause{
         "unheld",
@@ -136,8 +133,9 @@ void unheld(const Model& model, const Fault& fault, const WatchEvidence& evidenc
 
 /// Overlaps as the scene is laid out: deep nodes may press with nothing at first, or be searched on another side of the
 /// body, so that no penetration is seen.
-void overlaps(const Model& model, std::vector<Cause>& causes) {
-  for (const InitialOverlap& overlap : initial_overlaps(model)) {
+void overlaps(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, double step_size,
+              std::vector<Cause>& causes) {
+  for (const InitialOverlap& overlap : initial_overlaps(assembled, contacts, step_size)) {
     if (!overlap.deep) continue;
     const Vec3& x = overlap.place;
     causes.push_back(
@@ -149,12 +147,13 @@ void overlaps(const Model& model, std::vector<Cause>& causes) {
   }
 }
 
-void contacts(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const scene::Contact& contact = *model.contacts[c].contact;
+void contact_causes(const scene::Watch& limit, const std::vector<ContactPair>& contacts, const Fault& fault,
+                    const WatchEvidence& evidence, std::vector<Cause>& causes) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const scene::Contact& contact = *contacts[c].contact;
     const auto told = [&](const Cause& cause) { return cause.name == "initial penetration"; };
     if (std::none_of(causes.begin(), causes.end(), told) && c < evidence.first.penetration.size() &&
-        evidence.first.penetration[c].value > 0.5 * model.scene.watch.penetration)
+        evidence.first.penetration[c].value > 0.5 * limit.penetration)
       causes.push_back(Cause{
           "initial penetration",
           fmt::format(
@@ -162,8 +161,7 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
               "contacts.{}.close_gap",
               contact.name, evidence.first.penetration[c].value, contact.name),
           80});
-    if (fault.kind == FaultKind::energy && c < evidence.deepest.size() &&
-        evidence.deepest[c] > 0.5 * model.scene.watch.penetration)
+    if (fault.kind == FaultKind::energy && c < evidence.deepest.size() && evidence.deepest[c] > 0.5 * limit.penetration)
       causes.push_back(Cause{"contact",
                              fmt::format("nodes of contact {} were found {:.3g} of a face's size inside the other "
                                          "surface, with more energy than brought them there: look "
@@ -171,9 +169,8 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
                                          "parts or choose other surfaces",
                                          contact.name, evidence.deepest[c]),
                              45});
-    if (fault.kind == FaultKind::energy && model.contacts[c].has_springs() &&
-        !(model.contacts[c].contact->damping > 0) && c < evidence.deepest.size() && evidence.deepest[c] > 0 &&
-        !(evidence.first.penetration[c].value > 0))
+    if (fault.kind == FaultKind::energy && contacts[c].has_springs() && !(contacts[c].contact->damping > 0) &&
+        c < evidence.deepest.size() && evidence.deepest[c] > 0 && !(evidence.first.penetration[c].value > 0))
       causes.push_back(Cause{"blow on springs",
                              fmt::format("bodies strike the undamped springs of contact {} with few elements behind "
                                          "them, and each node that touches or parts errs by "
@@ -181,7 +178,7 @@ void contacts(const Model& model, const Fault& fault, const WatchEvidence& evide
                                          "take its algorithm \"multiplier\"",
                                          contact.name, contact.name),
                              10});
-    const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > model.scene.watch.penetration;
+    const bool pressed = c < evidence.deepest.size() && evidence.deepest[c] > limit.penetration;
     if (pressed && contact.algorithm == scene::ContactAlgorithm::penalty)
       causes.push_back(Cause{
           "soft penalty",
@@ -221,13 +218,14 @@ Cause hourglass_share(const scene::Part& part) {
   return {"coarse mesh", coarse, 30};
 }
 
-void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  for (std::size_t p = 0; p < model.scene.parts.size(); ++p) {
-    const scene::Part& part = model.scene.parts[p];
-    const auto& range = model.assembly.parts[p];
+void hourglass(const AssembledScene& assembled, const Fault& fault, const WatchEvidence& evidence,
+               std::vector<Cause>& causes) {
+  for (std::size_t p = 0; p < assembled.scene.parts.size(); ++p) {
+    const scene::Part& part = assembled.scene.parts[p];
+    const auto& range = assembled.assembly.parts[p];
     const int seen = evidence.last.distortion.place;
     const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
-    const bool distorted = here && evidence.last.distortion.value > 0.5 * model.scene.watch.hourglass_distortion;
+    const bool distorted = here && evidence.last.distortion.value > 0.5 * assembled.scene.watch.hourglass_distortion;
     const double usual = part.hourglass == scene::HourglassType::viscous ? 0.1 : 0.05;
     if (part.hourglass_coefficient < 0.1 * usual &&
         (distorted || fault.kind == FaultKind::hourglass_distortion || fault.kind == FaultKind::inversion))
@@ -240,7 +238,7 @@ void hourglass(const Model& model, const Fault& fault, const WatchEvidence& evid
   }
 }
 
-void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+void shape(const scene::Scene& scene, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
   const Extreme& worst = evidence.worst_shape;
   if (worst.place >= 0 && worst.value < 0.05)
     causes.push_back(Cause{"mesh",
@@ -256,24 +254,28 @@ void shape(const Model& model, const Fault& fault, const WatchEvidence& evidence
                           "let its material yield "
                           "(materials.{}.yield_stress)",
                           fault.part.empty() ? "?" : fault.part,
-                          fault.part.empty() ? "NAME" : model.scene.parts[part_of_target(model, fault.part)].material),
+                          fault.part.empty() ? "NAME" : scene.parts[part_of_target(scene, fault.part)].material),
               25});
 }
 
 }  // namespace
 
-std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence) {
+std::vector<Cause> likely_causes(const AssembledScene& assembled, const StepSizes& sizes, const LoadModel& loads,
+                                 const std::vector<ContactPair>& contacts, const Fault& fault,
+                                 const WatchEvidence& evidence) {
+  const scene::Scene& scene = assembled.scene;
   std::vector<Cause> causes;
-  curves(model, causes);
-  for (Fault& unit : absurd_units(model)) causes.push_back(std::move(unit.causes[0]));
-  speeds(model, evidence, causes);
-  loads(model, causes);
-  unheld(model, fault, evidence, causes);
-  overlaps(model, causes);
-  contacts(model, fault, evidence, causes);
-  hourglass(model, fault, evidence, causes);
-  shape(model, fault, evidence, causes);
-  for (Cause& cause : steps_too_long(model)) causes.push_back(std::move(cause));
+  curves(scene, causes);
+  for (Fault& unit : absurd_units(assembled)) causes.push_back(std::move(unit.causes[0]));
+  speeds(scene, evidence, causes);
+  load_causes(assembled, loads.loads, causes);
+  unheld(scene, fault, evidence, causes);
+  overlaps(assembled, contacts, sizes.step_size, causes);
+  contact_causes(scene.watch, contacts, fault, evidence, causes);
+  hourglass(assembled, fault, evidence, causes);
+  shape(scene, fault, evidence, causes);
+  for (Cause& cause : steps_too_long(assembled, sizes, loads.connectors.cells, contacts))
+    causes.push_back(std::move(cause));
   if (causes.empty())
     causes.push_back(Cause{"unknown",
                            "none of the known causes is apparent: lower time.step_scale to see whether that mends it, "

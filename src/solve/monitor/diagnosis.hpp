@@ -2,7 +2,10 @@
 
 #include <vector>
 
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/loads/load_model.hpp"
+#include "model/time_step/step_sizes.hpp"
 #include "solve/monitor/fault.hpp"
 #include "solve/monitor/watch_measures.hpp"
 
@@ -20,6 +23,21 @@ struct WatchEvidence {
 /// What may have brought a fault about, the likeliest first: from the step against what elements, contact springs,
 /// connectors and beams allow, from what the case asks for (loads, speeds, materials, hourglass control, curves) and
 /// from what the first look saw (penetration, shape).
-std::vector<Cause> likely_causes(const Model& model, const Fault& fault, const WatchEvidence& evidence);
+std::vector<Cause> likely_causes(const AssembledScene& assembled, const StepSizes& sizes, const LoadModel& loads,
+                                 const std::vector<ContactPair>& contacts, const Fault& fault,
+                                 const WatchEvidence& evidence);
+
+/// The name of a cause that may be one only where a body is one element thick.
+inline constexpr const char* possible_step_cause = "step beyond elements alone";
+
+/// For each of elements, hourglass control, contact springs, connectors and beams that the run's step is too long for:
+/// by how much, who it is, and the mend. The one that is passed the most is the likeliest. See diagnosis_step.cpp.
+std::vector<Cause> steps_too_long(const AssembledScene& assembled, const StepSizes& sizes,
+                                  const std::vector<ConnectorCell>& cells, const std::vector<ContactPair>& contacts);
+
+/// What no part of a track or vehicle can have, whose figures are likely in other units than SI: waves faster or slower
+/// than any solid's, a yield stress that a touch passes, elements of half a metre or of a micrometre. The first part of
+/// each kind, each with its one cause. See diagnosis_units.cpp.
+std::vector<Fault> absurd_units(const AssembledScene& assembled);
 
 }  // namespace railwave

@@ -1,12 +1,10 @@
-#include "solve/monitor/diagnosis_step.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "model/time_step/connector_step.hpp"
-#include "model/time_step/element_frequency.hpp"
+#include "model/time_step/stable_step.hpp"
+#include "solve/monitor/diagnosis.hpp"
 
 namespace railwave {
 namespace {
@@ -16,27 +14,19 @@ const char* const mend = "lower time.step_scale (or time.step)";
 /// Certain to be unstable beyond what the estimates allow; possible beyond what a single free element allows.
 double weight(double ratio, bool certain) { return (certain ? 60 : 40) + std::fmin(7, std::log2(ratio)); }
 
-int part_of_element(const Model& model, int element) {
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const int within = element - model.assembly.parts[p].first_element;
-    if (within >= 0 && within < model.assembly.parts[p].element_count) return static_cast<int>(p);
-  }
-  return -1;
-}
-
-void elements(const Model& model, std::vector<Cause>& causes) {
-  const StableStep& stable = model.stable_step;
-  const double step = model.step_size;
+void elements(const AssembledScene& assembled, const StepSizes& sizes, std::vector<Cause>& causes) {
+  const StableStep& stable = sizes.stable_step;
+  const double step = sizes.step_size;
   const int element = stable.eigenvalue_element;
-  const int p = element < 0 ? -1 : part_of_element(model, element);
+  const int p = element < 0 ? -1 : part_of_element(assembled.assembly, element);
   if (p < 0) return;
-  const scene::Part& part = model.scene.parts[p];
-  const ElementStep own = element_eigenvalue_step(corners_of(model.assembly.nodes, model.assembly.elements[element]),
-                                                  model.scene.materials[model.assembly.parts[p].material],
-                                                  part.hourglass, part.hourglass_coefficient);
+  const scene::Part& part = assembled.scene.parts[p];
+  const ElementStep own = element_eigenvalue_step(
+      corners_of(assembled.assembly.nodes, assembled.assembly.elements[element]),
+      assembled.scene.materials[assembled.assembly.parts[p].material], part.hourglass, part.hourglass_coefficient);
   const ElementStep free =
-      element_eigenvalue_step(corners_of(model.assembly.nodes, model.assembly.elements[element]),
-                              model.scene.materials[model.assembly.parts[p].material], part.hourglass, 0);
+      element_eigenvalue_step(corners_of(assembled.assembly.nodes, assembled.assembly.elements[element]),
+                              assembled.scene.materials[assembled.assembly.parts[p].material], part.hourglass, 0);
   // Control counts where it, not the elastic modes, has shortened the element's step.
   const bool by_control = own.control < free.step;
   if (by_control && step > own.control)
@@ -54,10 +44,10 @@ void elements(const Model& model, std::vector<Cause>& causes) {
                            weight(ratio, true)});
   else if (!by_control && ratio > 1) {
     const bool certain = step > stable.elements;
-    const int lowest = certain ? stable.element : element, q = part_of_element(model, lowest);
+    const int lowest = certain ? stable.element : element, q = part_of_element(assembled.assembly, lowest);
     const auto who = [&](double times) {
       return fmt::format("the step is {:.3g} times the stable step of element {} of part {}", times,
-                         lowest - model.assembly.parts[q].first_element, model.scene.parts[q].name);
+                         lowest - assembled.assembly.parts[q].first_element, assembled.scene.parts[q].name);
     };
     if (certain)
       causes.push_back(Cause{"step beyond elements", fmt::format("{}: {}", who(step / stable.elements), mend),
@@ -71,13 +61,13 @@ void elements(const Model& model, std::vector<Cause>& causes) {
   }
 }
 
-void contact_springs(const Model& model, std::vector<Cause>& causes) {
-  const StableStep& stable = model.stable_step;
-  const double ratio = stable.contact > 0 ? model.step_size / stable.contact : 0;
+void contact_springs(const StepSizes& sizes, const std::vector<ContactPair>& contacts, std::vector<Cause>& causes) {
+  const StableStep& stable = sizes.stable_step;
+  const double ratio = stable.contact > 0 ? sizes.step_size / stable.contact : 0;
   // Below that the elements under the springs set it.
   if (!(ratio > 1) || stable.contact > 0.95 * stable.elements) return;
   const ContactPair* stiffest = nullptr;
-  for (const ContactPair& pair : model.contacts)
+  for (const ContactPair& pair : contacts)
     if (pair.has_springs() && (stiffest == nullptr || pair.contact->penalty_scale * pair.growth >
                                                           stiffest->contact->penalty_scale * stiffest->growth))
       stiffest = &pair;
@@ -91,22 +81,23 @@ void contact_springs(const Model& model, std::vector<Cause>& causes) {
                          weight(ratio, true) + 0.01});
 }
 
-void connectors(const Model& model, std::vector<Cause>& causes) {
+void connectors(const AssembledScene& assembled, const StepSizes& sizes, const std::vector<ConnectorCell>& all,
+                std::vector<Cause>& causes) {
   double worst = 0;
   Cause cause;
-  for (std::size_t c = 0; c < model.scene.connectors.size(); ++c) {
+  for (std::size_t c = 0; c < assembled.scene.connectors.size(); ++c) {
     std::vector<ConnectorCell> cells;
-    for (const ConnectorCell& cell : model.connectors.cells)
+    for (const ConnectorCell& cell : all)
       if (cell.connector == static_cast<int>(c)) cells.push_back(cell);
-    const scene::Connector& connector = model.scene.connectors[c];
-    const double frequency = connector_frequency(model.scene, cells, model.mass),
-                 ratio = 0.5 * frequency * model.step_size;
+    const scene::Connector& connector = assembled.scene.connectors[c];
+    const double frequency = connector_frequency(assembled.scene, cells, assembled.mass),
+                 ratio = 0.5 * frequency * sizes.step_size;
     if (!(ratio > worst)) continue;
     worst = ratio;
     scene::Scene springs_alone;
-    springs_alone.connectors = model.scene.connectors;
+    springs_alone.connectors = assembled.scene.connectors;
     springs_alone.connectors[c].damping = {0, 0, 0};
-    const bool dashpot = connector_frequency(springs_alone, cells, model.mass) < 0.5 * frequency;
+    const bool dashpot = connector_frequency(springs_alone, cells, assembled.mass) < 0.5 * frequency;
     cause = {dashpot ? "step beyond dashpot" : "step beyond spring",
              fmt::format("the {} of connector {} is stiffer than the step allows on the masses of its ends, which is "
                          "{:.3g} times its own: lower "
@@ -120,12 +111,13 @@ void connectors(const Model& model, std::vector<Cause>& causes) {
 
 }  // namespace
 
-std::vector<Cause> steps_too_long(const Model& model) {
+std::vector<Cause> steps_too_long(const AssembledScene& assembled, const StepSizes& sizes,
+                                  const std::vector<ConnectorCell>& cells, const std::vector<ContactPair>& contacts) {
   std::vector<Cause> causes;
-  elements(model, causes);
-  contact_springs(model, causes);
-  connectors(model, causes);
-  const double beams = model.stable_step.beam > 0 ? model.step_size / model.stable_step.beam : 0;
+  elements(assembled, sizes, causes);
+  contact_springs(sizes, contacts, causes);
+  connectors(assembled, sizes, cells, causes);
+  const double beams = sizes.stable_step.beam > 0 ? sizes.step_size / sizes.stable_step.beam : 0;
   if (beams > 1)
     causes.push_back(
         Cause{"step beyond beams",

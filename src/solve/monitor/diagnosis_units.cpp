@@ -1,8 +1,7 @@
-#include "solve/monitor/diagnosis_units.hpp"
-
 #include <fmt/format.h>
 
 #include "case/usual_sizes.hpp"
+#include "solve/monitor/diagnosis.hpp"
 
 namespace railwave {
 namespace {
@@ -13,11 +12,11 @@ constexpr double lowest_yield = 1e-5;
 constexpr double high_poissons_ratio = 0.49;
 
 struct PartOf {
-  const Model& model;
+  const AssembledScene& assembled;
   std::size_t number;
-  const std::string& name() const { return model.scene.parts[number].name; }
-  const Assembly::PartRange& range() const { return model.assembly.parts[number]; }
-  const scene::Material& material() const { return model.scene.materials[range().material]; }
+  const std::string& name() const { return assembled.scene.parts[number].name; }
+  const Assembly::PartRange& range() const { return assembled.assembly.parts[number]; }
+  const scene::Material& material() const { return assembled.scene.materials[range().material]; }
 };
 
 Fault fault_of(FaultKind kind, const PartOf& part, double value, double limit, Cause cause) {
@@ -71,9 +70,9 @@ Found size(const PartOf& part) {
   const auto& range = part.range();
   double mean = 0;
   for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
-    mean += part.model.element_length[e] / range.element_count;
+    mean += part.assembled.element_length[e] / range.element_count;
   if (range.element_count == 0 || (mean >= finest_mesh && mean <= coarsest_mesh)) return {};
-  const std::string& mesh = part.model.scene.parts[part.number].mesh;
+  const std::string& mesh = part.assembled.scene.parts[part.number].mesh;
   return {fault_of(
       FaultKind::size, part, mean, mean > coarsest_mesh ? coarsest_mesh : finest_mesh,
       {"size",
@@ -84,11 +83,11 @@ Found size(const PartOf& part) {
 
 }  // namespace
 
-std::vector<Fault> absurd_units(const Model& model) {
+std::vector<Fault> absurd_units(const AssembledScene& assembled) {
   Found all;
   for (const auto check : {size, waves, yield})
-    for (std::size_t p = 0; p < model.scene.parts.size(); ++p)
-      if (Found found = check({model, p}); !found.empty()) {
+    for (std::size_t p = 0; p < assembled.scene.parts.size(); ++p)
+      if (Found found = check({assembled, p}); !found.empty()) {
         all.push_back(std::move(found[0]));
         break;
       }

@@ -48,29 +48,34 @@ const char* direction_name(const Vec3& out) {
 }
 
 /// Of several facets, mostly of one part: whether each is outside its part's fine zone.
-std::vector<int> coarse(const Model& model, const std::vector<std::array<int, 4>>& facets) {
+std::vector<int> coarse(const AssembledScene& assembled, const std::vector<std::array<int, 4>>& facets) {
   std::vector<int> result;
   int known = -1;
   double wanted = 0;
   for (const auto& facet : facets) {
-    const int part = part_of_node(model.assembly, facet[0]);
-    if (part != known) wanted = part < 0 ? 0 : finest_wanted(model.scene, model.assembly.parts[part].name);
+    const int part = part_of_node(assembled.assembly, facet[0]);
+    if (part != known) wanted = part < 0 ? 0 : finest_wanted(assembled.scene, assembled.assembly.parts[part].name);
     known = part;
-    result.push_back(wanted > 0 && longest_side(model.assembly.nodes, facet) > wanted);
+    result.push_back(wanted > 0 && longest_side(assembled.assembly.nodes, facet) > wanted);
   }
   return result;
 }
 
 }  // namespace
 
-EndWatch::EndWatch(const Model& model)
-    : sightings_(model.scene.contacts.size()), ever_closed_(model.scene.contacts.size(), 0) {
-  const Assembly& assembly = model.assembly;
-  for (const ContactPair& pair : model.contacts) {
+EndWatch::EndWatch(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ContactPair>& contacts)
+    : assembled_(assembled),
+      nodal_(nodal),
+      contacts_(contacts),
+      sightings_(assembled.scene.contacts.size()),
+      ever_closed_(assembled.scene.contacts.size(), 0) {
+  const Assembly& assembly = assembled.assembly;
+  for (const ContactPair& pair : contacts) {
     Pair made;
-    made.ends = pair_ends(model, pair);
+    made.ends = pair_ends(assembly, contacts, pair);
     const SurfaceEnds &slave = made.ends[0], &master = made.ends[1];
-    const std::vector<int> coarse_facet = coarse(model, master.corners), coarse_slave = coarse(model, slave.corners);
+    const std::vector<int> coarse_facet = coarse(assembled, master.corners),
+                           coarse_slave = coarse(assembled, slave.corners);
     std::vector<int> kind(pair.slave_nodes.size(), 0), fine(pair.slave_nodes.size(), 0), first, around;
     for (std::size_t f = 0; f < slave.corners.size(); ++f)
       for (int k = 0; k < 4; ++k) {
@@ -107,16 +112,16 @@ struct EndWatch::Crossing {
   bool slid_out;  ///< the slave has moved that way over the master
 };
 
-void EndWatch::look(const Model& model, bool thorough) {
-  Reductions glances(*model.reduction_space);
+void EndWatch::look(bool thorough) {
+  Reductions glances(*nodal_.reduction_space);
   std::vector<Largest<ContactEndForces::values>> found(pairs_.size());
   for (std::size_t p = 0; p < pairs_.size(); ++p)
-    glances.largest(ContactEndForces{model.contacts[p].arrays, pairs_[p].arrays, model.nodes.position},
-                    model.contacts[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
+    glances.largest(ContactEndForces{contacts_[p].arrays, pairs_[p].arrays, nodal_.nodes.position},
+                    contacts_[p].arrays.slave_count, [&found, p](const auto& of) { found[p] = of; });
   glances.fetch();
   for (EndSighting& one : sightings_) one = {};
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const ContactPair& pair = model.contacts[p];
+    const ContactPair& pair = contacts_[p];
     Memory& memory = pairs_[p].memory;
     EndSighting& now = pairs_[p].now;
     const bool was_closed = memory.closed != 0;
@@ -126,14 +131,14 @@ void EndWatch::look(const Model& model, bool thorough) {
     if (now.closed) {
       const double force = std::max(largest[0], 1e-290);
       now.outside_zone = largest[2] / force;
-      if (now.outside_zone > model.scene.watch.fine_zone) place_outside_zone(model, p, found[p].place[2]);
+      if (now.outside_zone > assembled_.scene.watch.fine_zone) place_outside_zone(p, found[p].place[2]);
       const double share = largest[1] / force;
       if (thorough) memory.harmless = 0;
-      if (share > model.scene.watch.contact_edge && memory.harmless == 0)
-        judge(model, p);
-      else if (share <= model.scene.watch.contact_edge)
+      if (share > assembled_.scene.watch.contact_edge && memory.harmless == 0)
+        judge(p);
+      else if (share <= assembled_.scene.watch.contact_edge)
         memory.ever_clear = 1;
-      if (share <= model.scene.watch.contact_edge || memory.harmless != 0) memory.at_end = 0;
+      if (share <= assembled_.scene.watch.contact_edge || memory.harmless != 0) memory.at_end = 0;
       if (memory.at_end != 0) {
         now.at_end = share;
         now.end_node = memory.end_node;
@@ -142,10 +147,10 @@ void EndWatch::look(const Model& model, bool thorough) {
       memory.lost = 0;
     } else if (was_closed) {
       double sum[ContactEndLosses::values] = {};
-      block_sum(ContactEndLosses{pair.arrays, pairs_[p].arrays, model.nodes.position}, pair.arrays.slave_count, sum,
-                *model.reduction_space);
+      block_sum(ContactEndLosses{pair.arrays, pairs_[p].arrays, nodal_.nodes.position}, pair.arrays.slave_count, sum,
+                *nodal_.reduction_space);
       const bool fell = sum[0] > 0 && sum[1] >= most_of * sum[0];
-      memory.lost = fell || (memory.at_end != 0 && (memory.ever_clear != 0 || has_moved_out(model, p)));
+      memory.lost = fell || (memory.at_end != 0 && (memory.ever_clear != 0 || has_moved_out(p)));
     }
     if (memory.lost != 0) {
       now.lost = true;
@@ -156,11 +161,11 @@ void EndWatch::look(const Model& model, bool thorough) {
     memory.ever_closed |= memory.closed;
   }
   for (std::size_t c = 0; c < sightings_.size(); ++c) {
-    const std::string& name = model.scene.contacts[c].name;
+    const std::string& name = assembled_.scene.contacts[c].name;
     EndSighting& one = sightings_[c];
     bool lost = false;
     for (std::size_t p = 0; p < pairs_.size(); ++p) {
-      if (model.contacts[p].contact->name != name) continue;
+      if (contacts_[p].contact->name != name) continue;
       const EndSighting& half = pairs_[p].now;
       one.closed = one.closed || half.closed;
       lost = lost || half.lost;
@@ -180,10 +185,10 @@ void EndWatch::look(const Model& model, bool thorough) {
   }
 }
 
-void EndWatch::judge(const Model& model, std::size_t number) {
-  const ContactPair& pair = model.contacts[number];
+void EndWatch::judge(std::size_t number) {
+  const ContactPair& pair = contacts_[number];
   Pair& own = pairs_[number];
-  const auto position = to_host(model.nodes.position);
+  const auto position = to_host(nodal_.nodes.position);
   const auto status = to_host(pair.arrays.status);
   const auto tracked = to_host(pair.arrays.tracked);
   const auto force = to_host(pair.arrays.normal_force);
@@ -193,7 +198,7 @@ void EndWatch::judge(const Model& model, std::size_t number) {
   const Rows corners = to_host(own.arrays.corners), beyond = to_host(own.arrays.beyond);
   const WayOverFacets<Rows, decltype(position)> way{corners, beyond, position};
   const auto place = [&](int n) { return Vec3{position(n, 0), position(n, 1), position(n, 2)}; };
-  const auto& x = model.assembly.nodes;
+  const auto& x = assembled_.assembly.nodes;
   const auto shift = [&](int n) { return difference(place(n), x[n]); };
 
   std::vector<Crossing> crossings;
@@ -204,7 +209,7 @@ void EndWatch::judge(const Model& model, std::size_t number) {
     const double own_force = length({force(s, 0), force(s, 1), force(s, 2)});
     largest = std::max(largest, own_force);
   }
-  const double least = model.scene.watch.contact_edge * largest;
+  const double least = assembled_.scene.watch.contact_edge * largest;
   double most_of_set = 0;
   const auto gap = to_host(pair.arrays.gap);
   // Faces that lie on each other need not press everywhere: one that slides may tilt a little.
@@ -273,34 +278,34 @@ void EndWatch::judge(const Model& model, std::size_t number) {
   std::copy(worst->out.begin(), worst->out.end(), memory.out);
 }
 
-bool EndWatch::has_moved_out(const Model& model, std::size_t number) const {
+bool EndWatch::has_moved_out(std::size_t number) const {
   const Pair& pair = pairs_[number];
   if (pair.part[0] < 0 || pair.part[1] < 0) return false;
   double mean[2][3] = {};
   for (const int i : {0, 1}) {
-    const auto& part = model.assembly.parts[pair.part[i]];
-    block_sum(PositionSum{model.nodes.position, part.first_node}, part.node_count, mean[i], *model.reduction_space);
+    const auto& part = assembled_.assembly.parts[pair.part[i]];
+    block_sum(PositionSum{nodal_.nodes.position, part.first_node}, part.node_count, mean[i], *nodal_.reduction_space);
     for (double& c : mean[i]) c /= part.node_count;
   }
   double way = 0;
   for (int i = 0; i < 3; ++i) way += (mean[0][i] - mean[1][i] - pair.way_start[i]) * pair.memory.out[i];
-  return way > moved_out * model.contacts[number].segment_size;
+  return way > moved_out * contacts_[number].segment_size;
 }
 
 /// The place is the master's where its facet is coarse, else the slave's.
-void EndWatch::place_outside_zone(const Model& model, std::size_t number, int slave) {
-  const ContactPair& pair = model.contacts[number];
+void EndWatch::place_outside_zone(std::size_t number, int slave) {
+  const ContactPair& pair = contacts_[number];
   Pair& own = pairs_[number];
   const auto& facet = own.ends[1].corners[to_host(pair.arrays.tracked)(slave)];
-  const bool of_master = coarse(model, {facet})[0] != 0;
+  const bool of_master = coarse(assembled_, {facet})[0] != 0;
   own.now.zone_node = of_master ? facet[0] : pair.slave_nodes[slave];
-  const int part = part_of_node(model.assembly, own.now.zone_node);
-  const std::string& name = model.assembly.parts[part].name;
+  const int part = part_of_node(assembled_.assembly, own.now.zone_node);
+  const std::string& name = assembled_.assembly.parts[part].name;
   own.now.zone = fmt::format(
       "contact {} is outside the fine zone of part {}, where elements are longer than {:.3g} m; make the zone reach "
       "farther, let the contact begin elsewhere, or end the run "
       "(time.end) before",
-      pair.contact->name, name, finest_wanted(model.scene, name));
+      pair.contact->name, name, finest_wanted(assembled_.scene, name));
 }
 
 std::string EndWatch::told_end(const ContactPair& pair, const Memory& memory) const {
@@ -323,13 +328,13 @@ std::string EndWatch::told_end(const ContactPair& pair, const Memory& memory) co
   return fmt::format("contact {} is at the end of '{}'{}; {}", contact.name, surface, where, mend);
 }
 
-std::vector<std::string> EndWatch::never_closed(const Model& model) const {
+std::vector<std::string> EndWatch::never_closed() const {
   std::vector<std::string> lines;
   for (std::size_t c = 0; c < ever_closed_.size(); ++c) {
     if (ever_closed_[c] != 0) continue;
     double least = 1e300;
-    for (const ContactPair& pair : model.contacts) {
-      if (pair.contact->name != model.scene.contacts[c].name) continue;
+    for (const ContactPair& pair : contacts_) {
+      if (pair.contact->name != assembled_.scene.contacts[c].name) continue;
       const auto gap = to_host(pair.arrays.gap);
       const auto tracked = to_host(pair.arrays.tracked);
       for (int s = 0; s < pair.arrays.slave_count; ++s)
@@ -338,7 +343,7 @@ std::vector<std::string> EndWatch::never_closed(const Model& model) const {
     lines.push_back(fmt::format(
         "contact {} never closed, as far as glances every {} steps and histories saw{}: see where its parts are and "
         "move, unless that is meant",
-        model.scene.contacts[c].name, steps_between,
+        assembled_.scene.contacts[c].name, steps_between,
         is_distance(least) ? fmt::format("; at the end its surfaces are {:.3g} m apart", least) : std::string()));
   }
   return lines;

@@ -4,7 +4,10 @@
 #include <vector>
 
 #include "kernels/contact/contact_ends.hpp"
+#include "model/assembled_scene.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/contact/surface_ends.hpp"
+#include "model/nodal_state.hpp"
 #include "solve/checkpoint/run_state.hpp"
 
 namespace railwave {
@@ -31,14 +34,14 @@ struct EndSighting {
 /// beyond it, any counts. Strips whose sides are flush have no node beyond.
 class EndWatch {
  public:
-  explicit EndWatch(const Model& model);
+  EndWatch(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ContactPair>& contacts);
 
   /// Steps between glances.
   static constexpr long steps_between = 256;
 
   /// Looks at all contacts of the scene.
   /// @param thorough whether ends that were found to be no matter are looked at again
-  void look(const Model& model, bool thorough);
+  void look(bool thorough);
 
   /// Some sample, not only a glance, had nodes in contact.
   void note_closed(std::size_t contact) { ever_closed_[contact] = 1; }
@@ -47,7 +50,7 @@ class EndWatch {
   const std::vector<EndSighting>& sightings() const { return sightings_; }
 
   /// A line for each contact that neither a glance nor a sample of the histories has seen closed.
-  std::vector<std::string> never_closed(const Model& model) const;
+  std::vector<std::string> never_closed() const;
 
   void archive(StateTaker& state);
   void archive(StateLayer& state);
@@ -72,13 +75,16 @@ class EndWatch {
   };
   struct Crossing;
 
-  void judge(const Model& model, std::size_t number);
-  bool has_moved_out(const Model& model, std::size_t number) const;
-  void place_outside_zone(const Model& model, std::size_t number, int slave);
+  void judge(std::size_t number);
+  bool has_moved_out(std::size_t number) const;
+  void place_outside_zone(std::size_t number, int slave);
   std::string told_end(const ContactPair& pair, const Memory& memory) const;
   template <class Archive>
   void archive_memory(Archive& archive);
 
+  const AssembledScene& assembled_;
+  const NodalState& nodal_;
+  const std::vector<ContactPair>& contacts_;
   std::vector<Pair> pairs_;
   std::vector<EndSighting> sightings_;
   std::vector<char> ever_closed_;  ///< by contact of the scene

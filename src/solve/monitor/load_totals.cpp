@@ -1,6 +1,5 @@
-#include "solve/monitor/load_totals.hpp"
-
 #include "kernels/support/vector3.hpp"
+#include "solve/monitor/account.hpp"
 
 namespace railwave {
 namespace {
@@ -26,9 +25,9 @@ struct FacetSum {
   }
 };
 
-void queue_total(const Model& model, const LoadArrays& arrays, LoadTotals& totals, Reductions& sums) {
+void queue_total(const NodalState& nodal, const LoadArrays& arrays, LoadTotals& totals, Reductions& sums) {
   const scene::Load& load = *arrays.load;
-  const double factor = curve_value(arrays.curve, model.time);
+  const double factor = curve_value(arrays.curve, nodal.time);
   const auto forces = [&totals](double scale) {
     return [&totals, scale](const double* sum) {
       for (int i = 0; i < 3; ++i) totals.force[i] = scale * sum[i];
@@ -42,7 +41,7 @@ void queue_total(const Model& model, const LoadArrays& arrays, LoadTotals& total
       sums.sum(AmplitudeSum{arrays.amplitude}, arrays.count, forces(factor));
       break;
     case scene::LoadType::pressure:
-      sums.sum(FacetSum{model.nodes.position, arrays.facets}, arrays.count, forces(-factor * load.pressure));
+      sums.sum(FacetSum{nodal.nodes.position, arrays.facets}, arrays.count, forces(-factor * load.pressure));
       break;
     case scene::LoadType::torque:
       totals.moment = factor * load.moment;
@@ -52,9 +51,10 @@ void queue_total(const Model& model, const LoadArrays& arrays, LoadTotals& total
 
 }  // namespace
 
-void queue_load_totals(const Model& model, std::vector<LoadTotals>& totals, Reductions& sums) {
-  totals.resize(model.loads.size());
-  for (std::size_t l = 0; l < totals.size(); ++l) queue_total(model, model.loads[l], totals[l], sums);
+void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
+                       Reductions& sums) {
+  totals.resize(loads.size());
+  for (std::size_t l = 0; l < totals.size(); ++l) queue_total(nodal, loads[l], totals[l], sums);
 }
 
 }  // namespace railwave

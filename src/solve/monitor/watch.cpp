@@ -8,7 +8,6 @@
 #include "mesh/hexahedron.hpp"
 #include "model/host_copy.hpp"
 #include "solve/monitor/account.hpp"
-#include "solve/monitor/diagnosis_units.hpp"
 
 namespace railwave {
 namespace {
@@ -60,10 +59,10 @@ Fault seen_at(const HistorySample& sample, FaultKind kind, bool fatal, double va
 
 /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its
 /// angular velocity, of what travels nothing.
-double largest_rate(const Model& model) {
-  const auto x = to_host(model.nodes.position), v = to_host(model.nodes.velocity);
+double largest_rate(const NodeArrays& nodes, const Assembly& assembly) {
+  const auto x = to_host(nodes.position), v = to_host(nodes.velocity);
   double largest = 0;
-  for (const auto& element : model.assembly.elements)
+  for (const auto& element : assembly.elements)
     for (int k = 0; k < 12; ++k) {
       // Around the lower and the upper face, and up between them.
       const int N = k % 8, a = element[N], b = element[k >= 8 ? N + 4 : N % 4 == 3 ? N - 3 : N + 1];
@@ -78,53 +77,56 @@ double largest_rate(const Model& model) {
 }
 
 /// J, elastic, of what rounding strains elements in single precision by.
-double energy_of_rounding(const Model& model) {
+double energy_of_rounding(const AssembledScene& assembled) {
   double energy = 0;
-  if (model.scene.solver.elements_in_single())
-    for (const auto& part : model.assembly.parts)
+  if (assembled.scene.solver.elements_in_single())
+    for (const auto& part : assembled.assembly.parts)
       for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-        energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain_of_rounding *
-                  strain_of_rounding * hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+        energy += 0.5 * assembled.scene.materials[part.material].dilatational_modulus() * strain_of_rounding *
+                  strain_of_rounding *
+                  hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
   return energy;
 }
 
 /// J, elastic, of what the rounding of places strains elements by: what a scene at rest has of energies, and takes in a
 /// step.
-double energy_of_rest(const Model& model) {
+double energy_of_rest(const AssembledScene& assembled) {
   double largest = 0, energy = 0;
-  for (const Vec3& place : model.assembly.nodes)
+  for (const Vec3& place : assembled.assembly.nodes)
     for (double x : place) largest = std::max(largest, std::fabs(x));
-  for (const auto& part : model.assembly.parts)
+  for (const auto& part : assembled.assembly.parts)
     for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
-      const double strain = 8 * 0.5 * std::numeric_limits<double>::epsilon() * largest / model.element_length[e];
-      energy += 0.5 * model.scene.materials[part.material].dilatational_modulus() * strain * strain *
-                hexahedron_volume(corners_of(model.assembly.nodes, model.assembly.elements[e]));
+      const double strain = 8 * 0.5 * std::numeric_limits<double>::epsilon() * largest / assembled.element_length[e];
+      energy += 0.5 * assembled.scene.materials[part.material].dilatational_modulus() * strain * strain *
+                hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
     }
   return energy;
 }
 
 }  // namespace
 
-Watch::Watch(const Model& model) : model_(model) {
-  if (!model.scene.watch.active) return;
-  arrays_ = std::make_unique<WatchArrays>(model);
+Watch::Watch(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes, const LoadModel& loads,
+             const std::vector<ContactPair>& contacts)
+    : assembled_(assembled), nodal_(nodal), sizes_(sizes), loads_(loads), contacts_(contacts) {
+  if (!assembled.scene.watch.active) return;
+  arrays_ = std::make_unique<WatchArrays>(assembled.assembly, contacts);
   evidence_.worst_shape = arrays_->worst_shape();
-  energy_of_rounding_ = energy_of_rounding(model);
-  energy_of_rest_ = energy_of_rest(model);
-  parts_.resize(model.assembly.parts.size());
-  if (!model.contacts.empty()) ends_ = std::make_unique<EndWatch>(model);
+  energy_of_rounding_ = energy_of_rounding(assembled);
+  energy_of_rest_ = energy_of_rest(assembled);
+  parts_.resize(assembled.assembly.parts.size());
+  if (!contacts.empty()) ends_ = std::make_unique<EndWatch>(assembled, nodal, contacts);
 }
 
 void Watch::glance() {
   static_assert(EndWatch::steps_between % (1L << (most_levels - 1)) == 0);
-  if (!ends_ || model_.step % EndWatch::steps_between != 0) return;
-  ends_->look(model_, false);
+  if (!ends_ || nodal_.step % EndWatch::steps_between != 0) return;
+  ends_->look(false);
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];
-    const std::string& name = model_.scene.contacts[c].name;
+    const std::string& name = assembled_.scene.contacts[c].name;
     wants_look_ =
-        wants_look_ || (seen.at_end > model_.scene.watch.contact_edge && !knows(FaultKind::contact_edge, name)) ||
-        (seen.outside_zone > model_.scene.watch.fine_zone && !knows(FaultKind::contact_zone, name)) || seen.lost;
+        wants_look_ || (seen.at_end > assembled_.scene.watch.contact_edge && !knows(FaultKind::contact_edge, name)) ||
+        (seen.outside_zone > assembled_.scene.watch.fine_zone && !knows(FaultKind::contact_zone, name)) || seen.lost;
   }
 }
 
@@ -137,7 +139,7 @@ bool Watch::due(long step) const { return whole_due(step) || (arrays_ && energie
 
 bool Watch::energies_due(long step) const {
   long between = fewest_between_looks;
-  while (between > steps_when_odd && between * energy_looks_of_run > model_.step_count) between /= 2;
+  while (between > steps_when_odd && between * energy_looks_of_run > sizes_.step_count) between /= 2;
   return step % between == 0;
 }
 
@@ -150,8 +152,8 @@ bool Watch::whole_due(long step) const {
 
 bool Watch::regular(long step) const {
   long between = fewest_between_looks;
-  while (between < most_between_looks && 2 * between * looks_of_run <= model_.step_count) between *= 2;
-  return step % between == 0 || step == model_.step_count;
+  while (between < most_between_looks && 2 * between * looks_of_run <= sizes_.step_count) between *= 2;
+  return step % between == 0 || step == sizes_.step_count;
 }
 
 bool Watch::finite(const HistorySample& sample) const { return std::isfinite(balance_total(sample.energy)); }
@@ -164,14 +166,14 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
   }
   if (!begun_) {
     given_at_start_ = magnitude(sample.energy);
-    rate_at_start_ = largest_rate(model_);
+    rate_at_start_ = largest_rate(nodal_.nodes, assembled_.assembly);
   }
   if (finite(sample)) weigh_energies(sample);
   const bool whole_asked = whole_due(sample.step);
-  const bool whole = whole_asked || !finite(sample) || share_ > model_.scene.watch.fatal_energy_error;
+  const bool whole = whole_asked || !finite(sample) || share_ > assembled_.scene.watch.fatal_energy_error;
   wants_look_ = false;
   if (whole) {
-    WatchMeasures now = arrays_->measure(model_);
+    WatchMeasures now = arrays_->measure(nodal_, contacts_);
     if (!begun_) evidence_.first = now;
     if (finite(sample) && std::isfinite(now.speed.value))
       evidence_.last = now;
@@ -202,7 +204,7 @@ std::vector<Fault> Watch::look(const HistorySample& sample) {
 }
 
 void Watch::look_at_beginning(const HistorySample& sample) {
-  for (Fault& fault : absurd_units(model_)) {
+  for (Fault& fault : absurd_units(assembled_)) {
     fault.time = sample.time;
     fault.step = sample.step;
     add(std::move(fault));
@@ -213,7 +215,7 @@ void Watch::look_at_beginning(const HistorySample& sample) {
 }
 
 void Watch::look_at_model(const HistorySample& sample) {
-  const scene::Watch& limit = model_.scene.watch;
+  const scene::Watch& limit = assembled_.scene.watch;
   const WatchMeasures& now = evidence_.last;
   if (now.jacobian.place >= 0)
     judge(FaultKind::inversion, now.jacobian.value, {limit.volume_ratio, 0}, sample, now.jacobian, true);
@@ -228,10 +230,10 @@ void Watch::look_at_model(const HistorySample& sample) {
 
 /// J, that rounding and the step explain of an error of the balance.
 double Watch::floor_of_error(const HistorySample& sample) const {
-  const double turn = rate_at_start_ * model_.step_size, steps = steps_of_sums + static_cast<double>(sample.step);
+  const double turn = rate_at_start_ * sizes_.step_size, steps = steps_of_sums + static_cast<double>(sample.step);
   double floor =
       given_ * (rounding_of_step * steps + turning * turn * turn) + work_ * turning * turned_by_loads * turned_by_loads;
-  if (model_.scene.solver.precision == scene::Precision::single_precision)
+  if (assembled_.scene.solver.precision == scene::Precision::single_precision)
     floor += rounding_of_single_step * steps * work_;
   return floor + steps * energy_of_rest_ + std::min(energy_of_rounding_, rounding_of_single_step * given_);
 }
@@ -249,13 +251,13 @@ void Watch::weigh_energies(const HistorySample& sample) {
   const double floor = floor_of_error(sample), scale = std::max(deformation_, floor),
                beyond = std::max(0.0, std::fabs(error) - floor);
   share_ = scale > 0 ? beyond / scale : 0;
-  blown_up_ = beyond > model_.scene.watch.fatal_energy_error * std::max(scale, given_);
+  blown_up_ = beyond > assembled_.scene.watch.fatal_energy_error * std::max(scale, given_);
   kinetic_share_ = scale > 0 ? std::max(0.0, energy.kinetic - given_ - floor) / scale : 0;
 }
 
 void Watch::look_at_ends(const HistorySample& sample) {
-  const scene::Watch& limit = model_.scene.watch;
-  ends_->look(model_, regular(sample.step));
+  const scene::Watch& limit = assembled_.scene.watch;
+  ends_->look(regular(sample.step));
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];
     judge_contact(FaultKind::contact_edge, false, seen.at_end, limit.contact_edge, sample, c, seen.end_node, seen.end);
@@ -269,7 +271,7 @@ void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit
                           std::size_t contact, int node, const std::string& told) {
   Worst& worst = worst_[static_cast<int>(kind)];
   if (!fatal && (!worst.seen || value > worst.value)) worst = {value, limit, sample.time, true};
-  const std::string& name = model_.scene.contacts[contact].name;
+  const std::string& name = assembled_.scene.contacts[contact].name;
   if (!(value > limit) || knows(kind, name)) return;
   Fault fault = seen_at(sample, kind, fatal, value, limit);
   fault.contact = name;
@@ -279,7 +281,7 @@ void Watch::judge_contact(FaultKind kind, bool fatal, double value, double limit
 }
 
 void Watch::look_at_energies(const HistorySample& sample) {
-  const scene::Watch& limit = model_.scene.watch;
+  const scene::Watch& limit = assembled_.scene.watch;
   // What is off but stays so needs no closer look.
   odd_ = share_ > 0.2 * limit.energy_error && (share_ > 1.1 * share_before_ || share_ > limit.fatal_energy_error);
   if (regular(sample.step)) share_before_ = share_;
@@ -290,7 +292,7 @@ void Watch::look_at_energies(const HistorySample& sample) {
 /// A node that touches first has next to nothing deformed yet, and can err by as much: what is beyond a limit counts
 /// when it has lasted.
 void Watch::judge_lasting(FaultKind kind, double value, Limits limits, Lasting& lasting, const HistorySample& sample) {
-  const bool last = sample.step == model_.step_count;
+  const bool last = sample.step == sizes_.step_count;
   const auto judge_it = [&](double what) { judge(kind, what, limits, sample, evidence_.last.acceleration); };
   if (blown_up_ || last || value <= limits.warning) {
     lasting.since = -1;
@@ -325,14 +327,14 @@ void Watch::look_at_parts(const HistorySample& sample) {
     // Parts that hardly deform have little to be spoilt.
     const double deformation = std::max(parts_[p].deformation, least_share * all);
     if (!(deformation > 0)) continue;
-    const bool viscous = model_.scene.parts[p].hourglass == scene::HourglassType::viscous;
+    const bool viscous = assembled_.scene.parts[p].hourglass == scene::HourglassType::viscous;
     Extreme where;
-    const auto& range = model_.assembly.parts[p];
+    const auto& range = assembled_.assembly.parts[p];
     const int seen = evidence_.last.distortion.place;
     where.place =
         seen >= range.first_element && seen < range.first_element + range.element_count ? seen : range.first_element;
     judge(FaultKind::hourglass_share, (viscous ? parts_[p].dissipated_lately : parts_[p].stored) / deformation,
-          {model_.scene.watch.hourglass_share}, sample, where, true);
+          {assembled_.scene.watch.hourglass_share}, sample, where, true);
   }
 }
 
@@ -357,7 +359,7 @@ void Watch::note(FaultKind kind, bool fatal, double value, double limit, const H
     place_at_element(fault, where.place);
   else
     place_at_node(fault, where.place);
-  fault.causes = likely_causes(model_, fault, evidence_);
+  fault.causes = likely_causes(assembled_, sizes_, loads_, contacts_, fault, evidence_);
   add(std::move(fault));
 }
 
@@ -375,10 +377,11 @@ void Watch::add(Fault fault) {
 void Watch::place_at_element(Fault& fault, int element) const {
   if (element < 0) return;
   fault.element = element;
-  fault.element_volume = hexahedron_volume(corners_of(model_.assembly.nodes, model_.assembly.elements[element]));
-  for (int n : model_.assembly.elements[element])
-    for (int i = 0; i < 3; ++i) fault.place[i] += 0.125 * model_.assembly.nodes[n][i];
-  for (const auto& part : model_.assembly.parts) {
+  fault.element_volume =
+      hexahedron_volume(corners_of(assembled_.assembly.nodes, assembled_.assembly.elements[element]));
+  for (int n : assembled_.assembly.elements[element])
+    for (int i = 0; i < 3; ++i) fault.place[i] += 0.125 * assembled_.assembly.nodes[n][i];
+  for (const auto& part : assembled_.assembly.parts) {
     const int within = element - part.first_element;
     if (within < 0 || within >= part.element_count) continue;
     fault.part = part.name;
@@ -388,14 +391,14 @@ void Watch::place_at_element(Fault& fault, int element) const {
 
 void Watch::place_at_node(Fault& fault, int node) const {
   if (node < 0) return;
-  const auto& elements = model_.assembly.elements;
+  const auto& elements = assembled_.assembly.elements;
   for (std::size_t e = 0; e < elements.size(); ++e)
     if (std::find(elements[e].begin(), elements[e].end(), node) != elements[e].end()) {
       place_at_element(fault, static_cast<int>(e));
       break;
     }
   fault.node = node;
-  fault.place = model_.assembly.nodes[node];
+  fault.place = assembled_.assembly.nodes[node];
 }
 
 const Fault* Watch::fatal() const {
@@ -422,13 +425,13 @@ std::string Watch::account_told() const {
   if (!arrays_) return "energy account not judged: watch.active = false";
   // A run that something else has ended may not have waited for the error to last.
   const double most = std::max(worst_[static_cast<int>(FaultKind::energy)].value, share_),
-               limit = model_.scene.watch.fatal_energy_error;
+               limit = assembled_.scene.watch.fatal_energy_error;
   return fmt::format("energy account {}: error at most {:.2g} of what deformation held and dissipated, limit {:g}",
                      most > limit ? "broken" : "kept", most, limit);
 }
 
 std::vector<std::string> Watch::never_closed() const {
-  return ends_ ? ends_->never_closed(model_) : std::vector<std::string>();
+  return ends_ ? ends_->never_closed() : std::vector<std::string>();
 }
 
 std::string Watch::worst_told() const {

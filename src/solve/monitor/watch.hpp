@@ -17,7 +17,8 @@ namespace railwave {
 /// the device it measures at looks, which are rare; an inactive watch knows of values that are not finite only.
 class Watch {
  public:
-  explicit Watch(const Model& model);
+  Watch(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes, const LoadModel& loads,
+        const std::vector<ContactPair>& contacts);
 
   /// Whether it wants to look at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every
   /// 4096; at the first powers of two; every 32 while something odd grows; after a glance that saw a contact come to an
@@ -101,7 +102,11 @@ class Watch {
   template <class Archive>
   void archive_all(Archive& archive);
 
-  const Model& model_;
+  const AssembledScene& assembled_;
+  const NodalState& nodal_;
+  const StepSizes& sizes_;
+  const LoadModel& loads_;
+  const std::vector<ContactPair>& contacts_;
   std::unique_ptr<WatchArrays> arrays_;  ///< null in an inactive watch
   WatchEvidence evidence_;
   std::unique_ptr<EndWatch> ends_;  ///< null in an inactive watch, and without contacts

@@ -9,8 +9,8 @@
 #include "model/host_copy.hpp"
 
 namespace railwave {
-WatchArrays::WatchArrays(const Model& model) {
-  const auto& elements = model.assembly.elements;
+WatchArrays::WatchArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts) {
+  const auto& elements = assembly.elements;
   shapes_.count = static_cast<int>(elements.size());
   shapes_.corners = unset_array<int* [8]>("watched corners", elements.size());
   shapes_.undeformed = unset_array<float * [ElementShapes::values]>("watched shapes", elements.size());
@@ -20,9 +20,9 @@ WatchArrays::WatchArrays(const Model& model) {
     ElementShape shape;
     for (int N = 0; N < 8; ++N) {
       corners(e, N) = elements[e][N];
-      for (int i = 0; i < 3; ++i) shape.x[N][i] = model.assembly.nodes[elements[e][N]][i];
+      for (int i = 0; i < 3; ++i) shape.x[N][i] = assembly.nodes[elements[e][N]][i];
     }
-    const double volume = hexahedron_volume(corners_of(model.assembly.nodes, elements[e]));
+    const double volume = hexahedron_volume(corners_of(assembly.nodes, elements[e]));
     const double jacobian = shape.smallest_jacobian(), mean = volume / 8;
     if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
     undeformed(e, ElementShapes::jacobian) = static_cast<float>(jacobian);
@@ -32,8 +32,7 @@ WatchArrays::WatchArrays(const Model& model) {
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);
-  for (const ContactPair& pair : model.contacts)
-    changes_.push_back(Array<int*>("watched contact", pair.arrays.slave_count));
+  for (const ContactPair& pair : contacts) changes_.push_back(Array<int*>("watched contact", pair.arrays.slave_count));
 }
 
 void WatchArrays::archive(StateTaker& state) {
@@ -52,20 +51,20 @@ void WatchArrays::archive(StateLayer& state) {
   }
 }
 
-WatchMeasures WatchArrays::measure(const Model& model) const {
+WatchMeasures WatchArrays::measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const {
   WatchMeasures found;
-  Reductions looks(*model.reduction_space);
-  looks.largest(ElementWatch{shapes_, model.nodes.position}, shapes_.count, [&found](const Largest<2>& of) {
+  Reductions looks(*nodal.reduction_space);
+  looks.largest(ElementWatch{shapes_, nodal.nodes.position}, shapes_.count, [&found](const Largest<2>& of) {
     found.jacobian = {-of.value[0], of.place[0]};
     found.distortion = {of.value[1], of.place[1]};
   });
-  looks.largest(NodeWatch{model.paced_acceleration()}, model.nodes.count, [&found](const Largest<2>& of) {
+  looks.largest(NodeWatch{nodal.paced_acceleration()}, nodal.nodes.count, [&found](const Largest<2>& of) {
     found.speed = {of.value[0], of.place[0]};
     found.acceleration = {of.value[1], of.place[1]};
   });
-  for (std::size_t c = 0; c < model.contacts.size(); ++c) {
-    const ContactPair& pair = model.contacts[c];
-    looks.largest(ContactWatch{pair.arrays, model.nodes.position, changes_[c]}, pair.arrays.slave_count,
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const ContactPair& pair = contacts[c];
+    looks.largest(ContactWatch{pair.arrays, nodal.nodes.position, changes_[c]}, pair.arrays.slave_count,
                   [&](const Largest<2>& of) {
                     const auto node = [&pair](int slave) { return slave < 0 ? -1 : pair.slave_nodes[slave]; };
                     found.penetration.push_back({of.value[0], node(of.place[0])});

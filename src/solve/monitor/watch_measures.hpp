@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "kernels/monitor/watch_terms.hpp"
-#include "model/model.hpp"
+#include "model/assembly.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/nodal_state.hpp"
 #include "solve/checkpoint/run_state.hpp"
 
 namespace railwave {
@@ -27,8 +29,8 @@ struct WatchMeasures {
 /// The device arrays of the watch, and the reductions over them: a few launches a look, none in a step.
 class WatchArrays {
  public:
-  explicit WatchArrays(const Model& model);
-  WatchMeasures measure(const Model& model) const;
+  WatchArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts);
+  WatchMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const;
 
   /// Smallest Jacobian at a corner over the mean of its element, undeformed; element.
   Extreme worst_shape() const { return worst_shape_; }

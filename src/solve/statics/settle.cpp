@@ -10,11 +10,10 @@
 #include "kernels/statics/relaxation.hpp"
 #include "kernels/support/reductions.hpp"
 #include "mesh/hexahedron.hpp"
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/host_copy.hpp"
-#include "solve/statics/static_newton.hpp"
-#include "solve/statics/static_state.hpp"
+#include "solve/plan.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
 namespace railwave {
@@ -66,7 +65,7 @@ std::vector<double> relaxation_masses(const Model& model) {
     for (std::size_t n = 0; n < mass.size(); ++n) mass[n] += model.beams->relaxation_mass[n];
   for (int n : assembly.point_nodes)
     if (!model.beams || model.beams->number[n] < 0) mass[n] = 1e300;  // held
-  mass = masses_with_ties(model, std::move(mass));
+  mass = masses_with_ties(model.ties, std::move(mass));
   for (int n : model.ends.nodes) mass[n] = 1e300;
   return mass;
 }
@@ -101,18 +100,19 @@ Plan relaxation_plan(Model& model, const RelaxationUpdate& update) {
   plan.motion.push_back({"relaxation of nodes", "f to j", [&model, &update](const Instant&) {
                            Kokkos::parallel_for("relaxation_update", Range(0, model.nodes.count), update);
                          }});
-  if (model.ties.arrays.active()) plan.motion.push_back(tied_nodes_task(model, kind));
+  if (model.ties.arrays.active()) plan.motion.push_back(tied_nodes_task(model, model.ties, kind));
   if (model.beams)
     plan.motion.push_back({"relaxation of beams' rotations", "f to j",
-                           [&model](const Instant&) { relax_rotations(model, local_damping); }});
+                           [&model](const Instant&) { relax_rotations(*model.beams, local_damping); }});
   return plan;
 }
 
 SettleReport settle_by_relaxation(Model& model, int most_steps, const std::function<bool(const SettleReport&)>& go_on) {
   SettleReport report;
-  const RelaxationUpdate update{model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
-                                to_device("centrifugal field", centrifugal_field(model)),
-                                Array<double* [3]>("unbalanced", model.nodes.count), local_damping};
+  const RelaxationUpdate update{
+      model.acceleration(), to_device("relaxation mass", relaxation_masses(model)),
+      to_device("centrifugal field", centrifugal_field(model, model.nodes.reference, model.beams)),
+      Array<double* [3]>("unbalanced", model.nodes.count), local_damping};
   const Plan plan = relaxation_plan(model, update);
   Instant instant;
   instant.step = 1;
@@ -125,10 +125,10 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
     if (report.steps % steps_between_peaks == 0) {
       double energy = 0;
       block_sum(RelaxationEnergy{update}, model.nodes.count, &energy, *model.reduction_space);
-      if (model.beams) energy += relaxation_state(model).energy;
+      if (model.beams) energy += relaxation_state(*model.beams, *model.reduction_space).energy;
       if (energy < energy_before) {
         Kokkos::deep_copy(model.nodes.velocity, 0.0);
-        if (model.beams) stop_rotations(model);
+        if (model.beams) stop_rotations(*model.beams);
         energy = 0;
       }
       energy_before = energy;
@@ -137,7 +137,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
     double sum[2];
     block_sum(Unbalance{update}, model.nodes.count, sum, *model.reduction_space);
     if (model.beams) {
-      const BeamRelaxationState beams = relaxation_state(model);
+      const BeamRelaxationState beams = relaxation_state(*model.beams, *model.reduction_space);
       sum[0] += beams.unbalanced;
       sum[1] += beams.applied;
     }
@@ -145,8 +145,8 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
     report.settled = report.unbalance < wish.tolerance;
     if (report.settled || !std::isfinite(report.unbalance) || !go_on(report)) break;
   }
-  hold_ends(model, update.unbalanced);
-  tighten_beams(model, false);
+  hold_ends(model.ends, model.nodes.position, update.unbalanced);
+  tighten_beams(model.beams, model.nodes, false);
   return report;
 }
 
@@ -191,22 +191,23 @@ SettleReport settle_by(scene::SettleMethod method, Model& model,
 
 }  // namespace
 
-std::vector<Vec3> centrifugal_field(const Model& model) {
-  std::vector<Vec3> field(model.assembly.nodes.size(), Vec3{0, 0, 0});
+std::vector<Vec3> centrifugal_field(const AssembledScene& assembled, const Array<double* [3]>& reference,
+                                    const std::shared_ptr<BeamModel>& beams) {
+  std::vector<Vec3> field(assembled.assembly.nodes.size(), Vec3{0, 0, 0});
   // A point mass goes along with its body's velocity, but nothing leads it round.
-  std::vector<int> points = model.assembly.point_nodes;
+  std::vector<int> points = assembled.assembly.point_nodes;
   std::sort(points.begin(), points.end());
-  for (const scene::InitialMotion& motion : model.scene.initial_motions) {
+  for (const scene::InitialMotion& motion : assembled.scene.initial_motions) {
     for (const std::string& name : motion.parts) {
-      const Vec3 w = turned_with_part_of(model.scene, name, motion.angular_velocity);
-      const Vec3 centre = rotation_centre(model, motion, name, model.nodes.reference);
-      for (int n : model.assembly.node_sets.at(name)) {
-        const bool beam_ends = model.beams && model.beams->number[n] >= 0;
+      const Vec3 w = turned_with_part_of(assembled.scene, name, motion.angular_velocity);
+      const Vec3 centre = rotation_centre(assembled, motion, name, reference);
+      for (int n : assembled.assembly.node_sets.at(name)) {
+        const bool beam_ends = beams && beams->number[n] >= 0;
         if (!beam_ends && std::binary_search(points.begin(), points.end(), n)) continue;
         Vec3 r{};
         double along = 0, squared = 0;
         for (int i = 0; i < 3; ++i) {
-          r[i] = model.assembly.nodes[n][i] - centre[i];
+          r[i] = assembled.assembly.nodes[n][i] - centre[i];
           along += w[i] * r[i];
           squared += w[i] * w[i];
         }
@@ -214,7 +215,7 @@ std::vector<Vec3> centrifugal_field(const Model& model) {
       }
     }
   }
-  if (model.beams) interpolate_inside_beams(model, [&](int n) -> Vec3& { return field[n]; });
+  if (beams) interpolate_inside_beams(assembled.assembly, [&](int n) -> Vec3& { return field[n]; });
   return field;
 }
 
@@ -237,6 +238,39 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
   // The run starts from what a file of the state would hold, and from nothing else.
   lay_static_state(model, take_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return report;
+}
+
+SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on) {
+  SettleReport report;
+  std::vector<std::string> remarks;
+  std::string begun_from;
+  if (states != nullptr) {
+    const SettledStates::Found found = states->find(model);
+    if (!found.trouble.empty()) remarks.push_back(found.file + ": " + found.trouble + "; the scene settles anew");
+    if (found.state && !lay_static_state(model, *found.state))
+      remarks.push_back(found.file + ": is of another model; the scene settles anew");
+    else if (found.state)
+      begun_from = found.file;
+    if (!begun_from.empty() && found.state->settled) {
+      report.settled = true;
+      report.unbalance = found.state->unbalance;
+      report.taken_from = begun_from;
+      return report;
+    }
+  }
+  report = settle(model, go_on);
+  if (states != nullptr) {
+    StaticState state = take_static_state(model);
+    state.settled = report.settled;
+    state.unbalance = report.unbalance;
+    state.steps = report.steps;
+    state.iterations = report.iterations;
+    const std::string trouble = states->keep(model, state);
+    if (!trouble.empty()) remarks.push_back("the settled state could not be kept: " + trouble);
+  }
+  report.remarks.insert(report.remarks.end(), remarks.begin(), remarks.end());
+  report.begun_from = begun_from;
   return report;
 }
 

@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "kernels/statics/tangent.hpp"
+#include "model/model.hpp"
+#include "solve/statics/static_state.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {
@@ -21,13 +24,18 @@ struct SettleReport {
   std::vector<std::string> remarks;  ///< on the method, and on the files of settled states
 };
 
-/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.hpp), and where that finds none or
+/// Static equilibrium under the loads of t = 0, by Newton's method (static_newton.cpp), and where that finds none or
 /// the case asks for it by dynamic relaxation with kinetic damping (velocities are reset at every peak of the kinetic
 /// energy) and a little local damping: the state from which the run starts. Bodies that will rotate (initial_motion)
 /// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
 /// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
 /// @param go_on told every few steps how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
+
+/// Settles a scene, or takes its settled state from where an earlier run has kept it; goes on from one that was
+/// interrupted. The state is kept in any case.
+/// @param states null: nothing is kept
+SettleReport come_to_rest(Model& model, SettledStates* states, const std::function<bool(const SettleReport&)>& go_on);
 
 /// What the evaluation of forces, and a relaxation's step, are made of: a line for each task of each method in turn.
 /// None where the scene does not settle.
@@ -38,21 +46,44 @@ struct SettlingTasks {
 std::vector<SettlingTasks> describe_settling(Model& model);
 
 /// m/s2 by node: - omega x (omega x (X - c)) on the bodies that will rotate.
-std::vector<Vec3> centrifugal_field(const Model& model);
+/// @param reference m, X by node
+std::vector<Vec3> centrifugal_field(const AssembledScene& assembled, const Array<double* [3]>& reference,
+                                    const std::shared_ptr<BeamModel>& beams);
+
+/// Static equilibrium under the loads of t = 0 by Newton's method without a matrix: residuals are the forces that the
+/// run computes (with the hourglass control of settling), steps come from conjugate gradients on the stiffness of the
+/// present place, preconditioned by nodal blocks and rigid motions of aggregates, and are shortened until the forces
+/// along them have come down: then contact may close on the way. Multipliers of contact are found by augmented
+/// Lagrange. Throws InputError for a point mass that nothing holds against the force on it.
+SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on);
+
+/// A point mass has no shape to lean on: springs and constraints must hold it against its load while the scene settles
+/// by Newton's method.
+/// @param cells of the connectors
+/// @param unbalanced N by node
+/// @param applied N, sum of applied and contact forces
+/// @throws InputError naming the point, the force and its direction
+void refuse_drifting_points(const AssembledScene& assembled, const std::vector<ConnectorCell>& cells,
+                            const std::shared_ptr<BeamModel>& beams, const NodeVector& unbalanced, double applied);
+
+/// The part or beam on which the largest force is left after Newton's method, if that is more than rounding leaves of
+/// deformation; else empty.
+std::string what_drifts(const AssembledScene& assembled, const NodeVector& unbalanced, double applied);
 
 /// Forces of an instant of Newton's method, in which pairs with multipliers press as `press` has them.
 std::vector<Task> newton_tasks(Model& model, std::function<void()> press);
 
 /// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the
 /// part's.
-Vec3 rotation_centre(const Model& model, const scene::InitialMotion& motion, const std::string& part,
+Vec3 rotation_centre(const AssembledScene& assembled, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position);
 
 /// A held node that moved would do work that nobody counts.
 /// @throws InputError where an initial motion moves a node in a direction in which a constraint holds it
-void refuse_moving_held_nodes(const Model& model);
+void refuse_moving_held_nodes(const AssembledScene& assembled, const Array<double* [3]>& reference);
 
 /// Adds the scene's initial motions to the velocities, v = V + omega x (x - centre), in the present configuration.
-void set_initial_motion(Model& model);
+void set_initial_motion(const AssembledScene& assembled, const NodeArrays& arrays,
+                        const std::shared_ptr<BeamModel>& beams);
 
 }  // namespace railwave

@@ -23,12 +23,12 @@ void StaticCoarse::each_motion(int row, const Visit& visit) const {
   for (const auto& [aggregate, mode] : slaves_.at(row)) visit(Motion{aggregate, &mode});
 }
 
-StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent)
+StaticCoarse::StaticCoarse(const Assembly& assembly, const Array<double* [3]>& position, const StaticTangent& tangent)
     : tangent_(tangent), unknowns_(tangent.unknowns()) {
-  divide_nodes(model);
+  divide_nodes(assembly);
   lay_modes();
   lay_slaves();
-  add_elements(model);
+  add_elements(assembly, position);
   std::vector<int> first(count_ + 1, 0), node(aggregate_.size());
   for (int a : aggregate_) ++first[a + 1];
   for (int a = 0; a < count_; ++a) first[a + 1] += first[a];
@@ -40,18 +40,18 @@ StaticCoarse::StaticCoarse(const Model& model, const StaticTangent& tangent)
 }
 
 /// Each part is halved across its longest side again and again.
-void StaticCoarse::divide_nodes(const Model& model) {
-  const auto& elements = model.assembly.elements;
+void StaticCoarse::divide_nodes(const Assembly& assembly) {
+  const auto& elements = assembly.elements;
   aggregate_.assign(unknowns_.rows(), -1);
   std::vector<Vec3> middle(elements.size(), Vec3{0, 0, 0});
   std::vector<int> order(elements.size());
   for (std::size_t e = 0; e < elements.size(); ++e) {
     order[e] = static_cast<int>(e);
     for (int n : elements[e])
-      for (int i = 0; i < 3; ++i) middle[e][i] += 0.125 * model.assembly.nodes[n][i];
+      for (int i = 0; i < 3; ++i) middle[e][i] += 0.125 * assembly.nodes[n][i];
   }
   const int largest = std::max(least_elements, static_cast<int>(elements.size()) / most_aggregates);
-  for (const auto& part : model.assembly.parts)
+  for (const auto& part : assembly.parts)
     divide(elements, middle, order, part.first_element, part.first_element + part.element_count, largest);
   for (int& a : aggregate_)
     if (a < 0) a = count_++;
@@ -151,16 +151,16 @@ void StaticCoarse::lay_slaves() {
 }
 
 /// Elements inside an aggregate that nothing holds resist none of its rigid motions.
-void StaticCoarse::add_elements(const Model& model) {
-  const auto position = to_host(model.nodes.position);
+void StaticCoarse::add_elements(const Assembly& assembly, const Array<double* [3]>& position) {
+  const auto place = to_host(position);
   struct CornerMotion {
     int corner;
     Motion motion;
   };
   std::vector<CornerMotion> motions;
   std::vector<int> touched;
-  for (std::size_t e = 0; e < model.assembly.elements.size(); ++e) {
-    const auto& corners = model.assembly.elements[e];
+  for (std::size_t e = 0; e < assembly.elements.size(); ++e) {
+    const auto& corners = assembly.elements[e];
     motions.clear();
     touched.clear();
     bool held = false;
@@ -175,9 +175,9 @@ void StaticCoarse::add_elements(const Model& model) {
     if (touched.size() == 1 && !held) continue;
     double x[3][7];
     for (int i = 0; i < 3; ++i) {
-      double place[8];
-      for (int N = 0; N < 8; ++N) place[N] = position(corners[N], i);
-      modes_of(place, x[i]);
+      double corner_place[8];
+      for (int N = 0; N < 8; ++N) corner_place[N] = place(corners[N], i);
+      modes_of(corner_place, x[i]);
     }
     const ElementStiffness& stiffness = tangent_.stiffness_of(static_cast<int>(e));
     for (int column : touched)

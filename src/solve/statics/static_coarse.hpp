@@ -14,7 +14,7 @@ namespace railwave {
 /// of no element and rotations are aggregates of their own. Slaves of ties go with their masters' aggregates.
 class StaticCoarse {
  public:
-  StaticCoarse(const Model& model, const StaticTangent& tangent);
+  StaticCoarse(const Assembly& assembly, const Array<double* [3]>& position, const StaticTangent& tangent);
 
   /// Adds the springs to the elements' part of E and factors it. Throws std::runtime_error when E is not positive.
   void factor(const SpringCollector& springs);
@@ -29,12 +29,12 @@ class StaticCoarse {
   using Block = Eigen::Matrix<double, modes, modes>;
   using Blocks = std::map<std::pair<int, int>, Block>;  ///< row aggregate >= column aggregate
 
-  void divide_nodes(const Model& model);
+  void divide_nodes(const Assembly& assembly);
   void divide(const std::vector<std::array<int, 8>>& elements, const std::vector<Vec3>& middle, std::vector<int>& order,
               int begin, int end, int largest);
   void lay_modes();
   void lay_slaves();
-  void add_elements(const Model& model);
+  void add_elements(const Assembly& assembly, const Array<double* [3]>& position);
   void add_springs(const SpringCollector& springs, Blocks& blocks) const;
 
   /// What an aggregate's rigid motions are at a row: mode m along i is entry 3 m + i.

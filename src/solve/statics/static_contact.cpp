@@ -7,9 +7,6 @@
 #include "kernels/contact/laws/augmented_penalty.hpp"
 #include "mesh/vectors.hpp"
 #include "model/host_copy.hpp"
-#include "model/visit_arrays.hpp"
-#include "solve/tasks.hpp"
-#include "solve/tasks/contact_window.hpp"
 #include "solve/tasks/contributions.hpp"
 
 namespace railwave {
@@ -21,32 +18,6 @@ constexpr double stiffening = 4;
 /// Tangential stiffness of a node that slips, over that of one that sticks: none would do, but for bodies held by
 /// friction alone.
 constexpr double slipping_share = 0.1;
-
-/// Copies what trials change, array by array, to a place of its own or back from it.
-class CopyTrialState {
- public:
-  CopyTrialState(std::vector<Array<unsigned char*>>& kept, bool back) : kept_(kept), back_(back) {}
-
-  template <class View>
-  void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape /*shape*/) {
-    if (use != ArrayUse::trial_state || view.span() == 0) return;
-    using Bytes = Kokkos::View<unsigned char*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
-    using Value = std::remove_const_t<typename View::value_type>;
-    const Bytes bytes(reinterpret_cast<unsigned char*>(const_cast<Value*>(view.data())), view.span() * sizeof(Value));
-    if (visited_ == kept_.size()) kept_.emplace_back("kept " + name, bytes.size());
-    const Bytes own(kept_[visited_].data(), kept_[visited_].size());
-    ++visited_;
-    if (back_)
-      Kokkos::deep_copy(bytes, own);
-    else
-      Kokkos::deep_copy(own, bytes);
-  }
-
- private:
-  std::vector<Array<unsigned char*>>& kept_;
-  bool back_;
-  std::size_t visited_ = 0;
-};
 
 /// N, of each slave node.
 std::vector<double> pressing_forces(const ContactPair& pair) {
@@ -101,7 +72,7 @@ struct CurvedWeights {
 
 /// Of each slave node that presses on a curved segment by a spring: what moves the gap, the master's nodes with their
 /// weights. Empty for other pairs.
-std::vector<std::map<int, double>> curved_weights(const Model& model, const ContactPair& pair) {
+std::vector<std::map<int, double>> curved_weights(const NodeArrays& arrays, const ContactPair& pair) {
   if (pair.contact->normals != scene::ContactNormals::smooth || !pair.has_springs()) return {};
   const auto first = to_host(pair.arrays.first_segment);
   int most = 0;
@@ -115,7 +86,7 @@ std::vector<std::map<int, double>> curved_weights(const Model& model, const Cont
   const auto weight = unset_array<double**>("weights of curved segments", slaves, most);
   const Array<int*> count("terms of curved segments", slaves);
   Kokkos::parallel_for("curved_weights", Range(0, slaves),
-                       CurvedWeights{ContactSearch{{pair.arrays, model.nodes.position}}, node, weight, count});
+                       CurvedWeights{ContactSearch{{pair.arrays, arrays.position}}, node, weight, count});
   const auto nodes = to_host(node);
   const auto weights = to_host(weight);
   const auto counts = to_host(count);
@@ -131,22 +102,24 @@ struct SmoothNormalsOfMultipliers : SmoothNormals {
 };
 
 template <class Normals>
-void press_pair(const Model& model, const ContactPair& pair, const Array<double*>& multiplier) {
+void press_pair(const NodalState& nodal, const ContactPair& pair, bool friction, const Array<double*>& multiplier) {
   const AugmentedPenalty law{{pair.arrays.friction}, stiffening};
   const SpreadRange range(0, pair.window.count);
   const Instant instant;
-  if (has_friction(model, pair, StepKind::settling))
+  if (friction)
     Kokkos::parallel_for("augmented_contact", range,
-                         contact_force<true, Normals>(model, pair, instant, law, multiplier));
+                         contact_force<true, Normals>(nodal, pair, instant, law, multiplier));
   else
     Kokkos::parallel_for("augmented_contact", range,
-                         contact_force<false, Normals>(model, pair, instant, law, multiplier));
+                         contact_force<false, Normals>(nodal, pair, instant, law, multiplier));
 }
 
 }  // namespace
 
-StaticContact::StaticContact(Model& model) : model_(model) {
-  for (const ContactPair& pair : model.contacts) {
+StaticContact::StaticContact(const AssembledScene& assembled, const NodalState& nodal,
+                             std::vector<ContactPair>& contacts)
+    : scene_(assembled.scene), nodal_(nodal), contacts_(contacts) {
+  for (const ContactPair& pair : contacts) {
     Array<double*>& multiplier = multiplier_.emplace_back();
     if (!pair.has_springs()) {
       augmented_ = true;
@@ -154,22 +127,15 @@ StaticContact::StaticContact(Model& model) : model_(model) {
     }
     for (const auto& segment : pair.master_segments)
       for (int k : {0, 1}) {
-        const Vec3 &a = model.assembly.nodes[pair.master_nodes[segment[k]]],
-                   &b = model.assembly.nodes[pair.master_nodes[segment[k + 2]]];
+        const Vec3 &a = assembled.assembly.nodes[pair.master_nodes[segment[k]]],
+                   &b = assembled.assembly.nodes[pair.master_nodes[segment[k + 2]]];
         smallest_segment_ = std::min(smallest_segment_, length(difference(a, b)));
       }
   }
 }
 
-void StaticContact::keep() {
-  CopyTrialState copy(kept_, false);
-  visit_model_arrays(copy, model_);
-}
-
-void StaticContact::restore() {
-  CopyTrialState copy(kept_, true);
-  visit_model_arrays(copy, model_);
-  for (ContactPair& pair : model_.contacts) {
+void StaticContact::look_anew() {
+  for (ContactPair& pair : contacts_) {
     pair.next_look = pair.next_near_look = -1;
     pair.slaves_at_layout = {};
   }
@@ -177,24 +143,25 @@ void StaticContact::restore() {
 
 void StaticContact::press() {
   for (std::size_t p = 0; p < multiplier_.size(); ++p) {
-    ContactPair& pair = model_.contacts[p];
+    ContactPair& pair = contacts_[p];
     if (pair.has_springs()) continue;
-    keep_window(model_, pair, 1, StepKind::settling);
+    keep_window(scene_, nodal_, pair, 1, StepKind::settling);
+    const bool friction = has_friction(scene_, pair, StepKind::settling);
     if (pair.contact->normals == scene::ContactNormals::smooth)
-      press_pair<SmoothNormalsOfMultipliers>(model_, pair, multiplier_[p]);
+      press_pair<SmoothNormalsOfMultipliers>(nodal_, pair, friction, multiplier_[p]);
     else
-      press_pair<FacetNormals>(model_, pair, multiplier_[p]);
+      press_pair<FacetNormals>(nodal_, pair, friction, multiplier_[p]);
   }
 }
 
 void StaticContact::add_springs(SpringCollector& springs) const {
   constexpr Vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (const ContactPair& pair : model_.contacts) {
+  for (const ContactPair& pair : contacts_) {
     const auto status = to_host(pair.arrays.status), tracked = to_host(pair.arrays.tracked);
     const auto place = to_host(pair.arrays.place);
     const auto normal_force = to_host(pair.arrays.normal_force);
     const auto gap = to_host(pair.arrays.gap);
-    const auto curved = curved_weights(model_, pair);
+    const auto curved = curved_weights(nodal_.nodes, pair);
     for (std::size_t s = 0; s < pair.slave_nodes.size(); ++s) {
       if (status(s) == status_apart || tracked(s) < 0) continue;
       const auto& segment = pair.master_segments[tracked(s)];
@@ -213,7 +180,7 @@ void StaticContact::add_springs(SpringCollector& springs) const {
       const double stiffness = pair.has_springs() && pair.growth != 1 && gap(s) < 0
                                    ? std::max(spring, -2 * pressing / gap(s) - spring)
                                    : spring;
-      const double across = !has_friction(model_, pair, StepKind::settling)
+      const double across = !has_friction(scene_, pair, StepKind::settling)
                                 ? 0
                                 : (status(s) == status_sticks ? 1 : slipping_share) * spring;
       if (curved.empty()) {
@@ -237,8 +204,8 @@ void StaticContact::add_springs(SpringCollector& springs) const {
 double StaticContact::renew_multipliers() {
   double change = 0, largest = 0;
   for (std::size_t p = 0; p < multiplier_.size(); ++p) {
-    if (model_.contacts[p].has_springs()) continue;
-    const auto before = to_vector(multiplier_[p]), now = pressing_forces(model_.contacts[p]);
+    if (contacts_[p].has_springs()) continue;
+    const auto before = to_vector(multiplier_[p]), now = pressing_forces(contacts_[p]);
     for (std::size_t s = 0; s < now.size(); ++s) {
       change = std::max(change, std::fabs(now[s] - before[s]));
       largest = std::max(largest, now[s]);

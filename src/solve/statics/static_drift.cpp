@@ -1,5 +1,3 @@
-#include "solve/statics/static_drift.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -10,16 +8,18 @@
 #include "model/beams/beams.hpp"
 #include "model/host_copy.hpp"
 #include "model/time_step/tangent_springs.hpp"
+#include "solve/statics/settle.hpp"
 
 namespace railwave {
 
-void refuse_drifting_points(const Model& model, const NodeVector& unbalanced, double applied) {
+void refuse_drifting_points(const AssembledScene& assembled, const std::vector<ConnectorCell>& cells,
+                            const std::shared_ptr<BeamModel>& beams, const NodeVector& unbalanced, double applied) {
   const auto residual = to_host(unbalanced);
-  SpringCollector springs(model);
-  springs.add_connectors();
-  for (std::size_t k = 0; k < model.assembly.point_nodes.size(); ++k) {
-    const int n = model.assembly.point_nodes[k];
-    if (model.beams && model.beams->number[n] >= 0) continue;
+  SpringCollector springs;
+  springs.add_connectors(assembled.scene, cells);
+  for (std::size_t k = 0; k < assembled.assembly.point_nodes.size(); ++k) {
+    const int n = assembled.assembly.point_nodes[k];
+    if (beams && beams->number[n] >= 0) continue;
     Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
     for (std::size_t s = 0; s < springs.count(); ++s)
       for (int j = springs.first()[s]; j < springs.first()[s + 1]; ++j)
@@ -32,21 +32,21 @@ void refuse_drifting_points(const Model& model, const NodeVector& unbalanced, do
       const Eigen::Vector3d direction = eigen.eigenvectors().col(m);
       const double force = direction.dot(Eigen::Vector3d(residual(n, 0), residual(n, 1), residual(n, 2)));
       if (eigen.eigenvalues()[m] > 1e-9 * eigen.eigenvalues()[2]) continue;
-      if (std::fabs(force) <= model.scene.settle.tolerance * applied) continue;
-      const scene::PointMass& point = model.scene.points[k];
+      if (std::fabs(force) <= assembled.scene.settle.tolerance * applied) continue;
+      const scene::PointMass& point = assembled.scene.points[k];
       throw InputError(fmt::format(
           "{}:{}: [points.{}]: drifts away while the scene settles: {:.4g} N act on it along ({:.3g}, {:.3g}, {:.3g}), "
           "where no "
           "connector is stiff; give one a stiffness there, preload it by that force, or constrain the point",
-          model.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
+          assembled.scene.path, point.line, point.name, std::fabs(force), direction[0], direction[1], direction[2]));
     }
   }
 }
 
-std::string what_drifts(const Model& model, const NodeVector& unbalanced, double applied) {
+std::string what_drifts(const AssembledScene& assembled, const NodeVector& unbalanced, double applied) {
   const auto residual = to_host(unbalanced);
   std::string worst;
-  double largest = model.scene.settle.tolerance * applied;
+  double largest = assembled.scene.settle.tolerance * applied;
   const auto look = [&](const std::string& what, const std::vector<int>& nodes) {
     Vec3 sum{};
     for (int n : nodes)
@@ -59,13 +59,13 @@ std::string what_drifts(const Model& model, const NodeVector& unbalanced, double
         "what will",
         what, sum[0], sum[1], sum[2]);
   };
-  for (const auto& part : model.assembly.parts) {
+  for (const auto& part : assembled.assembly.parts) {
     std::vector<int> nodes(part.node_count);
     std::iota(nodes.begin(), nodes.end(), part.first_node);
     look("part '" + part.name + "'", nodes);
   }
-  for (const Assembly::BeamChain& chain : model.assembly.beam_chains)
-    look("a beam of '" + model.scene.beams[chain.beam].name + "'", chain.nodes);
+  for (const Assembly::BeamChain& chain : assembled.assembly.beam_chains)
+    look("a beam of '" + assembled.scene.beams[chain.beam].name + "'", chain.nodes);
   return worst;
 }
 

@@ -1,18 +1,15 @@
-#include "solve/statics/static_newton.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/support/reductions.hpp"
 #include "model/beams/beams.hpp"
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/host_copy.hpp"
+#include "solve/plan.hpp"
 #include "solve/statics/settle.hpp"
 #include "solve/statics/static_coarse.hpp"
 #include "solve/statics/static_contact.hpp"
-#include "solve/statics/static_drift.hpp"
 #include "solve/statics/static_tangent.hpp"
-#include "solve/statics/static_unknowns.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
 namespace railwave {
@@ -52,13 +49,14 @@ class Newton {
   Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
       : model_(model),
         go_on_(go_on),
-        unknowns_(model),
-        contact_(model),
+        unknowns_(model, model.ties, model.ends, model.beams),
+        contact_(model, model, model.contacts),
         forces_(newton_tasks(model, [this] { contact_.press(); })),
-        tangent_(model, unknowns_),
-        coarse_(model, tangent_),
-        residual_{model.acceleration(), to_device("centrifugal field", centrifugal_field(model)), unknowns_.held(),
-                  vector("residual")},
+        tangent_(model, model.nodes, unknowns_),
+        coarse_(model.assembly, model.nodes.position, tangent_),
+        residual_{model.acceleration(),
+                  to_device("centrifugal field", centrifugal_field(model, model.nodes.reference, model.beams)),
+                  unknowns_.held(), vector("residual")},
         origin_("origin", model.nodes.count),
         step_(vector("static step")),
         left_(vector("left residual")),
@@ -70,10 +68,10 @@ class Newton {
 
   SettleReport run() {
     const scene::Settle& wish = model_.scene.settle;
-    contact_.keep();
+    trial_.keep(model_);
     Measure now = evaluate();
     if (contact_.any()) shift_ = most_shift;
-    refuse_drifting_points(model_, residual_.residual, now.applied);
+    refuse_drifting_points(model_, model_.connectors.cells, model_.beams, residual_.residual, now.applied);
     double best = 1e300;
     int idle = 0;
     for (;; ++report_.iterations) {
@@ -86,8 +84,8 @@ class Newton {
       report_.settled = now.unbalance < wish.tolerance && change < std::min(multiplier_tolerance, wish.tolerance);
       if (!report_.settled && contact_.augmented() && change < 1) {
         // The multipliers press in the springs' place, and these press on until the gaps are gone.
-        contact_.keep();
-        contact_.restore();
+        trial_.keep(model_);
+        go_back();
         now = evaluate();
       }
       if (report_.settled || !std::isfinite(now.unbalance) || !go_on_(report_)) break;
@@ -95,13 +93,13 @@ class Newton {
       best = std::min(best, now.unbalance);
       if (idle > 0 && idle % idle_steps_of_floor == 0) floor_ = std::min(most_shift, shift_up * floor_);
       if (idle > most_idle_steps || report_.steps >= wish.max_steps) break;
-      contact_.keep();
+      trial_.keep(model_);
       if (!find_step(now)) break;
       now = go(now.unbalance);
     }
     if (!report_.settled) report_.adrift = what_drifts(model_, residual_.residual, now.applied);
     hold_ends();
-    tighten_beams(model_, false);
+    tighten_beams(model_.beams, model_.nodes, false);
     return report_;
   }
 
@@ -114,6 +112,11 @@ class Newton {
     double sum = 0;
     block_sum(InnerProduct{a, b}, unknowns_.rows(), &sum, *model_.reduction_space);
     return sum;
+  }
+
+  void go_back() {
+    trial_.restore(model_);
+    contact_.look_anew();
   }
 
   /// Forces at the present places, from the kept contact.
@@ -134,13 +137,13 @@ class Newton {
     const BeamNodeMoment rotation{model_.beams->arrays};
     Kokkos::parallel_for("static_moment", Range(0, unknowns_.rotations()),
                          StaticMoment{rotation, unknowns_.nodes(), residual_.residual});
-    const BeamRelaxationState beams = relaxation_state(model_);
+    const BeamRelaxationState beams = relaxation_state(*model_.beams, *model_.reduction_space);
     sum[0] += beams.unbalanced;
     sum[1] += beams.applied;
   }
 
   Measure evaluate_at(double share) {
-    contact_.restore();
+    go_back();
     Kokkos::parallel_for("go_along", nodes(), GoAlong{model_.nodes.position, origin_, step_, share});
     const TieArrays& ties = model_.ties.arrays;
     if (ties.active())
@@ -153,9 +156,9 @@ class Newton {
 
   /// Solves K step = residual. @return false when told to stop
   bool find_step(const Measure& now) {
-    SpringCollector springs(model_);
-    springs.add_connectors();
-    springs.add_beams();
+    SpringCollector springs;
+    springs.add_connectors(model_.scene, model_.connectors.cells);
+    springs.add_beams(model_.beams, model_.nodes);
     contact_.add_springs(springs);
     tangent_.set_springs(springs, shift_);
     coarse_.factor(springs);
@@ -236,7 +239,7 @@ class Newton {
   void hold_ends() {
     if (model_.ends.nodes.empty()) return;
     Kokkos::parallel_for("static_reaction", nodes(), StaticReaction{residual_, image_});
-    railwave::hold_ends(model_, image_);
+    railwave::hold_ends(model_.ends, model_.nodes.position, image_);
   }
 
   Model& model_;
@@ -244,6 +247,7 @@ class Newton {
   SettleReport report_;
   StaticUnknowns unknowns_;
   StaticContact contact_;
+  TrialState trial_;
   std::vector<Task> forces_;
   StaticTangent tangent_;
   StaticCoarse coarse_;
@@ -261,7 +265,7 @@ std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
   std::vector<Task> tasks = own_force_tasks(model, kind);
   if (std::any_of(model.contacts.begin(), model.contacts.end(), [](const auto& pair) { return !pair.has_springs(); }))
     tasks.push_back({"contact by augmented multipliers", "d", [press](const Instant&) { press(); }});
-  append(tasks, tie_tasks(model));
+  append(tasks, tie_tasks(model, model.ties));
   return tasks;
 }
 

@@ -1,6 +1,6 @@
 #include "solve/statics/static_state.hpp"
 
-#include "model/boundaries/non_reflecting_ends.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
 #include "solve/checkpoint/state_arrays.hpp"
 
 namespace railwave {
@@ -25,13 +25,39 @@ class Suits {
   bool suits_ = true;
 };
 
+/// Copies what trials change, array by array, to a place of its own or back from it.
+class CopyTrial {
+ public:
+  CopyTrial(std::vector<Array<unsigned char*>>& kept, bool back) : kept_(kept), back_(back) {}
+
+  template <class View>
+  void operator()(ArrayUse use, const std::string& name, View& view, ArrayShape /*shape*/) {
+    if (use != ArrayUse::trial_state || view.span() == 0) return;
+    using Bytes = Kokkos::View<unsigned char*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>>;
+    using Value = std::remove_const_t<typename View::value_type>;
+    const Bytes bytes(reinterpret_cast<unsigned char*>(const_cast<Value*>(view.data())), view.span() * sizeof(Value));
+    if (visited_ == kept_.size()) kept_.emplace_back("kept " + name, bytes.size());
+    const Bytes own(kept_[visited_].data(), kept_[visited_].size());
+    ++visited_;
+    if (back_)
+      Kokkos::deep_copy(bytes, own);
+    else
+      Kokkos::deep_copy(own, bytes);
+  }
+
+ private:
+  std::vector<Array<unsigned char*>>& kept_;
+  bool back_;
+  std::size_t visited_ = 0;
+};
+
 /// A file may be damaged in ways that sizes don't show.
-bool tracks_segments(const Model& model, const StaticState& state) {
+bool tracks_segments(const std::vector<ContactPair>& contacts, const StaticState& state) {
   const StateLayer layer(state.arrays);
-  for (std::size_t p = 0; p < model.contacts.size(); ++p) {
+  for (std::size_t p = 0; p < contacts.size(); ++p) {
     std::vector<int> tracked;
     layer.values(fmt::format("contact_{}_tracked", p), tracked);
-    const int segments = static_cast<int>(model.contacts[p].master_segments.size());
+    const int segments = static_cast<int>(contacts[p].master_segments.size());
     for (int segment : tracked)
       if (segment < -1 || segment >= segments) return false;
   }
@@ -43,7 +69,7 @@ bool tracks_segments(const Model& model, const StaticState& state) {
 StaticState take_static_state(Model& model) {
   StaticState state;
   StateTaker taker(state.arrays);
-  StateArrays<StateTaker> arrays(taker, model, true);
+  StateArrays<StateTaker> arrays(taker, model.in_single, true);
   visit_model_arrays(arrays, model);
   return state;
 }
@@ -51,15 +77,25 @@ StaticState take_static_state(Model& model) {
 bool lay_static_state(Model& model, const StaticState& state) {
   Suits suits(state);
   visit_model_arrays(suits, model);
-  if (!suits || !tracks_segments(model, state)) return false;
+  if (!suits || !tracks_segments(model.contacts, state)) return false;
   reset_to_start(model);
   StateLayer layer(state.arrays);
-  StateArrays<StateLayer> arrays(layer, model, true);
+  StateArrays<StateLayer> arrays(layer, model.in_single, true);
   visit_model_arrays(arrays, model);
-  for (const ElementGroup& group : model.elements) renew_frames(model, group);
-  hold_ends(model, {});  // from where they are now, by what held them
+  for (const ElementGroup& group : model.elements) renew_frames(model.nodes, group);
+  hold_ends(model.ends, model.nodes.position, {});  // from where they are now, by what held them
   visit_arrays(Named<StateArrays<StateLayer>>{arrays, "ends_"}, model.ends.arrays);
   return true;
+}
+
+void TrialState::keep(Model& model) {
+  CopyTrial copy(kept_, false);
+  visit_model_arrays(copy, model);
+}
+
+void TrialState::restore(Model& model) {
+  CopyTrial copy(kept_, true);
+  visit_model_arrays(copy, model);
 }
 
 }  // namespace railwave

@@ -22,6 +22,19 @@ StaticState take_static_state(Model& model);
 /// @return false when the state is not of this model; nothing is changed then
 bool lay_static_state(Model& model, const StaticState& state);
 
+/// The contact and plastic state from which trials of settling start, kept on the device. A force evaluation leaves
+/// what nodes touch, stick to and have flowed plastically in the arrays; a trial that is not taken must not.
+class TrialState {
+ public:
+  /// Takes the present state as that one.
+  void keep(Model& model);
+  /// Goes back to it.
+  void restore(Model& model);
+
+ private:
+  std::vector<Array<unsigned char*>> kept_;  ///< what trials change, array by array
+};
+
 /// Where settled states are kept from one run to the next.
 class SettledStates {
  public:
@@ -32,10 +45,10 @@ class SettledStates {
     std::string file;     ///< it was in; empty: there is none
     std::string trouble;  ///< why a file that is there is of no use
   };
-  virtual Found find(const Model& model) = 0;
+  virtual Found find(const AssembledScene& assembled) = 0;
 
   /// @return why it could not be kept; empty: it is
-  virtual std::string keep(const Model& model, const StaticState& state) = 0;
+  virtual std::string keep(const AssembledScene& assembled, const StaticState& state) = 0;
 };
 
 }  // namespace railwave

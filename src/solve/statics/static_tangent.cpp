@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "model/host_copy.hpp"
-#include "model/time_step/settling_stiffness.hpp"
+#include "model/time_step/tangent_operator.hpp"
 
 namespace railwave {
 namespace {
@@ -21,26 +21,26 @@ std::array<double, 6> distinct(const Eigen::Matrix3d& m) {
 
 }  // namespace
 
-StaticTangent::StaticTangent(const Model& model, const StaticUnknowns& unknowns)
-    : model_(model), unknowns_(unknowns), tangent_(model.assembly, unknowns.rotations()) {
-  const auto& elements = model.assembly.elements;
-  const std::size_t nodes = model.assembly.nodes.size();
+StaticTangent::StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns)
+    : assembly_(assembled.assembly), nodes_(nodes), unknowns_(unknowns), tangent_(assembly_, unknowns.rotations()) {
+  const auto& elements = assembly_.elements;
+  const std::size_t count = assembly_.nodes.size();
   part_of_element_.assign(elements.size(), 0);
-  for (std::size_t p = 0; p < model.assembly.parts.size(); ++p) {
-    const auto& range = model.assembly.parts[p];
-    stiffness_.push_back(settling_stiffness(model.scene.parts[p], model.scene.materials[range.material]));
+  for (std::size_t p = 0; p < assembly_.parts.size(); ++p) {
+    const auto& range = assembly_.parts[p];
+    stiffness_.push_back(settling_stiffness(assembled.scene.parts[p], assembled.scene.materials[range.material]));
     std::fill_n(part_of_element_.begin() + range.first_element, range.element_count, static_cast<int>(p));
   }
 
-  const NodeBlocks blocks = unset_array<double* [6]>("element blocks", nodes);
+  const NodeBlocks blocks = unset_array<double* [6]>("element blocks", count);
   Kokkos::parallel_for(
-      "element_blocks", Range(0, static_cast<int>(nodes)),
-      StiffnessBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), model.nodes.position,
+      "element_blocks", Range(0, static_cast<int>(count)),
+      StiffnessBlocks{tangent_.first_corner(), tangent_.corner(), tangent_.corners(), nodes.position,
                       to_device("stiffness", stiffness_), to_device("part of element", part_of_element_), blocks});
   const auto host = to_host(blocks);
   // Slaves' blocks are felt by their masters: what one slave has to do with another is left out.
   std::vector<Eigen::Matrix3d> sum(unknowns.rows(), Eigen::Matrix3d::Zero());
-  for (std::size_t n = 0; n < nodes; ++n) {
+  for (std::size_t n = 0; n < count; ++n) {
     std::array<double, 6> own;
     for (int c = 0; c < 6; ++c) own[c] = host(n, c);
     if (!unknowns.follows(static_cast<int>(n))) {
@@ -95,7 +95,7 @@ void StaticTangent::set_springs(const SpringCollector& springs, double shift) {
 
 void StaticTangent::apply(const NodeVector& u, const NodeVector& f) const {
   unknowns_.lead_slaves(u);
-  tangent_.apply(model_.assembly, stiffness_, model_.nodes.position, u, 0, f);
+  tangent_.apply(assembly_, stiffness_, nodes_.position, u, 0, f);
   unknowns_.pass_on(f);
   Kokkos::parallel_for("shift_and_hold", Range(0, unknowns_.rows()),
                        ShiftAndHold{u, f, device_diagonal_, shift_, unknowns_.held()});

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kernels/statics/static_solve.hpp"
-#include "model/model.hpp"
+#include "model/assembled_scene.hpp"
 #include "model/time_step/tangent_operator.hpp"
 #include "model/time_step/tangent_springs.hpp"
 #include "solve/statics/static_unknowns.hpp"
@@ -16,7 +16,7 @@ namespace railwave {
 /// holds has an answer all the same.
 class StaticTangent {
  public:
-  StaticTangent(const Model& model, const StaticUnknowns& unknowns);
+  StaticTangent(const AssembledScene& assembled, const NodeArrays& nodes, const StaticUnknowns& unknowns);
 
   /// Connectors, beams and contact springs as they are now; lays out the preconditioner's blocks.
   /// @param shift share of the diagonal that is added
@@ -35,7 +35,8 @@ class StaticTangent {
   const ElementStiffness& stiffness_of(int element) const { return stiffness_[part_of_element_[element]]; }
 
  private:
-  const Model& model_;
+  const Assembly& assembly_;
+  const NodeArrays& nodes_;
   const StaticUnknowns& unknowns_;
   TangentOperator tangent_;
   double shift_ = 0;

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "model/beams/beams.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -37,32 +36,34 @@ std::vector<std::array<double, 9>> rows_of(const Table& device) {
 
 }  // namespace
 
-StaticUnknowns::StaticUnknowns(const Model& model) : model_(model), rows_(model.nodes.count) {
-  if (model.beams) rows_ += model.beams->arrays.node_count;
-  hold(model);
+StaticUnknowns::StaticUnknowns(const NodalState& nodal, const Ties& ties, const NonReflectingEnds& ends,
+                               const std::shared_ptr<BeamModel>& beams)
+    : nodes_(nodal.nodes), ties_(ties.arrays), beams_(beams.get()), rows_(nodal.nodes.count) {
+  if (beams_ != nullptr) rows_ += beams_->arrays.node_count;
+  hold(nodal, ends);
   slave_.assign(rows_, -1);
-  const auto position = to_host(model.nodes.position);
-  for (const TiedPlace& tied : model.ties.places) {
+  const auto position = to_host(nodes_.position);
+  for (const TiedPlace& tied : ties.places) {
     slave_[tied.slave] = static_cast<int>(leads_.size());
     auto& leads = leads_.emplace_back();
     for (int k = 0; k < 4; ++k) leads[k] = {tied.face[k], share_of(tied, k, position)};
   }
 }
 
-void StaticUnknowns::hold(const Model& model) {
-  row_of_ = to_vector(model.nodes.constraint);
+void StaticUnknowns::hold(const NodalState& nodal, const NonReflectingEnds& ends) {
+  row_of_ = to_vector(nodes_.constraint);
   row_of_.resize(rows_, -1);
-  table_ = rows_of(model.constraints);
-  if (!model.ends.nodes.empty()) {
-    for (int n : model.ends.nodes) row_of_[n] = static_cast<int>(table_.size());
+  table_ = rows_of(nodal.constraints);
+  if (!ends.nodes.empty()) {
+    for (int n : ends.nodes) row_of_[n] = static_cast<int>(table_.size());
     table_.push_back({});
   }
-  if (model.beams) {
-    const auto of_rotations = to_vector(model.beams->arrays.constraint);
+  if (beams_ != nullptr) {
+    const auto of_rotations = to_vector(beams_->arrays.constraint);
     const int first = static_cast<int>(table_.size());
     for (std::size_t b = 0; b < of_rotations.size(); ++b)
       if (of_rotations[b] >= 0) row_of_[nodes() + b] = first + of_rotations[b];
-    for (const auto& row : rows_of(model.beams->arrays.projections)) table_.push_back(row);
+    for (const auto& row : rows_of(beams_->arrays.projections)) table_.push_back(row);
   }
   held_.row = to_device("static constraint of row", row_of_);
   held_.projections = unset_array<double* [3][3]>("static constraints", table_.size());
@@ -73,29 +74,26 @@ void StaticUnknowns::hold(const Model& model) {
 }
 
 std::vector<Vec3> StaticUnknowns::positions() const {
-  const auto position = to_host(model_.nodes.position);
+  const auto position = to_host(nodes_.position);
   std::vector<Vec3> all(rows_);
   for (int n = 0; n < nodes(); ++n) all[n] = {position(n, 0), position(n, 1), position(n, 2)};
-  if (!model_.beams) return all;
-  const auto node = to_vector(model_.beams->arrays.node);
+  if (beams_ == nullptr) return all;
+  const auto node = to_vector(beams_->arrays.node);
   for (std::size_t b = 0; b < node.size(); ++b) all[nodes() + b] = all[node[b]];
   return all;
 }
 
 void StaticUnknowns::lead_slaves(const NodeVector& motion) const {
-  const TieArrays& ties = model_.ties.arrays;
-  if (ties.active())
-    Kokkos::parallel_for("static_ties", SpreadRange(0, ties.slave_count),
-                         TieMotion{ties, model_.nodes.position, motion});
+  if (ties_.active())
+    Kokkos::parallel_for("static_ties", SpreadRange(0, ties_.slave_count), TieMotion{ties_, nodes_.position, motion});
 }
 
 void StaticUnknowns::pass_on(const NodeVector& force) const {
-  const TieArrays& ties = model_.ties.arrays;
-  if (!ties.active()) return;
-  Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties.slave_count),
-                       TieMotionForce{ties, model_.nodes.position, force});
-  Kokkos::parallel_for("static_tie_gather", SumTeams(3 * ties.master_count, threads_of_sum),
-                       TieGather{ties, ties.master_nodes, force});
+  if (!ties_.active()) return;
+  Kokkos::parallel_for("static_tie_force", SpreadRange(0, ties_.slave_count),
+                       TieMotionForce{ties_, nodes_.position, force});
+  Kokkos::parallel_for("static_tie_gather", SumTeams(3 * ties_.master_count, threads_of_sum),
+                       TieGather{ties_, ties_.master_nodes, force});
 }
 
 }  // namespace railwave

@@ -2,10 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "kernels/statics/static_solve.hpp"
-#include "model/model.hpp"
+#include "model/beams/beams.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
+#include "model/boundaries/ties.hpp"
+#include "model/nodal_state.hpp"
 
 namespace railwave {
 
@@ -14,9 +18,10 @@ namespace railwave {
 /// own, and in forces and preconditioned vectors their rows are zero.
 class StaticUnknowns {
  public:
-  explicit StaticUnknowns(const Model& model);
+  StaticUnknowns(const NodalState& nodal, const Ties& ties, const NonReflectingEnds& ends,
+                 const std::shared_ptr<BeamModel>& beams);
 
-  int nodes() const { return model_.nodes.count; }
+  int nodes() const { return nodes_.count; }
   int rows() const { return rows_; }
   int rotations() const { return rows_ - nodes(); }
   /// m, of each row now; of a rotation that of its node
@@ -46,9 +51,11 @@ class StaticUnknowns {
   void pass_on(const NodeVector& force) const;
 
  private:
-  void hold(const Model& model);
+  void hold(const NodalState& nodal, const NonReflectingEnds& ends);
 
-  const Model& model_;
+  const NodeArrays& nodes_;
+  const TieArrays& ties_;
+  const BeamModel* beams_;  ///< null: none
   int rows_ = 0;
   std::vector<int> row_of_;  ///< of the table, by row; -1: free
   std::vector<std::array<double, 9>> table_;

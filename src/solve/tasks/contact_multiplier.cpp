@@ -5,40 +5,39 @@
 
 #include "kernels/contact/contact_multiplier.hpp"
 #include "model/contact/contact_law.hpp"
-#include "solve/tasks.hpp"
-#include "solve/tasks/contact_window.hpp"
+#include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
 
 namespace railwave {
 namespace {
 
-FreeMotion free_motion(const Model& model, const Instant& instant, const RelaxationUpdate* relaxation) {
+FreeMotion free_motion(const NodalState& nodal, const Instant& instant, const RelaxationUpdate* relaxation) {
   if (relaxation != nullptr)
     return {relaxation->acceleration, instant.step, instant.step, relaxation->relaxation_mass,
             relaxation->body_acceleration};
-  const NodeAdvance advance = node_advance(model, instant.step);
-  return {model.acceleration(), advance.velocity_step, advance.step, {}, {}};
+  const NodeAdvance advance = node_advance(nodal, instant.step);
+  return {nodal.acceleration(), advance.velocity_step, advance.step, {}, {}};
 }
 
 using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>,
                                    ContactMultiplier<false, SmoothNormals>, ContactMultiplier<true, SmoothNormals>>;
 
 template <class Normals>
-AnyMultiplier multiplier_with(const Model& model, const ContactPair& pair, const FreeMotion& motion, double elapsed,
-                              bool friction) {
-  const ContactSearch search{{pair.arrays, model.nodes.position}};
+AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion,
+                              double elapsed, bool friction) {
+  const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   if (friction)
-    return ContactMultiplier<true, Normals>{search, pair.window,      model.extra.sum,
-                                            motion, pair.multipliers, first_touch(model, elapsed)};
-  return ContactMultiplier<false, Normals>{search, pair.window,      model.extra.sum,
-                                           motion, pair.multipliers, first_touch(model, elapsed)};
+    return ContactMultiplier<true, Normals>{search, pair.window,      nodal.extra.sum,
+                                            motion, pair.multipliers, first_touch(nodal, elapsed)};
+  return ContactMultiplier<false, Normals>{search, pair.window,      nodal.extra.sum,
+                                           motion, pair.multipliers, first_touch(nodal, elapsed)};
 }
 
-AnyMultiplier multiplier_of(const Model& model, const ContactPair& pair, const FreeMotion& motion, double elapsed,
+AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion, double elapsed,
                             bool friction) {
   if (pair.contact->normals == scene::ContactNormals::smooth)
-    return multiplier_with<SmoothNormals>(model, pair, motion, elapsed, friction);
-  return multiplier_with<FacetNormals>(model, pair, motion, elapsed, friction);
+    return multiplier_with<SmoothNormals>(nodal, pair, motion, elapsed, friction);
+  return multiplier_with<FacetNormals>(nodal, pair, motion, elapsed, friction);
 }
 
 template <class Phase>
@@ -69,29 +68,32 @@ void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
 
 }  // namespace
 
-std::vector<Task> multiplier_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
+std::vector<Task> multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
+                                   std::vector<ContactPair>& contacts, StepKind kind,
+                                   const RelaxationUpdate* relaxation) {
   std::string names;
   int sweeps = 0;
-  for (const ContactPair& pair : model.contacts) {
+  for (const ContactPair& pair : contacts) {
     if (pair.has_springs()) continue;
     names += fmt::format("{} contact {}{}", sweeps == 0 ? "" : ",", describe_contact(*pair.contact),
                          describe_contact_law(*pair.contact));
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
   if (sweeps == 0) return {};
-  return {{"search of" + names, "d",
-           [&model, kind](const Instant& instant) {
-             for (ContactPair& pair : model.contacts)
-               if (!pair.has_springs()) keep_window(model, pair, instant.step, kind);
-           }},
-          {"multipliers of" + names, "d", [&model, kind, relaxation, sweeps](const Instant& instant) {
-             const FreeMotion motion = free_motion(model, instant, relaxation);
-             std::vector<AnyMultiplier> pairs;
-             for (const ContactPair& pair : model.contacts)
-               if (!pair.has_springs())
-                 pairs.push_back(multiplier_of(model, pair, motion, instant.elapsed, has_friction(model, pair, kind)));
-             find_multipliers(pairs, sweeps);
-           }}};
+  return {
+      {"search of" + names, "d",
+       [&scene, &nodal, &contacts, kind](const Instant& instant) {
+         for (ContactPair& pair : contacts)
+           if (!pair.has_springs()) keep_window(scene, nodal, pair, instant.step, kind);
+       }},
+      {"multipliers of" + names, "d", [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+         const FreeMotion motion = free_motion(nodal, instant, relaxation);
+         std::vector<AnyMultiplier> pairs;
+         for (const ContactPair& pair : contacts)
+           if (!pair.has_springs())
+             pairs.push_back(multiplier_of(nodal, pair, motion, instant.elapsed, has_friction(scene, pair, kind)));
+         find_multipliers(pairs, sweeps);
+       }}};
 }
 
 }  // namespace railwave

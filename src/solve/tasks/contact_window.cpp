@@ -1,5 +1,3 @@
-#include "solve/tasks/contact_window.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "kernels/contact/contact_look.hpp"
 #include "model/host_copy.hpp"
+#include "solve/tasks.hpp"
 
 namespace railwave {
 namespace {
@@ -129,14 +128,13 @@ struct Motion {
 };
 
 /// The only place where the host waits for the device.
-Motion measure(const Model& model, const ContactPair& pair) {
-  const auto blocks = [](const Array<int*>& nodes) {
-    return static_cast<int>((nodes.extent(0) + SurfaceMotion::block - 1) / SurfaceMotion::block);
+Motion measure(const NodeArrays& nodes, const ContactPair& pair) {
+  const auto blocks = [](const Array<int*>& of_surface) {
+    return static_cast<int>((of_surface.extent(0) + SurfaceMotion::block - 1) / SurfaceMotion::block);
   };
   const ContactArrays& contact = pair.arrays;
   const int slave_blocks = blocks(contact.slave_nodes), master_blocks = blocks(contact.master_nodes);
   const auto largest = unset_array<double* [2]>("largest motion", slave_blocks + master_blocks);
-  const NodeArrays& nodes = model.nodes;
   Kokkos::parallel_for(
       "slave_motion", Range(0, slave_blocks),
       SurfaceMotion{nodes.position, nodes.velocity, contact.slave_nodes, pair.slaves_at_layout, largest, 0});
@@ -177,10 +175,10 @@ struct EnterOrLeave {
   }
 };
 
-void lay_out_window(Model& model, ContactPair& pair, double margin) {
+void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
   const ContactArrays& contact = pair.arrays;
-  pair.slaves_at_layout = rows_of(model.nodes.position, contact.slave_nodes);
-  pair.masters_at_layout = rows_of(model.nodes.position, contact.master_nodes);
+  pair.slaves_at_layout = rows_of(nodes.position, contact.slave_nodes);
+  pair.masters_at_layout = rows_of(nodes.position, contact.master_nodes);
   const Rows slaves = to_host(pair.slaves_at_layout), masters = to_host(pair.masters_at_layout);
 
   // A slave's projection lies on a segment whose corners are at most a diagonal away from it.
@@ -211,67 +209,62 @@ void lay_out_window(Model& model, ContactPair& pair, double margin) {
 }
 
 /// Whether the window was laid out anew.
-bool renew_window(Model& model, ContactPair& pair, double step, double sudden) {
+bool renew_window(const NodalState& nodal, ContactPair& pair, double step, double sudden) {
   // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
   // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
   ++pair.looks;
   const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
-  if (!laid_out) lay_out_window(model, pair, margin);
-  Motion motion = measure(model, pair);
+  if (!laid_out) lay_out_window(nodal.nodes, pair, margin);
+  Motion motion = measure(nodal.nodes, pair);
   const auto steps_left = [&] { return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden); };
   bool anew = !laid_out;
   if (laid_out && steps_left() < least_steps_between_looks && motion.moved < 1e100) {
-    lay_out_window(model, pair, margin);
+    lay_out_window(nodal.nodes, pair, margin);
     motion.moved = 0;
     anew = true;
   }
   if (anew) ++pair.layouts;
-  pair.next_look = model.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_looks)));
+  pair.next_look = nodal.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_looks)));
   return anew;
 }
 
 /// m in a step.
-double sudden_motion(const Model& model, const ContactPair& pair, double step, StepKind kind) {
+double sudden_motion(const scene::Scene& scene, const ContactPair& pair, double step, StepKind kind) {
   // Settling scales masses such that a wave travels a share of each element in a step.
   if (kind == StepKind::settling) return sudden_share * pair.segment_size;
   double fastest = 0;
-  for (const scene::Material& material : model.scene.materials)
-    fastest = std::max(fastest, material.dilatational_speed());
+  for (const scene::Material& material : scene.materials) fastest = std::max(fastest, material.dilatational_speed());
   return sudden_share * fastest * step;
 }
 
 }  // namespace
 
-void keep_window(Model& model, ContactPair& pair, double step, StepKind kind) {
+void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, double step, StepKind kind) {
   const bool settling = kind == StepKind::settling;
-  const bool look = model.step >= pair.next_look;
-  const bool near_look = look || model.step >= pair.next_near_look;
+  const bool look = nodal.step >= pair.next_look;
+  const bool near_look = look || nodal.step >= pair.next_near_look;
   if (!near_look && pair.boxed) return;
-  const double sudden = sudden_motion(model, pair, step, kind);
+  const double sudden = sudden_motion(scene, pair, step, kind);
   const long steps = settling ? steps_between_near_looks_settling : steps_between_near_looks;
   const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = look && renew_window(model, pair, step, sudden);
-  const ContactSearch search{{pair.arrays, model.nodes.position}};
-  lay_boxes(search, model.nodes.velocity, interval, sudden_until_then);
+  const bool laid_out = look && renew_window(nodal, pair, step, sudden);
+  const ContactSearch search{{pair.arrays, nodal.nodes.position}};
+  lay_boxes(search, nodal.nodes.velocity, interval, sudden_until_then);
   pair.boxed = true;
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_look) return;
-  pair.next_near_look = model.step + steps;
+  pair.next_near_look = nodal.step + steps;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
   apart_parallel_for("contact_look", pair.window.count,
-                     ContactLook{search, pair.window, model.nodes.velocity, interval, sudden_until_then, first,
+                     ContactLook{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
                                  first || laid_out, pair.missed});
 }
 
-FirstTouch first_touch(const Model& model, double elapsed) {
-  return {{model.nodes.velocity, elapsed}, static_cast<double>(1L << (model.subcycling.levels - 1))};
-}
-
-std::vector<std::string> late_contacts(const Model& model) {
+std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts) {
   std::vector<std::string> lines;
-  for (const ContactPair& pair : model.contacts) {
+  for (const ContactPair& pair : contacts) {
     const auto gaps = to_vector(pair.arrays.gap);
     if (const auto inside = std::count(gaps.begin(), gaps.end(), turned_away); inside > 0)
       lines.push_back(fmt::format(

@@ -2,42 +2,47 @@
 
 #include "kernels/contact/contact_force.hpp"
 #include "kernels/loads/set_loads.hpp"
-#include "solve/plan.hpp"
-#include "solve/tasks/contact_window.hpp"
+#include "solve/tasks.hpp"
 
 namespace railwave {
 
 /// Whether the sets of connectors and torques are few enough for one team, which spares launches; and with them the
 /// rows that feel these.
-bool few_sets(const Model& model);
-bool few_rows(const Model& model);
+bool few_sets(const NodeSets& sets);
+bool few_rows(const NodeSets& sets, const ExtraForces& extra);
 
 /// Contact's springs go in one launch with the first group's elements: on a device, in advancing steps, and where such
 /// elements take every step. Springs of the linear penalty alone.
-bool contact_goes_along(const Model& model, StepKind kind);
+bool contact_goes_along(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
+                        StepKind kind);
 
-/// The same of the sets. Nodes at paces of their own do not work out their own loads.
-bool sets_go_along(const Model& model, StepKind kind);
+/// The same of the sets, where contact does. Nodes at paces of their own do not work out their own loads.
+bool sets_go_along(const NodalState& nodal, const NodeSets& sets);
 
 /// Gather of the loads' contributions at the nodes.
-RowLoads row_loads(const Model& model, double elapsed);
+RowLoads row_loads(const NodalState& nodal, const LoadModel& loads, double elapsed);
 
 /// Sets of nodes that move as one, connectors and torques.
 /// @param rows how many loaded nodes gather their loads in the same launch
-SetLoads set_loads(const Model& model, const Instant& instant, StepKind kind, int rows);
+SetLoads set_loads(const NodalState& nodal, const LoadModel& loads, const Instant& instant, StepKind kind, int rows);
+
+/// What a node that begins to touch is judged by.
+/// @param elapsed s since the instant before
+FirstTouch first_touch(const NodalState& nodal, double elapsed);
 
 /// Contact's springs at an instant, by a law of kernels/contact/laws/.
 /// @param state of a law that has one, by slave node
 template <bool Friction, class Normals = FacetNormals, class Law>
-ContactForce<Friction, Law, Normals> contact_force(const Model& model, const ContactPair& pair, const Instant& instant,
-                                                   const Law& law, const Array<double*>& state) {
+ContactForce<Friction, Law, Normals> contact_force(const NodalState& nodal, const ContactPair& pair,
+                                                   const Instant& instant, const Law& law,
+                                                   const Array<double*>& state) {
   LawAtNodes<Law, Normals> at_nodes{law, {}};
-  if constexpr (at_nodes.has_state) at_nodes.arrays = {state, model.nodes.mass};
-  return {ContactSearch{{pair.arrays, model.nodes.position}},
+  if constexpr (at_nodes.has_state) at_nodes.arrays = {state, nodal.nodes.mass};
+  return {ContactSearch{{pair.arrays, nodal.nodes.position}},
           pair.window,
-          model.extra.sum,
-          model.nodes.extra,
-          first_touch(model, instant.elapsed),
+          nodal.extra.sum,
+          nodal.nodes.extra,
+          first_touch(nodal, instant.elapsed),
           at_nodes};
 }
 

@@ -14,78 +14,80 @@ namespace railwave {
 inline constexpr int most_contact_teams = 128;
 
 template <class Block, bool Friction>
-void forces_together(const Model& model, const ElementBlocks& blocks, const Block& functor, const Instant& instant,
+void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const Block& functor, const Instant& instant,
                      const ElementLaunch& launch) {
-  const ContactPair& pair = model.contacts.front();
+  const ContactPair& pair = *launch.contact;
   using Together = ForcesTogether<Block, Friction>;
-  const int set_teams = launch.with_sets ? 1 : 0;
-  // How many nodes can touch is known on the device only; should they be more, teams take several turns.
+  const int set_teams = launch.sets != nullptr ? 1 : 0;
+  // Multipliers have a launch of their own. How many nodes can touch is known on the device only; should they be more,
+  // teams take several turns.
   const int contact_teams =
-      launch.with_contact
+      pair.has_springs()
           ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
   launch_teams(set_teams + contact_teams + blocks.count, Block::scratch_size(blocks),
-               Together{set_loads(model, instant, launch.kind, 0),
-                        contact_force<Friction>(model, pair, instant, LinearPenalty{pair.arrays.friction}, {}), functor,
+               Together{launch.sets != nullptr ? set_loads(nodal, *launch.sets, instant, launch.kind, 0) : SetLoads{},
+                        contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}), functor,
                         set_teams, contact_teams});
 }
 
 template <class S>
-const Array<PartialForce<S>*>& partial_forces(const Model& model) {
+const Array<PartialForce<S>*>& partial_forces(const PartialForces& partial) {
   if constexpr (sizeof(S) == sizeof(double))
-    return model.partial.in_double;
+    return partial.in_double;
   else
-    return model.partial.in_single;
+    return partial.in_single;
 }
 
 template <class S, class Hourglass, bool Advance, class Nodes, class Material>
-void block_forces(const Model& model, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
+void block_forces(const NodalState& nodal, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
                   const ElementLaunch& launch, const Material& material) {
   const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
   const Array<float*>& scale =
       launch.kind == StepKind::settling ? group.blocks.settling_hourglass : group.blocks.hourglass_scale;
   using Force = ElementForce<S, Material, Hourglass, Advance, Nodes>;
-  const Force force{material,           group.blocks, scale, nodes, pace * instant.step, partial_forces<S>(model),
-                    group.first_partial};
+  const Force force{
+      material, group.blocks, scale, nodes, pace * instant.step, partial_forces<S>(nodal.partial), group.first_partial};
   if constexpr (on_device && Advance) {
-    if (launch.with_contact || launch.with_sets) {
-      if (model.contacts.front().arrays.friction > 0)
-        forces_together<Force, true>(model, group.blocks, force, instant, launch);
+    if (launch.contact != nullptr) {
+      if (launch.contact->arrays.friction > 0)
+        forces_together<Force, true>(nodal, group.blocks, force, instant, launch);
       else
-        forces_together<Force, false>(model, group.blocks, force, instant, launch);
+        forces_together<Force, false>(nodal, group.blocks, force, instant, launch);
       return;
     }
   }
   launch_blocks(group.blocks, force);
 }
 
-inline NodeAdvance advance_of(const Model& model, const ElementGroup& group, double step, const NodeAdvance* /*kind*/) {
-  NodeAdvance nodes = node_advance(model, step);
+inline NodeAdvance advance_of(const NodalState& nodal, const ElementGroup& group, double step,
+                              const NodeAdvance* /*kind*/) {
+  NodeAdvance nodes = node_advance(nodal, step);
   nodes.velocity_step *= static_cast<double>(1L << group.level);
   nodes.step *= static_cast<double>(1L << group.level);
   return nodes;
 }
 
-inline CarriedAdvance advance_of(const Model& model, const ElementGroup& group, double step,
+inline CarriedAdvance advance_of(const NodalState& nodal, const ElementGroup& group, double step,
                                  const CarriedAdvance* /*kind*/) {
-  return carried_advance(model, group.carried, step);
+  return carried_advance(nodal, group.carried, step);
 }
 
 template <class S, class Nodes, class Material>
-void element_forces_of(const Model& model, const ElementGroup& group, const Instant& instant,
+void element_forces_of(const NodalState& nodal, const ElementGroup& group, const Instant& instant,
                        const ElementLaunch& launch) {
   const Material material = material_of<Material>(group.material);
-  const Nodes nodes = advance_of(model, group, instant.step, static_cast<const Nodes*>(nullptr));
+  const Nodes nodes = advance_of(nodal, group, instant.step, static_cast<const Nodes*>(nullptr));
   const bool viscous = group.hourglass == scene::HourglassType::viscous && launch.kind != StepKind::settling;
   const bool advancing = launch.kind == StepKind::advancing;
   if (viscous && advancing)
-    block_forces<S, ViscousHourglass, true>(model, group, nodes, instant, launch, material);
+    block_forces<S, ViscousHourglass, true>(nodal, group, nodes, instant, launch, material);
   else if (viscous)
-    block_forces<S, ViscousHourglass, false>(model, group, nodes, instant, launch, material);
+    block_forces<S, ViscousHourglass, false>(nodal, group, nodes, instant, launch, material);
   else if (advancing)
-    block_forces<S, StiffnessHourglass, true>(model, group, nodes, instant, launch, material);
+    block_forces<S, StiffnessHourglass, true>(nodal, group, nodes, instant, launch, material);
   else
-    block_forces<S, StiffnessHourglass, false>(model, group, nodes, instant, launch, material);
+    block_forces<S, StiffnessHourglass, false>(nodal, group, nodes, instant, launch, material);
 }
 
 }  // namespace railwave

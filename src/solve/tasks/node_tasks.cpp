@@ -2,106 +2,117 @@
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/carriers.hpp"
-#include "solve/tasks.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
 
 namespace railwave {
 
-NodeAdvance node_advance(const Model& model, double step) {
-  const Vec3& g = model.scene.gravity;
-  return {model.nodes, {{g[0], g[1], g[2]}}, model.velocity_lag + 0.5 * step, step};
+NodeAdvance node_advance(const NodalState& nodal, double step) {
+  return {nodal.nodes, nodal.gravity, nodal.velocity_lag + 0.5 * step, step};
 }
 
 namespace {
 
 /// With subcycling: the nodes whose own step begins now.
-Task paced_task(const Model& model, bool shared_alone) {
-  return {"nodes in phase", "f to j", [&model, shared_alone](const Instant& instant) {
-            const int phase = model.subcycling.phase(model.step);
-            PacedNodeUpdate update{model.paced_acceleration(), node_advance(model, instant.step), {}};
+Task paced_task(const NodalState& nodal, bool shared_alone) {
+  return {"nodes in phase", "f to j", [&nodal, shared_alone](const Instant& instant) {
+            const int phase = nodal.subcycling.phase(nodal.step);
+            PacedNodeUpdate update{nodal.paced_acceleration(), node_advance(nodal, instant.step), {}};
             update.acceleration.phase = phase;
-            if (shared_alone) update.shared = model.shared_nodes;
-            const int count = shared_alone ? model.subcycling.shared_end[phase] : model.nodes.count;
+            if (shared_alone) update.shared = nodal.shared_nodes;
+            const int count = shared_alone ? nodal.subcycling.shared_end[phase] : nodal.nodes.count;
             if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
           }};
 }
 
 /// Nodes in single precision that belong to one block alone.
-Task carried_blocks_task(const Model& model) {
-  return {"inner nodes of the elements' blocks", "f to j", [&model](const Instant& instant) {
-            for (const ElementGroup& group : model.elements)
+Task carried_blocks_task(const NodalState& nodal, const std::vector<ElementGroup>& groups) {
+  return {"inner nodes of the elements' blocks", "f to j", [&nodal, &groups](const Instant& instant) {
+            for (const ElementGroup& group : groups)
               launch_blocks(group.blocks,
-                            CarriedBlockUpdate{group.blocks, carried_advance(model, group.carried, instant.step),
-                                               model.partial.in_single, group.first_partial});
+                            CarriedBlockUpdate{group.blocks, carried_advance(nodal, group.carried, instant.step),
+                                               nodal.partial.in_single, group.first_partial});
           }};
 }
 
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
-Task carried_shared_task(const Model& model, bool rows_are_due) {
-  return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
+Task carried_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
+  return {"nodes that element blocks share", "f to j", [&nodal, &loads, rows_are_due](const Instant& instant) {
             Kokkos::parallel_for(
-                "shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
-                CarriedSharedUpdate{model.acceleration(), carried_advance(model, {}, instant.step), model.shared_nodes,
-                                    model.carried.shared_arm, row_loads(model, instant.elapsed), rows_are_due});
+                "shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
+                CarriedSharedUpdate{nodal.acceleration(), carried_advance(nodal, {}, instant.step), nodal.shared_nodes,
+                                    nodal.carried.shared_arm, row_loads(nodal, loads, instant.elapsed), rows_are_due});
           }};
 }
 
-Task shared_task(const Model& model, bool rows_are_due) {
-  return {"nodes that element blocks share", "f to j", [&model, rows_are_due](const Instant& instant) {
-            Kokkos::parallel_for("shared_nodes", Range(0, static_cast<int>(model.shared_nodes.extent(0))),
-                                 SharedNodeUpdate{model.acceleration(), node_advance(model, instant.step),
-                                                  model.shared_nodes, row_loads(model, instant.elapsed), rows_are_due});
+Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
+  return {"nodes that element blocks share", "f to j", [&nodal, &loads, rows_are_due](const Instant& instant) {
+            Kokkos::parallel_for(
+                "shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
+                SharedNodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step), nodal.shared_nodes,
+                                 row_loads(nodal, loads, instant.elapsed), rows_are_due});
           }};
 }
 
-Task node_task(const Model& model) {
-  return {"nodes", "f to j", [&model](const Instant& instant) {
-            Kokkos::parallel_for("node_update", Range(0, model.nodes.count),
-                                 NodeUpdate{model.acceleration(), node_advance(model, instant.step)});
+Task node_task(const NodalState& nodal) {
+  return {"nodes", "f to j", [&nodal](const Instant& instant) {
+            Kokkos::parallel_for("node_update", Range(0, nodal.nodes.count),
+                                 NodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step)});
           }};
 }
 
-Task prescribed_task(const Model& model, const PrescribedSet& set) {
-  return {"prescribed motion of " + set.motion->target, "g", [&model, &set](const Instant& instant) {
+Task prescribed_task(const NodalState& nodal, const PrescribedSet& set) {
+  return {"prescribed motion of " + set.motion->target, "g", [&nodal, &set](const Instant& instant) {
             Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))),
-                                 prescribed_motion(model, set, instant.step));
+                                 prescribed_motion(nodal, set, instant.step));
           }};
 }
 
 }  // namespace
 
-Task tied_nodes_task(Model& model, StepKind kind) {
-  const bool carried = model.carried.active() && kind != StepKind::settling;
-  return {"tied nodes", "g", [&model, carried](const Instant& instant) {
-            const TieFollow follow{model.ties.arrays, model.nodes, instant.step};
-            const SpreadRange slaves(0, model.ties.arrays.slave_count);
+Task carrier_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
+                  StepKind kind) {
+  return {"carriers of nodes in single precision", "j", [&assembled, &groups, &nodal, kind](const Instant& instant) {
+            if (!nodal.carried.begun)
+              take_nodes_over(assembled, groups, nodal);
+            else if (kind == StepKind::sampled)
+              give_nodes_back(nodal);
+            lay_carrier_steps(nodal, instant.step);
+          }};
+}
+
+Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind) {
+  const bool carried = nodal.carried.active() && kind != StepKind::settling;
+  return {"tied nodes", "g", [&nodal, &ties, carried](const Instant& instant) {
+            const TieFollow follow{ties.arrays, nodal.nodes, instant.step};
+            const SpreadRange slaves(0, ties.arrays.slave_count);
             if (carried)
               Kokkos::parallel_for(
                   "ties", slaves,
-                  CarriedTieFollow{follow, carried_advance(model, {}, instant.step).nodes, model.ties.carrier});
+                  CarriedTieFollow{follow, carried_advance(nodal, {}, instant.step).nodes, ties.carrier});
             else
               Kokkos::parallel_for("ties", slaves, follow);
           }};
 }
 
-std::vector<Task> motion_tasks(Model& model, StepKind kind) {
-  const bool inner_have_moved = kind == StepKind::advancing, rows_are_due = sets_go_along(model, kind);
+std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed) {
   std::vector<Task> tasks;
-  for (const PrescribedSet& set : model.prescribed) tasks.push_back(prescribed_task(model, set));
-  if (model.beams)
-    tasks.push_back(
-        {"rotations of beams", "f to j", [&model](const Instant& instant) { advance_rotations(model, instant.step); }});
-  if (model.subcycling.levels > 1) {
-    tasks.push_back(paced_task(model, inner_have_moved));
-  } else if (model.carried.active()) {
-    if (!inner_have_moved) tasks.push_back(carried_blocks_task(model));
-    tasks.push_back(carried_shared_task(model, rows_are_due));
+  for (const PrescribedSet& set : prescribed) tasks.push_back(prescribed_task(nodal, set));
+  return tasks;
+}
+
+std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
+                             StepKind kind, GoingAlong along) {
+  const bool inner_have_moved = kind == StepKind::advancing;
+  if (nodal.subcycling.levels > 1) return {paced_task(nodal, inner_have_moved)};
+  std::vector<Task> tasks;
+  if (nodal.carried.active()) {
+    if (!inner_have_moved) tasks.push_back(carried_blocks_task(nodal, groups));
+    tasks.push_back(carried_shared_task(nodal, loads, along.sets));
   } else {
-    tasks.push_back(inner_have_moved ? shared_task(model, rows_are_due) : node_task(model));
+    tasks.push_back(inner_have_moved ? shared_task(nodal, loads, along.sets) : node_task(nodal));
   }
-  if (model.ties.arrays.active()) tasks.push_back(tied_nodes_task(model, kind));
   return tasks;
 }
 

@@ -1,4 +1,4 @@
-#include "model/contact/nearest_point.hpp"
+#include "model/sets/point_search.hpp"
 
 #include <algorithm>
 #include <numeric>

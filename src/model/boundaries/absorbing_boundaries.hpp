@@ -3,14 +3,24 @@
 #include <string>
 #include <vector>
 
+#include "kernels/boundaries/non_reflecting.hpp"
 #include "model/assembled_scene.hpp"
 
 namespace railwave {
 
-struct Model;
+/// All non-reflecting ends together: dashpots on the nodes of surfaces through which plane waves leave.
+struct NonReflectingEnds {
+  NonReflectingArrays arrays;
+  std::vector<int> nodes;   ///< ascending
+  std::vector<char> alone;  ///< by node of the model: feels no other extra forces; may have a pace of its own
+};
 
-/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see
-/// model/boundaries/absorbing_layer.hpp.
+/// Begins the run: forces on the ends' nodes take the place of what held them.
+/// @param position   m, of the model's nodes
+/// @param unbalanced N by node; empty where the scene has not settled
+void hold_ends(const NonReflectingEnds& ends, const Array<double* [3]>& position, const Array<double* [3]>& unbalanced);
+
+/// Zones at the ends of parts whose mass-proportional damping grows towards the end: see absorbing_layers.
 struct AbsorbingLayers {
   struct Zone {
     int layer = 0;           ///< position in scene.absorbing_layers
@@ -34,13 +44,13 @@ struct AbsorbingLayers {
 AbsorbingLayers absorbing_layers(const scene::Scene& scene, const Assembly& assembly);
 
 /// A line for each layer: nodes, damping at the end, and the waves that it takes.
-std::vector<std::string> describe_absorbing_layers(const Model& model);
+std::vector<std::string> describe_absorbing_layers(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
 /// A line for each non-reflecting end of a slender part without an absorbing layer: it takes plane waves, and sends a
 /// bar's back in part.
-std::vector<std::string> describe_slender_ends(const Model& model);
+std::vector<std::string> describe_slender_ends(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
 /// Layers of few elements, and on bodies that travel.
-std::vector<std::string> absorbing_doubts(const Model& model);
+std::vector<std::string> absorbing_doubts(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
 }  // namespace railwave

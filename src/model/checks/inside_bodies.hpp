@@ -1,10 +1,23 @@
 #pragma once
 
+#include <array>
+#include <map>
 #include <vector>
 
 #include "model/assembly.hpp"
 
 namespace railwave {
+
+/// Which faces of the elements are on the outside of a body: those that belong to one element only.
+class OutsideFaces {
+ public:
+  explicit OutsideFaces(const Assembly& assembly);
+  bool has(const Face& face) const;
+
+ private:
+  const Assembly& assembly_;
+  std::map<std::array<int, 4>, int> owners_;  ///< by sorted nodes: elements; only of faces that lie in a named surface
+};
 
 /// Two parts of which one lies inside the other.
 struct PartOverlap {

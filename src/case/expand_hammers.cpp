@@ -13,9 +13,9 @@ namespace {
 
 using scene::Scene;
 
-class Expansion {
+class HammerExpansion {
  public:
-  Expansion(Scene& scene, Complaints& complaints) : scene_(scene), complaints_(complaints) {}
+  HammerExpansion(Scene& scene, Complaints& complaints) : scene_(scene), complaints_(complaints) {}
 
   void add(const scene::Hammer& hammer) {
     const std::string subject = "[hammers." + hammer.name + "]";
@@ -108,7 +108,7 @@ class Expansion {
 }  // namespace
 
 void expand_hammers(Scene& scene, Complaints& complaints) {
-  Expansion expansion(scene, complaints);
+  HammerExpansion expansion(scene, complaints);
   for (const auto& hammer : scene.hammers) expansion.add(hammer);
   for (const auto& probe : scene.probes) expansion.add(probe);
 }

@@ -74,9 +74,9 @@ class RailExpansion {
   std::vector<Range> rails_;
 };
 
-class Expansion : private TrackEntries {
+class TrackExpansion : private TrackEntries {
  public:
-  Expansion(scene::Scene& into, const Track& of, Complaints& complaints)
+  TrackExpansion(scene::Scene& into, const Track& of, Complaints& complaints)
       : TrackEntries(into, of, complaints), far_(far_side(of)) {
     rails_.emplace_back(TrackEntries(into, of, complaints));
     if (of.both_rails) rails_.emplace_back(TrackEntries(into, far_, complaints, own("far")));
@@ -255,7 +255,7 @@ scene::Sleeper sleeper_of(const scene::Scene& scene, const std::string& name) {
 }
 
 void expand_tracks(scene::Scene& scene, Complaints& complaints) {
-  for (const Track& track : scene.tracks) Expansion(scene, track, complaints).run();
+  for (const Track& track : scene.tracks) TrackExpansion(scene, track, complaints).run();
 }
 
 }  // namespace railwave::case_file

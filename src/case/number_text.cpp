@@ -42,7 +42,7 @@ std::size_t number_length(std::string_view text) {
 bool not_finite_by_name(std::string_view text) {
   if (!text.empty() && (text[0] == '+' || text[0] == '-')) text.remove_prefix(1);
   std::string name(text);
-  std::transform(name.begin(), name.end(), name.begin(), lower);
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return lower(c); });
   return name == "nan" || name == "inf" || name == "infinity" || name == "1.#inf" || name == "1.#qnan";
 }
 

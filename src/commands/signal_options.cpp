@@ -10,7 +10,7 @@ struct KindHelp {
   const char* channel;
 };
 
-constexpr KindHelp kinds[] = {
+constexpr KindHelp kind_helps[] = {
     {SignalKind::psd, "psd", "power spectral density by Welch's method", "what is analysed; may be repeated"},
     {SignalKind::wavelet, "wavelet", "power by time and frequency, Morlet's wavelet", "what is analysed: one"},
     {SignalKind::bandpass, "bandpass", "the part of a history in a band, without delay",
@@ -28,7 +28,7 @@ void add_signal_command(CLI::App& app, SignalRequest& request, const std::functi
   CLI::App* command =
       app.add_subcommand("signal", "spectra, wavelets, phases, ellipses and wave speeds of a run's histories");
   command->require_subcommand(1);
-  for (const KindHelp& kind : kinds) {
+  for (const KindHelp& kind : kind_helps) {
     CLI::App* c = command->add_subcommand(kind.name, kind.help);
     const bool welch = kind.kind == SignalKind::psd || kind.kind == SignalKind::cross;
     c->add_option("results", request.results, "results file")->required();

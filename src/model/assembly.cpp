@@ -238,6 +238,8 @@ int part_of_node(const Assembly& assembly, int node) {
   return -1;
 }
 
+std::string place_text(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
+
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
   std::vector<int> nodes;
   for (const Face& face : surface)

@@ -65,6 +65,9 @@ std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assemb
 Vec3 turned_with(const scene::Part& part, const Vec3& v);
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v);
 
+/// "(x, y, z) m".
+std::string place_text(const Vec3& x);
+
 /// Nodes of a surface, ascending, each once.
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface);
 

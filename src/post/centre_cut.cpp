@@ -4,12 +4,13 @@
 #include <cmath>
 
 namespace railwave {
-namespace {
 
 int place_in(const std::vector<int>& sorted, int number) {
   const auto found = std::lower_bound(sorted.begin(), sorted.end(), number);
   return found != sorted.end() && *found == number ? static_cast<int>(found - sorted.begin()) : -1;
 }
+
+namespace {
 
 /// Corners of a facet in the patch's tangent plane.
 struct FlatFacet {

@@ -20,6 +20,9 @@ struct CutPoint {
   double slip_by_velocity = 0;
 };
 
+/// Position of a number in an ascending list; -1: it is not there.
+int place_in(const std::vector<int>& sorted, int number);
+
 /// Points in equal steps from one end of the facets around the patch to the other; where the line leaves them there is
 /// none.
 std::vector<CutPoint> centre_cut(const ContactState& state, const ContactPatch& patch, CutDirection direction,

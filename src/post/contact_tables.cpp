@@ -110,10 +110,6 @@ const std::vector<Column> cut_columns = {{"row", "row"},
                                          {"slips_by_force", "1"},
                                          {"slips_by_velocity", "1"}};
 
-int place_in(const std::vector<int>& sorted, int number) {
-  return static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), number) - sorted.begin());
-}
-
 FileKind kind_of(const std::string& called, const std::vector<Column>& columns) {
   std::string names = Table(columns).csv_heading();
   names.pop_back();  // the line's end

@@ -10,6 +10,8 @@
 
 namespace railwave {
 
+inline constexpr double degrees_per_radian = 57.29577951308232;
+
 /// What one kind of analysis found.
 struct SignalReport {
   struct Array {

@@ -12,7 +12,6 @@
 namespace railwave {
 namespace {
 
-constexpr double degrees = 57.29577951308232;
 constexpr int peaks_shown = 3;
 
 WelchOptions welch_options(const SignalInput& input, std::size_t segment) {
@@ -128,8 +127,8 @@ SignalReport report_cross(const SignalInput& input) {
   std::size_t peak = 0;
   for (std::size_t k = 0; k < spectra.frequency.size(); ++k) {
     const double size = std::abs(spectra.cross[k]);
-    table.add_row(
-        {spectra.frequency[k], spectra.density_a[k], spectra.density_b[k], size, degrees * phase[k], coherence[k]});
+    table.add_row({spectra.frequency[k], spectra.density_a[k], spectra.density_b[k], size,
+                   degrees_per_radian * phase[k], coherence[k]});
     if (!within(spectra.frequency[k], input.request)) continue;
     sum += spectra.cross[k];
     power_a += spectra.density_a[k];
@@ -152,15 +151,15 @@ SignalReport report_cross(const SignalInput& input) {
   report.text += fmt::format(
       "{}: phase of the second before the first {:.2f} deg, coherence {:.4f} (mean by power), amplitude second to "
       "first {:.4f}\n",
-      band_text(input.request), degrees * std::arg(sum), agreed / weights, std::sqrt(power_b / power_a));
+      band_text(input.request), degrees_per_radian * std::arg(sum), agreed / weights, std::sqrt(power_b / power_a));
   report.text += fmt::format("most in common at {:.6g} Hz: phase {:.2f} deg, coherence {:.4f}\n",
-                             spectra.frequency[peak], degrees * phase[peak], coherence[peak]);
+                             spectra.frequency[peak], degrees_per_radian * phase[peak], coherence[peak]);
   if (spectra.segments == 1)
     report.text +=
         "note: of one segment coherence is 1 whatever the channels; cut shorter ones by --segment, or name several "
         "pairs\n";
   report.figures = {{"segments", static_cast<double>(spectra.segments)},
-                    {"band_phase", degrees * std::arg(sum)},
+                    {"band_phase", degrees_per_radian * std::arg(sum)},
                     {"band_coherence", agreed / weights}};
   report.tables.emplace_back("cross", std::move(table));
   return report;

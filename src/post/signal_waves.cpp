@@ -15,7 +15,6 @@
 namespace railwave {
 namespace {
 
-constexpr double degrees = 57.29577951308232;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Row {
@@ -91,12 +90,13 @@ SignalReport report_ellipse(const SignalInput& input) {
     const auto along = in_band(a->values, input), up = in_band(b->values, input);
     const ParticleMotion m = particle_motion(along, up);
     const Eigen::Vector3d place = a->position.value_or(Eigen::Vector3d::Constant(unknown));
-    table.add_row({place[0], place[1], place[2], m.semi_axis_major, m.semi_axis_minor, degrees * m.tilt,
-                   degrees * m.phase, m.amplitude_ratio, m.retrograde() ? 1.0 : 0.0, m.polarisation, m.coherence,
-                   input.time(m.strongest)});
-    report.text += fmt::format("{:>32} {:>10.4g} {:>10.4g} {:>8.2f} {:>9.2f} {:>13.4f} {:>12} {:>9.4f}\n", a->name,
-                               m.semi_axis_major, m.semi_axis_minor, degrees * m.tilt, degrees * m.phase,
-                               m.amplitude_ratio, m.retrograde() ? "retrograde" : "prograde", m.polarisation);
+    table.add_row({place[0], place[1], place[2], m.semi_axis_major, m.semi_axis_minor, degrees_per_radian * m.tilt,
+                   degrees_per_radian * m.phase, m.amplitude_ratio, m.retrograde() ? 1.0 : 0.0, m.polarisation,
+                   m.coherence, input.time(m.strongest)});
+    report.text +=
+        fmt::format("{:>32} {:>10.4g} {:>10.4g} {:>8.2f} {:>9.2f} {:>13.4f} {:>12} {:>9.4f}\n", a->name,
+                    m.semi_axis_major, m.semi_axis_minor, degrees_per_radian * m.tilt, degrees_per_radian * m.phase,
+                    m.amplitude_ratio, m.retrograde() ? "retrograde" : "prograde", m.polarisation);
     retrograde += m.retrograde() ? 1 : 0;
     first.values.insert(first.values.end(), along.begin(), along.end());
     second.values.insert(second.values.end(), up.begin(), up.end());

@@ -6,13 +6,10 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "signal/fourier.hpp"
 
 namespace railwave {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-
-}  // namespace
+namespace {}  // namespace
 
 double band_gain(const Band& band, double frequency) {
   if (band.low <= 0 && band.high <= 0) return 1;

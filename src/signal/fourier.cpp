@@ -8,8 +8,6 @@
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// The largest prime factor that is still left to the mixed-radix transform, whose cost goes with it.
 constexpr std::size_t largest_factor = 13;
 

@@ -9,6 +9,8 @@
 /// factors.
 namespace railwave {
 
+inline constexpr double pi = 3.14159265358979323846;
+
 using Complex = std::complex<double>;
 
 /// X_k of k = 0 ... N-1. Empty for none.

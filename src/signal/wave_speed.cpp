@@ -6,11 +6,11 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "signal/fourier.hpp"
 
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr std::size_t finer = 8;  // interpolation of correlations; wave numbers between two that the row can tell apart
 
 double energy(const std::vector<double>& values) {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "signal/fourier.hpp"
 
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 const double norm = std::pow(pi, -0.25);  // of Morlet's wavelet
 
 /// Integral over u > 0 of exp(-(u - w0)^2 width) / u, but for the few that lie below w0/20, where it is no wavelet any

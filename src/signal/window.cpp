@@ -7,11 +7,10 @@
 
 #include "case/error.hpp"
 #include "case/suggest.hpp"
+#include "signal/fourier.hpp"
 
 namespace railwave {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Sum of (-1)^j a_j cos(2 pi j n / N).
 double cosines(double share, std::initializer_list<double> factors) {

@@ -9,7 +9,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double yield_stress = 400e6, tangent_modulus = 21e9;
+constexpr double yield = 400e6, tangent = 21e9;
 
 struct PullPoint {
   double strain, stress;
@@ -21,8 +21,8 @@ std::vector<PullPoint> pull(scene::Precision precision, double& imbalance, doubl
   const double length = 0.02;
   scene::Scene scene = block_scene({length, 0.01, 0.01}, {4, 2, 2}, 2.5e-3);
   scene.solver.precision = precision;
-  scene.materials[0].yield_stress = yield_stress;
-  scene.materials[0].tangent_modulus = tangent_modulus;
+  scene.materials[0].yield_stress = yield;
+  scene.materials[0].tangent_modulus = tangent;
   hold(scene, "block.x_min", {true, false, false});
   hold(scene, "block.y_min", {false, true, false});
   hold(scene, "block.z_min", {false, false, true});
@@ -79,19 +79,19 @@ TEST_CASE("a bar pulled past yield stiffens along its two slopes and keeps its e
     const double elastic_slope = slope(points, 50e6, 350e6), plastic_slope = slope(points, 440e6, 560e6);
     INFO("slopes " << elastic_slope << ", " << plastic_slope << "; imbalance " << imbalance << ", plastic " << plastic);
     CHECK_THAT(elastic_slope, WithinRel(210e9, 5e-3));
-    CHECK_THAT(plastic_slope, WithinRel(tangent_modulus, 5e-3));
+    CHECK_THAT(plastic_slope, WithinRel(tangent, 5e-3));
     CHECK(imbalance < 1e-3);
     // Work of the flow: the trapezium under the hardening line.
-    const double hardening = 210e9 * tangent_modulus / (210e9 - tangent_modulus);
+    const double hardening = 210e9 * tangent / (210e9 - tangent);
     const double flow = points.back().strain - points.back().stress / 210e9;
-    CHECK_THAT(plastic, WithinRel((yield_stress + 0.5 * hardening * flow) * flow, 1e-2));
+    CHECK_THAT(plastic, WithinRel((yield + 0.5 * hardening * flow) * flow, 1e-2));
   }
 }
 
 TEST_CASE("a bar that hits a wall spends its energy in plastic flow, and none is lost") {
   const double length = 0.032, width = 0.008, speed = 100;
   scene::Scene scene = block_scene({width, width, length}, {4, 4, 16}, 5e-5);
-  scene.materials[0].yield_stress = yield_stress;
+  scene.materials[0].yield_stress = yield;
   scene.materials[0].tangent_modulus = 1e9;
   scene.time.step_scale = 0.4;
   set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
@@ -138,7 +138,7 @@ TEST_CASE("only the parts that yield have history, and what is left out says so"
   CHECK(elastic.left_out.front().rfind("plasticity", 0) == 0);
   CHECK(elastic.elements[0].material.history.extent(0) == 0);
   CHECK(element_plastic_strain(elastic, all_elements(elastic)).values == std::vector<double>(8, 0.0));
-  scene.materials[0].yield_stress = yield_stress;
+  scene.materials[0].yield_stress = yield;
   Model plastic;
   build_model(scene, plastic);
   for (const std::string& what : plastic.left_out) CHECK(what.rfind("plasticity", 0) != 0);

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "tests/verify/block.hpp"
+#include "tests/verify/march.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -28,13 +29,6 @@ Vec3 rotated(const Vec3& x, double angle) {
     turned[i] = x[i] * c + (axis[j] * x[k] - axis[k] * x[j]) * s + axis[i] * along * (1 - c);
   }
   return turned;
-}
-
-double largest_stress(const Model& model) {
-  double largest = 0;
-  for (double s : element_stress(model, model.nodes, all_elements(model)).values)
-    largest = std::max(largest, std::fabs(s));
-  return largest;
 }
 
 /// Sum over nodes of m x cross v(n+1/2), which the scheme keeps exactly when internal forces have no moment.

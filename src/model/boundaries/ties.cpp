@@ -84,8 +84,6 @@ TiedPlace tied_place(int slave, const Vector3& x, const MasterFace& face, const 
   return tied;
 }
 
-std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
-
 /// What one of a tie's nodes may not be besides.
 class Conflicts {
  public:
@@ -173,8 +171,8 @@ void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& 
     const MasterFace& face = faces[nearest.face];
     const double allowed = tie.max_distance.value_or(default_distance * face.diagonal);
     if (nearest.distance > allowed || nearest.place.outside() > most_outside) {
-      far.push_back(
-          fmt::format("{}, {:.3g} m from it (allowed: {:.3g} m)", at(assembly.nodes[n]), nearest.distance, allowed));
+      far.push_back(fmt::format("{}, {:.3g} m from it (allowed: {:.3g} m)", place_text(assembly.nodes[n]),
+                                nearest.distance, allowed));
       continue;
     }
     const TiedPlace tied = tied_place(n, x, face, nearest.place);
@@ -182,10 +180,10 @@ void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& 
       if (corner == n)
         refuse(assembled.scene, tie,
                fmt::format("'{}' and '{}' share the node at {}; name surfaces without common nodes", tie.slave,
-                           tie.master, at(assembly.nodes[n])));
+                           tie.master, place_text(assembly.nodes[n])));
     const std::string conflict = conflicts.of(tied);
     if (!conflict.empty())
-      refuse(assembled.scene, tie, fmt::format("the slave's node at {} {}", at(assembly.nodes[n]), conflict));
+      refuse(assembled.scene, tie, fmt::format("the slave's node at {} {}", place_text(assembly.nodes[n]), conflict));
     conflicts.take(n, tie);
     ties.places.push_back(tied);
   }
@@ -202,7 +200,7 @@ void refuse_chains(const AssembledScene& assembled, const Ties& ties) {
         refuse(assembled.scene, assembled.scene.ties.back(),
                fmt::format("the node at {} is of a slave and of a master; ties cannot follow each other: let "
                            "one surface be the master of both, or end the surfaces before they meet",
-                           at(assembled.assembly.nodes[n])));
+                           place_text(assembled.assembly.nodes[n])));
 }
 
 /// Where the slave is the coarser mesh, nodes of the master between its nodes would hang free.
@@ -224,7 +222,7 @@ void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
              fmt::format(
                  "the master's node at {} lies on '{}', but no node of that is near it: the slave is the coarser mesh "
                  "there, and the surfaces would come apart between its nodes; exchange slave and master",
-                 at(assembly.nodes[n]), tie.slave));
+                 place_text(assembly.nodes[n]), tie.slave));
     }
   }
 }

@@ -27,7 +27,6 @@ template <class Entry>
   throw InputError(fmt::format("{}:{}: [{}.{}]: {}", scene.path, entry.line, section, entry.name, what));
 }
 
-std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
 std::string along(const Vec3& d) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", d[0], d[1], d[2]); }
 
 /// How fast a prescribed motion moves a node, m/s, and how far its displacement does, m, in what it leaves free
@@ -79,9 +78,9 @@ void refuse_moved_constraints(const AssembledScene& assembled) {
                fmt::format("holds the node at {} along {}, in which [prescribed_motion.{}] (line {}) moves it by {}; "
                            "leave the common nodes of '{}' and '{}' out of one of the "
                            "two, or give only the other `directions`",
-                           at(assembled.assembly.nodes[n]), along(constraint.axes[a]), motion->name, motion->line,
-                           fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way), constraint.target,
-                           motion->target));
+                           place_text(assembled.assembly.nodes[n]), along(constraint.axes[a]), motion->name,
+                           motion->line, fast ? fmt::format("{:.4g} m/s", speed) : fmt::format("{:.4g} m", way),
+                           constraint.target, motion->target));
       }
     }
 }
@@ -167,7 +166,8 @@ void refuse_inner_faces(const AssembledScene& assembled) {
     if (inside == 0) return;
     throw InputError(fmt::format(
         "{}:{}: [{}.{}] {}: {} of the {} faces of '{}' lie inside the body, between two elements, the first at {}; {}",
-        assembled.scene.path, entry.line, section, entry.name, key, inside, surface.size(), name, at(place), why));
+        assembled.scene.path, entry.line, section, entry.name, key, inside, surface.size(), name, place_text(place),
+        why));
   };
   constexpr const char* no_contact = "nothing can touch them: name a surface on the outside";
   for (const scene::Contact& contact : assembled.scene.contacts) {
@@ -219,7 +219,7 @@ void refuse_held_hammers(const AssembledScene& assembled) {
       refuse(assembled.scene, "hammers", hammer,
              fmt::format("strikes {} along {}, where constraints or prescribed motions hold all that it strikes; "
                          "strike another place, or in another direction",
-                         at(assembled.assembly.nodes[nodes.front()]), along(hammer.direction)));
+                         place_text(assembled.assembly.nodes[nodes.front()]), along(hammer.direction)));
   }
 }
 
@@ -322,9 +322,9 @@ void refuse_stiff_multipliers(const AssembledScene& assembled, const std::vector
                            "along its normal at {} and {} '{}' at {}: no force moves either, "
                            "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive "
                            "one of the two bodies at another surface",
-                           holder_of(assembled, n), pair.contact->slave, at(assembled.assembly.nodes[n]),
+                           holder_of(assembled, n), pair.contact->slave, place_text(assembled.assembly.nodes[n]),
                            holder_of(assembled, face[0]), pair.contact->master.text(),
-                           at(assembled.assembly.nodes[face[0]])));
+                           place_text(assembled.assembly.nodes[face[0]])));
       }
   }
 }

@@ -63,16 +63,16 @@ Vec3 place_on(const std::array<Vec3, 4>& corner, double xi, double eta) {
   return x;
 }
 
-struct Nearest {
+struct NearestFace {
   double gap = nowhere;
   Vec3 place{0, 0, 0};
 };
 
 /// The face's place nearest to the profile: the best of a grid, then by steps that are halved.
-Nearest nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner) {
+NearestFace nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner) {
   constexpr int grid = 8, halvings = 24;
   double best[2] = {0, 0};
-  Nearest nearest;
+  NearestFace nearest;
   const auto look = [&](double xi, double eta) {
     const Vec3 x = place_on(corner, xi, eta);
     const double gap = profile.gap(x);
@@ -98,7 +98,7 @@ Nearest nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner) {
   return nearest;
 }
 
-Nearest nearest_of(const Assembly& assembly, const Profile& profile, const std::vector<Face>& surface) {
+NearestFace nearest_of(const Assembly& assembly, const Profile& profile, const std::vector<Face>& surface) {
   std::vector<std::array<Vec3, 4>> faces;
   std::vector<double> at_least;  // m, the gap that a face may have
   double least = nowhere;
@@ -114,10 +114,10 @@ Nearest nearest_of(const Assembly& assembly, const Profile& profile, const std::
     // A face across the profile's edge has no gap at corners and middle.
     at_least.push_back(gap < nowhere ? gap - 0.5 * size : -nowhere);
   }
-  Nearest nearest;
+  NearestFace nearest;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (at_least[f] > std::min(least, nearest.gap)) continue;
-    const Nearest here = nearest_on(profile, faces[f]);
+    const NearestFace here = nearest_on(profile, faces[f]);
     if (here.gap < nearest.gap) nearest = here;
   }
   return nearest;
@@ -164,7 +164,7 @@ std::optional<Touch> touch_of(const AssembledScene& assembled, const RoundPart& 
   const auto& slaves = find_surface(assembled.scene, assembled.assembly, contact, "slave", contact.slave);
   const auto& masters = find_surface(assembled.scene, assembled.assembly, contact, "master", master_name);
   const Profile profile(assembled.assembly, round, slave == own ? slaves : masters);
-  const Nearest nearest = nearest_of(assembled.assembly, profile, slave == own ? masters : slaves);
+  const NearestFace nearest = nearest_of(assembled.assembly, profile, slave == own ? masters : slaves);
   if (!(nearest.gap < round.nominal_radius)) return std::nullopt;
   const auto [along, distance] = profile.seen(nearest.place);
   if (!(distance > 0)) return std::nullopt;

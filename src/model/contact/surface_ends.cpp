@@ -41,7 +41,7 @@ double diagonal(const std::vector<Vec3>& x, const Corners& c) {
 }
 
 /// A facet at an end of a surface.
-struct Rim {
+struct OpenRim {
   Vec3 middle, normal;
   double diagonal;
   Corners corners;
@@ -112,7 +112,7 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
   if (open.empty()) return ends;
 
   // Where the surface goes on: facets at its own ends and at those of the others.
-  std::vector<Rim> rims;
+  std::vector<OpenRim> rims;
   const auto add_rim = [&](const std::vector<Corners>& facets) {
     std::map<Edge, int> count;
     for (const Corners& facet : facets)
@@ -133,7 +133,7 @@ SurfaceEnds surface_ends(const Assembly& assembly, std::vector<std::array<int, 4
     const Corners& own = ends.corners[facet];
     const Vec3 middle = mean(x, edge.data(), 2), out = outward(x, own, side), normal = normal_of(x, own);
     const double reach = reach_of_gap * diagonal(x, own);
-    const bool goes_on = std::any_of(rims.begin(), rims.end(), [&](const Rim& other) {
+    const bool goes_on = std::any_of(rims.begin(), rims.end(), [&](const OpenRim& other) {
       const Vec3 way = difference(other.middle, middle);
       const double far = reach + 0.5 * other.diagonal, square = dot(way, way);
       return square < far * far && dot(way, out) > ahead * std::sqrt(square) && dot(normal, other.normal) > sharp &&

@@ -9,31 +9,16 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "model/sets/point_search.hpp"
 
 namespace railwave {
 namespace {
-
-/// m: what rounding may take a centre out of a box on whose side it lies.
-constexpr double slack = 1e-9;
 
 /// Natural coordinates by which rounding may put a place outside the element on whose face it lies.
 constexpr double on_the_face = 1e-6;
 
 /// The same of a place beside a faceted surface that stands for a curved one.
 constexpr double beside_a_facet = 0.1;
-
-double distance(const Vec3& a, const Vec3& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-/// How far outside the box a place is, m.
-double distance(const scene::Box& box, const Vec3& x) {
-  Vec3 nearest{};
-  for (int i = 0; i < 3; ++i) nearest[i] = std::fmin(std::fmax(x[i], box[0][i]), box[1][i]);
-  return distance(nearest, x);
-}
-
-std::string text_of(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
 
 /// May an element hold the place, or lie right beside it?
 bool is_near(const std::array<Vec3, 8>& corners, const Vec3& place) {
@@ -69,7 +54,7 @@ Found find_element(const Assembly& assembly, const std::vector<int>& candidates,
   double least = std::numeric_limits<double>::infinity();
   for (int e : candidates) {
     const double away = distance(element_centre(assembly, e), place);
-    if (away < least - slack) least = away, nearest.element = e;
+    if (away < least - place_slack) least = away, nearest.element = e;
   }
   return nearest;
 }
@@ -95,7 +80,7 @@ std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candid
   int nearest = candidates.front();
   const auto away = [&](int e) { return distance(box, element_centre(assembly, e)); };
   for (int e : candidates) {
-    if (away(e) <= slack) elements.push_back(e);
+    if (away(e) <= place_slack) elements.push_back(e);
     if (away(e) < away(nearest)) nearest = e;
   }
   if (elements.empty())
@@ -169,7 +154,7 @@ void add_element_sets(const scene::Scene& scene, Assembly& assembly) {
     std::vector<int> elements{find_element(assembly, candidates, *set.position).element};
     if (set.radius > 0)
       for (int e : candidates)
-        if (distance(element_centre(assembly, e), *set.position) <= set.radius + slack && e != elements.front())
+        if (distance(element_centre(assembly, e), *set.position) <= set.radius + place_slack && e != elements.front())
           elements.push_back(e);
     std::sort(elements.begin(), elements.end());
     assembly.element_sets[name] = std::move(elements);

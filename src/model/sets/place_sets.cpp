@@ -6,33 +6,15 @@
 #include <cmath>
 
 #include "case/error.hpp"
+#include "model/sets/point_search.hpp"
 
 namespace railwave {
 namespace {
 
-/// m: what rounding may take a node out of a box on whose side it lies.
-constexpr double slack = 1e-9;
-
-/// How far outside the box a place is, m.
-double distance(const scene::Box& box, const Vec3& x) {
-  double squared = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double outside = std::max({box[0][i] - x[i], x[i] - box[1][i], 0.0});
-    squared += outside * outside;
-  }
-  return std::sqrt(squared);
-}
-
-double distance(const Vec3& a, const Vec3& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
 /// How far a node is from what the set asks for, m: outside its box, or from its position.
-double distance(const scene::NodeSet& set, const Vec3& x) {
+double distance_from(const scene::NodeSet& set, const Vec3& x) {
   return set.box ? distance(*set.box, x) : distance(*set.position, x);
 }
-
-std::string text_of(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
 
 /// Longest edge of the elements around a node, m.
 double size_around(const Assembly& assembly, int node) {
@@ -68,12 +50,12 @@ void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
     const bool of_surface = !set.surface.empty();
     if (of_surface) find_surface(scene, assembly, set, "surface", set.part + "." + set.surface);
     const auto& candidates = assembly.node_sets.at(of_surface ? set.part + "." + set.surface : set.part);
-    const double reach = set.box ? slack : set.radius + slack;
+    const double reach = set.box ? place_slack : set.radius + place_slack;
     std::vector<int> nodes;
     int nearest = candidates.front();
     for (int n : candidates) {
-      if (distance(set, assembly.nodes[n]) <= reach) nodes.push_back(n);
-      if (distance(set, assembly.nodes[n]) < distance(set, assembly.nodes[nearest])) nearest = n;
+      if (distance_from(set, assembly.nodes[n]) <= reach) nodes.push_back(n);
+      if (distance_from(set, assembly.nodes[n]) < distance_from(set, assembly.nodes[nearest])) nearest = n;
     }
     if (nodes.empty() && set.position) nodes.push_back(nearest);
     if (nodes.empty())
@@ -102,8 +84,9 @@ std::vector<PlacedSet> placed_sets(const scene::Scene& scene, const Assembly& as
     const auto& nodes = assembly.node_sets.at(set.part + "." + set.name);
     PlacedSet placed{&set, static_cast<int>(nodes.size()), nodes.front(), 0, {}};
     for (int n : nodes)
-      if (distance(set, assembly.nodes[n]) < distance(set, assembly.nodes[placed.nearest])) placed.nearest = n;
-    placed.distance = distance(set, assembly.nodes[placed.nearest]);
+      if (distance_from(set, assembly.nodes[n]) < distance_from(set, assembly.nodes[placed.nearest]))
+        placed.nearest = n;
+    placed.distance = distance_from(set, assembly.nodes[placed.nearest]);
     const double size = size_around(assembly, placed.nearest);
     const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(), [&](const scene::Contact& contact) {
       return contact.close_gap &&

@@ -1,9 +1,13 @@
 #include "model/sets/point_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
 namespace railwave {
+
+std::string text_of(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
 
 // Each range of `order_` is a tree: its middle is the root, what lies before it along the axis stands to its left.
 NearestPoint::NearestPoint(std::vector<Vec3> points) : points_(std::move(points)), order_(points_.size()) {

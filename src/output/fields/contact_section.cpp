@@ -5,9 +5,6 @@
 namespace railwave {
 namespace {
 
-constexpr hdf5::Storage each_time{1, true};
-constexpr hdf5::Storage times_in_block{1024, false};
-
 void append(hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t expected) {
   if (values.size() != expected) throw std::logic_error("a contact state has arrays of another length than its nodes");
   dataset.append(values.data(), 1);

@@ -6,9 +6,6 @@
 namespace railwave {
 namespace {
 
-constexpr hdf5::Storage each_time{1, true};
-constexpr hdf5::Storage times_in_block{1024, false};
-
 void append(hdf5::Dataset& dataset, const HostField& field, std::size_t entries, int components,
             const std::string& name) {
   if (field.components != components || field.values.size() != entries * components)

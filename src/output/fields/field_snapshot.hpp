@@ -7,9 +7,14 @@
 
 #include "case/field_table.hpp"
 #include "model/fields.hpp"
+#include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
 
 namespace railwave {
+
+/// How datasets lie that grow by a row at each output of fields: large rows one by one, the times many together.
+inline constexpr hdf5::Storage each_time{1, true};
+inline constexpr hdf5::Storage times_in_block{1024, false};
 
 /// Where the results file gets its fields from: the running model, or in a test a made-up one. All at one instant.
 class FieldSource {

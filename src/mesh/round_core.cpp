@@ -6,7 +6,6 @@
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner
 /// is as flat as it would be at either.
 constexpr double bulge = 0.4;
@@ -17,7 +16,7 @@ RoundPoint on_disc(double u, double v, double radius) {
   const bool along_x = std::fabs(u) >= std::fabs(v);
   const double far = along_x ? u : v, near = along_x ? v : u;
   if (far == 0) return {0, 0};
-  const double angle = pi / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
+  const double angle = M_PI / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
   return along_x ? RoundPoint{a, b} : RoundPoint{b, a};
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/contact/laws/growing_penalty.hpp"
 #include "kernels/nodes/nodes.hpp"
 
 namespace railwave {
@@ -109,5 +110,12 @@ KOKKOS_INLINE_FUNCTION double segment_shape(int corner, double xi, double eta) {
   const double sign_eta = corner >= 2 ? 1.0 : -1.0;
   return 0.25 * (1.0 + sign_xi * xi) * (1.0 + sign_eta * eta);
 }
+
+/// What a pair keeps for its law.
+struct ContactLawArrays {
+  int number = 0;                       ///< of the law among `ContactLaws`, see src/model/contact/contact_law.hpp
+  Array<PenaltyGrowth::Point*> growth;  ///< empty without
+  Array<double*> state;                 ///< the law's state, value by value, each by slave node
+};
 
 }  // namespace railwave

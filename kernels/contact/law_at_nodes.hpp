@@ -1,16 +1,8 @@
 #pragma once
 
 #include "kernels/contact/contact_normals.hpp"
-#include "kernels/contact/laws/growing_penalty.hpp"
 
 namespace railwave {
-
-/// What a pair keeps for its law.
-struct ContactLawArrays {
-  int number = 0;                       ///< of the law among `ContactLaws`, see src/model/contact/contact_law.hpp
-  Array<PenaltyGrowth::Point*> growth;  ///< empty without
-  Array<double*> state;                 ///< the law's state, value by value, each by slave node
-};
 
 /// What a law keeps of one node, while the law works on it.
 template <class Law>

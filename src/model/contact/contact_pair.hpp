@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/contact/contact_normals.hpp"
-#include "kernels/contact/law_at_nodes.hpp"
+#include "kernels/contact/contact_arrays.hpp"
 #include "kernels/contact/multiplier_arrays.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/assembly.hpp"

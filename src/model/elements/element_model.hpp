@@ -6,7 +6,7 @@
 
 #include "case/scene.hpp"
 #include "kernels/elements/damping_arrays.hpp"
-#include "kernels/elements/element_force.hpp"
+#include "kernels/elements/element_blocks.hpp"
 #include "kernels/materials/material.hpp"
 #include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reduction_space.hpp"

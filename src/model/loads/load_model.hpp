@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/loads/set_loads.hpp"
+#include "kernels/loads/connector.hpp"
+#include "kernels/loads/torque.hpp"
+#include "kernels/nodes/extra_force.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/loads/connector_cells.hpp"
 

@@ -6,7 +6,7 @@
 
 /// The loop as most programs have it, to compare with: one element at a time, nodal forces summed by atomics, stress
 /// stored and advanced by its Jaumann rate, viscous hourglass control; rows of three numbers a node (on a host). Shares
-/// no code with kernels/. Flanagan & Belytschko 1981; thesis eqs. 2.8 to 2.12, 2.22.
+/// no code with kernels/. Flanagan and Belytschko 1981; thesis eqs. 2.8 to 2.12, 2.22.
 namespace railwave::bench {
 
 struct Baseline {

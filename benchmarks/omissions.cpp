@@ -104,7 +104,7 @@ void time_accounts(const Options& options, Prepared& whole, long steps, Records&
     const Timing timing = repeat(options.repetitions, [&] {
       for (long r = 0; r < rounds; ++r) {
         whole.loop->steps(every - 1);
-        whole.loop->watched_step([&] { take_sample(whole.model, whole.model.step_size); });
+        whole.loop->sampled_step([&] { take_sample(whole.model, whole.model.step_size); });
       }
     });
     const double step = timing.best() / static_cast<double>(rounds * every);

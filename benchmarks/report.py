@@ -148,23 +148,23 @@ def claims(files):
 
 def throughput(files):
     text = [
-        "## Loop throughput, bytes moved and stages\n\nBytes: every array that a kernel reads once in, every array that"
+        "## Loop throughput, bytes moved and tasks\n\nBytes: every array that a kernel reads once in, every array that"
         " it writes once out (an ideal cache; `benchmarks/common/traffic.hpp`). Share: of the triad's bandwidth in the"
-        " same run. Stages are timed apart with a fence after each.\n"
+        " same run. Tasks are timed apart with a fence after each.\n"
     ]
     head = [
         "what", "M element-steps/s", "times baseline", "bytes an element-step", "share of triad",
-        "bytes held an element", "spread", "stages, us a step",
+        "bytes held an element", "spread", "tasks, us a step",
     ]
     for f in files:
         rows = []
         for what in ("baseline", "loop"):
             for row in f.select(what=what):
                 kind = {key: row[key] for key in ("material", "hourglass", "precision")}
-                stages = f.select(what="stage", **kind) if what == "loop" else []
+                tasks = f.select(what="task", **kind) if what == "loop" else []
                 parts = ", ".join(
-                    f"{s['stage'].split(' of ')[0]} {shown(number(s, 'seconds_per_step'), '{:.0f}', 1e6)}"
-                    for s in stages
+                    f"{s['task'].split(' of ')[0]} {shown(number(s, 'seconds_per_step'), '{:.0f}', 1e6)}"
+                    for s in tasks
                 )
                 rows.append(
                     [
@@ -219,7 +219,7 @@ def rolling(files):
         " torque, gravity; energy account and histories at the outputs. *Of the block* is the rate over that of a block"
         " of as many elements.\n"
     ]
-    rows, stage_rows = [], []
+    rows, task_rows = [], []
     for f in files:
         model = (f.select(what="model") or [{}])[0]
         block = f.select(what="block, viscous")
@@ -232,11 +232,11 @@ def rolling(files):
             rows.append([f.name, f.back_end, model.get("precision", ""), row["what"], row["elements"],
                          shown(number(row, "seconds_per_step"), "{:.1f}", 1e6), shown(rate, "{:.2f}", 1e-6),
                          shown(rate / block_rate) if block_rate else "", touching, spread(row)])
-        stages = f.select(what="stage")
-        whole = sum(number(s, "seconds_per_step") for s in stages)
-        for s in stages:
+        tasks = f.select(what="task")
+        whole = sum(number(s, "seconds_per_step") for s in tasks)
+        for s in tasks:
             share = number(s, "seconds_per_step")
-            stage_rows.append([f.name, s["stage"], shown(share, "{:.1f}", 1e6), shown(share / whole, "{:.1f} %", 100)])
+            task_rows.append([f.name, s["task"], shown(share, "{:.1f}", 1e6), shown(share / whole, "{:.1f} %", 100)])
         text.append(f"- {f.name}: `{model.get('overrides', '').strip() or 'as it is'}`")
     text.append(
         "\n"
@@ -248,7 +248,7 @@ def rolling(files):
             rows,
         )
     )
-    text.append(table(["file", "stage, with a fence after it", "us a step", "share"], stage_rows))
+    text.append(table(["file", "task, with a fence after it", "us a step", "share"], task_rows))
     return "\n".join(text)
 
 

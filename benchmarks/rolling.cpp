@@ -1,5 +1,5 @@
 // The rolling scene in any size: microseconds a step with history every so many steps, the same without any output, and
-// the stages of a step one by one; beside a block of as many elements.
+// the tasks of a step one by one; beside a block of as many elements.
 
 #include <iostream>
 #include <memory>
@@ -25,7 +25,7 @@ struct Options {
 };
 
 /// What a run tells at each output, kept small; the loop works for it as for any other observer.
-struct Watcher : RunObserver {
+struct Observer : RunObserver {
   int samples = 0, touching = 0;
   Vec3 force{};
   void history(const Model& /*model*/, const HistorySample& sample) override {
@@ -37,7 +37,7 @@ struct Watcher : RunObserver {
   }
 };
 
-void tell(Records& records, const std::string& what, double elements, long steps, const Timing& timing) {
+void report(Records& records, const std::string& what, double elements, long steps, const Timing& timing) {
   const double step = timing.best() / static_cast<double>(steps);
   fmt::print("{:28} {:10.2f} us a step, {:9.2f} M element-steps/s, spread {:.1f} %\n", what, 1e6 * step,
              1e-6 * elements / step, 100 * timing.spread());
@@ -52,12 +52,12 @@ void tell(Records& records, const std::string& what, double elements, long steps
       .set("spread", timing.spread());
 }
 
-Timing time_run(Model& model, const Options& options, Watcher& watcher) {
+Timing time_run(Model& model, const Options& options, Observer& observer) {
   model.output_times.history = static_cast<double>(options.output_every) * model.step_size;
   model.output_times.fields = model.scene.time.end;
   const auto run_on = [&](long steps) {
     model.step_count = model.step + steps;
-    const RunSummary summary = run(model, {&watcher});
+    const RunSummary summary = run(model, {&observer});
     if (!summary.completed) throw std::runtime_error(summary.reason);
     // A second call goes on from here: nothing is set in motion again.
     model.scene.settle.active = false;
@@ -77,7 +77,7 @@ void time_block(const Options& options, long elements, Records& records) {
   stir(model);
   Loop loop(model);
   const Timing timing = repeat(options.repetitions, [&] { loop.steps(options.steps); });
-  tell(records, "block, viscous", static_cast<double>(model.element_count()), options.steps, timing);
+  report(records, "block, viscous", static_cast<double>(model.element_count()), options.steps, timing);
 }
 
 bool work(const Options& options, Records& records) {
@@ -114,29 +114,29 @@ bool work(const Options& options, Records& records) {
       .set("precision", options.precision)
       .set("overrides", written);
 
-  Watcher watcher;
-  const Timing whole = time_run(*model, options, watcher);
-  tell(records, fmt::format("run, output every {}", options.output_every), elements, options.steps, whole);
-  fmt::print("{:28} {} nodes touch, {:.1f} kN\n", "contact at the end", watcher.touching, 1e-3 * watcher.force[2]);
-  records.add().set("what", "contact at the end").set("touching", watcher.touching).set("force_z", watcher.force[2]);
+  Observer observer;
+  const Timing whole = time_run(*model, options, observer);
+  report(records, fmt::format("run, output every {}", options.output_every), elements, options.steps, whole);
+  fmt::print("{:28} {} nodes touch, {:.1f} kN\n", "contact at the end", observer.touching, 1e-3 * observer.force[2]);
+  records.add().set("what", "contact at the end").set("touching", observer.touching).set("force_z", observer.force[2]);
 
   Loop loop(*model);
   const Timing bare = repeat(options.repetitions, [&] { loop.steps(options.steps); });
-  tell(records, "loop, no output", elements, options.steps, bare);
+  report(records, "loop, no output", elements, options.steps, bare);
   double sum = 0;
-  const auto stages = loop.task_seconds(std::min(options.steps, 500L));
-  for (const auto& entry : stages) sum += entry.second;
-  fmt::print("stages, each with a fence after it, {:.2f} us in all:\n", 1e6 * sum);
-  for (const auto& [stage, seconds] : stages) {
-    fmt::print("  {:10.2f} us  {:4.1f} %  {}\n", 1e6 * seconds, 100 * seconds / sum, stage);
-    records.add().set("what", "stage").set("stage", stage).set("elements", elements).set("seconds_per_step", seconds);
+  const auto tasks = loop.task_seconds(std::min(options.steps, 500L));
+  for (const auto& entry : tasks) sum += entry.second;
+  fmt::print("tasks, each with a fence after it, {:.2f} us in all:\n", 1e6 * sum);
+  for (const auto& [task, seconds] : tasks) {
+    fmt::print("  {:10.2f} us  {:4.1f} %  {}\n", 1e6 * seconds, 100 * seconds / sum, task);
+    records.add().set("what", "task").set("task", task).set("elements", elements).set("seconds_per_step", seconds);
   }
   const double account = repeat(options.repetitions, [&] { take_sample(*model, model->step_size); }).best();
   fmt::print("  {:10.2f} us  energy account and histories of one output\n", 1e6 * account);
   records.add().set("what", "account").set("elements", elements).set("seconds_per_step", account);
 
   const long count = model->element_count();
-  const bool touched = watcher.touching > 0 && std::isfinite(watcher.force[2]) && watcher.samples > 0;
+  const bool touched = observer.touching > 0 && std::isfinite(observer.force[2]) && observer.samples > 0;
   model.reset();
   if (options.block) time_block(options, count, records);
   return touched;

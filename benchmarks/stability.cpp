@@ -56,7 +56,7 @@ struct Named {
   std::string precision;
 };
 
-void lay_positions(Model& model, const std::vector<double>& positions) {
+void set_positions(Model& model, const std::vector<double>& positions) {
   if (positions.empty()) return;
   const auto position = to_host(model.nodes.position);
   for (int n = 0; n < model.nodes.count; ++n)
@@ -219,7 +219,7 @@ void contacts(Map& map) {
             const Setup setup = pressed(pressing, control, scale, pressure, precision);
             Model model;
             build_model(setup.scene, setup.assembly, model);
-            lay_positions(model, known.positions);
+            set_positions(model, known.positions);
             map.add(named, model, known);
           } catch (const InputError&) {
           }

@@ -85,11 +85,11 @@ void time_loop(Run& run, const Choice& choice) {
   auto& row = report(run, "loop", choice, elements, steps, timing, step_traffic(*model));
   row.set("device_bytes_per_element", static_cast<double>(device_bytes(*model)) / elements);
 
-  for (const auto& [stage, seconds] : loop.task_seconds(std::max(1L, steps))) {
-    fmt::print("          {:8.1f} us  {}\n", 1e6 * seconds, stage);
+  for (const auto& [task, seconds] : loop.task_seconds(std::max(1L, steps))) {
+    fmt::print("          {:8.1f} us  {}\n", 1e6 * seconds, task);
     run.records.add()
-        .set("what", "stage")
-        .set("stage", stage)
+        .set("what", "task")
+        .set("task", task)
         .set("material", choice.material)
         .set("hourglass", choice.hourglass)
         .set("precision", choice.precision)

@@ -8,7 +8,6 @@
 #include "case/error.hpp"
 #include "case/read_case.hpp"
 #include "case/reference.hpp"
-#include "case/results_place.hpp"
 #include "commands/check.hpp"
 #include "commands/command_line.hpp"
 #include "commands/process.hpp"
@@ -48,22 +47,23 @@ struct Arguments {
 };
 
 /// Reads the case and tells at once what is odd about it: what follows may take minutes.
-scene::Scene read_told(const Arguments& arguments) {
+scene::Scene read_and_warn(const Arguments& arguments) {
   std::vector<std::string> warnings;
   scene::Scene scene = read_case(arguments.case_file, arguments.overrides, &warnings);
-  tell("warning", warnings, std::cout);
+  report("warning", warnings, std::cout);
   return scene;
 }
 
 int run_case(const Arguments& arguments) {
   const auto began = std::chrono::steady_clock::now();
   PatienceTimer patience;
-  const scene::Scene scene = read_told(arguments);
+  const scene::Scene scene = read_and_warn(arguments);
   const RunFiles files{arguments.restart, arguments.overwrite};
   if (arguments.restart) {  // before anything is held that the child would let go
     check_run_places(scene, files);
     const std::string& file = scene.output.file;
-    if (const auto code = after_look_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
+    if (const auto code =
+            after_reading_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
       return *code;
   }
   const HeldPlaces places(scene, files);
@@ -71,10 +71,10 @@ int run_case(const Arguments& arguments) {
   Model model;
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
-  tell("note", notes, std::cout);
+  report("note", notes, std::cout);
   check_run_places(scene, files);  // again, now that meshes have read what they include
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);
-  results.check_room(model, model);
+  results.check_disk_space(model, model);
   const CheckpointFile checkpoint(checkpoint_path(scene), checkpoint_key(model, RAILWAVE_VERSION));
   results.keep_checkpoints(checkpoint, arguments.keep_state);
   RunKeeping keeping;
@@ -97,7 +97,7 @@ int run_case(const Arguments& arguments) {
         1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   patience.stop();
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
-  tell_next_steps(scene, summary.completed, std::cout);
+  report_next_steps(scene, summary.completed, std::cout);
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
   return was_signalled() ? interrupted : run_ended_early;
@@ -105,30 +105,30 @@ int run_case(const Arguments& arguments) {
 
 int check_case(const Arguments& arguments) {
   const PatienceTimer patience;
-  const scene::Scene scene = read_told(arguments);
+  const scene::Scene scene = read_and_warn(arguments);
   check_run_places(scene, {});
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
-  tell("note", notes, std::cout);
+  report("note", notes, std::cout);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
-  results.check_room(model, model);
+  results.check_disk_space(model, model);
   describe_run(model, std::cout);
-  tell_what_gets_lost(scene, std::cout);
+  report_what_gets_lost(scene, std::cout);
   return done;
 }
 
 int write_mesh(const Arguments& arguments) {
   const PatienceTimer patience;
-  const scene::Scene scene = read_told(arguments);
+  const scene::Scene scene = read_and_warn(arguments);
   const std::string path = arguments.mesh_file.value_or(default_results_folder(scene.path) + "/mesh.h5");
   check_model_places(scene, path, arguments.overwrite);
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
-  tell("note", notes, std::cout);
+  report("note", notes, std::cout);
   const Activity writing("writing " + path);
   make_own_folder(scene, path);
   write_model_file(model, model.absorbing, model.connectors.cells, path);
@@ -143,7 +143,7 @@ int write_mesh(const Arguments& arguments) {
 
 int find_modes(const Arguments& arguments) {
   const PatienceTimer patience;
-  const scene::Scene scene = read_told(arguments);
+  const scene::Scene scene = read_and_warn(arguments);
   const KokkosScope kokkos;
   return modes_command(scene, arguments.modes, std::cout);
 }

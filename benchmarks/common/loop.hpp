@@ -24,10 +24,10 @@ class Loop {
   }
 
   /// A step that is sampled when the forces are known.
-  template <class Look>
-  void watched_step(const Look& look) {
+  template <class Observe>
+  void sampled_step(const Observe& observe) {
     forces();
-    look();
+    observe();
     finish();
   }
 

@@ -15,29 +15,29 @@ double bytes_of(const View& view) {
 /// theirs alone; the others' partial forces go out and come in again. Loads and contact are left out.
 inline double step_traffic(const Model& model) {
   const NodeArrays& n = model.nodes;
-  const bool carried = model.carried.active();
-  double bytes = carried ? bytes_of(model.carried.node) : bytes_of(n.position) + bytes_of(n.reference);
+  const bool relative = model.relative.active();
+  double bytes = relative ? bytes_of(model.relative.node) : bytes_of(n.position) + bytes_of(n.reference);
   bool velocities = false;
   for (const ElementGroup& group : model.elements) {
     const ElementBlocks& p = group.blocks;
     bytes += bytes_of(p.element_count) + bytes_of(p.node_count) + bytes_of(p.material) + bytes_of(p.node) +
              bytes_of(p.frame) + bytes_of(p.corner) + bytes_of(p.first_place) + bytes_of(p.place) +
              bytes_of(p.hourglass_scale);
-    if (carried) bytes += bytes_of(group.carried.local) + bytes_of(group.carried.arm) - bytes_of(p.frame);
+    if (relative) bytes += bytes_of(group.relative.local) + bytes_of(group.relative.arm) - bytes_of(p.frame);
     if (group.hourglass == scene::HourglassType::viscous) {
       bytes += 2 * bytes_of(p.hourglass_energy);
       velocities = true;
     }
   }
-  if (velocities && !carried) bytes += bytes_of(n.velocity);
+  if (velocities && !relative) bytes += bytes_of(n.velocity);
   const double nodes = n.count, listed = static_cast<double>(model.shared_nodes.extent(0)), alone = nodes - listed;
   const double rows = static_cast<double>(n.partial_place.extent(0)), listed_rows = rows - alone;
   const double row_bytes = (bytes_of(model.partial.in_double) + bytes_of(model.partial.in_single)) / rows;
   const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;
   bytes += listed_rows * 2 * row_bytes;  // partial forces out and in
-  if (carried)
-    return bytes + alone * sizeof(CarriedNode) +
-           listed * (2 * sizeof(CarriedNode) + sizeof(SharedNode) + sizeof(CarriedArm));
+  if (relative)
+    return bytes + alone * sizeof(RelativeNode) +
+           listed * (2 * sizeof(RelativeNode) + sizeof(SharedNode) + sizeof(FrameArm));
   bytes += alone * (state + mass);  // velocities and positions are written, the mass read
   bytes += listed * (2 * state + mass + sizeof(SharedNode));
   return bytes;

@@ -55,7 +55,7 @@ inline double calm(Model& model, double step, double enough, int most_steps) {
   for (int k = 0; k < most_steps; k += between) {
     loop.steps(between - 1);
     double now = 0;
-    loop.watched_step([&] {
+    loop.sampled_step([&] {
       now = motion(model);
       peak = std::fmax(peak, fastest(model));
     });
@@ -78,22 +78,22 @@ class Trial {
  public:
   static constexpr double shake_size = 1e-3;  ///< m/s
   static constexpr double growth = 300;  ///< of the fastest node's speed, 90000 of its energy, which counts as blown up
-  static constexpr long between_looks = 50;
+  static constexpr long between_checks = 50;
 
   explicit Trial(Model& model) : model_(model) {
     shake(model, shake_size);
-    take_model_state(model, start_);
+    save_model_state(model, start_);
   }
 
   bool blows_up(double step, long steps) {
-    lay_model_state(model_, start_);
+    restore_model_state(model_, start_);
     model_.step_size = step;
     ++runs;
     Loop loop(model_);
-    for (long k = 0; k < steps; k += between_looks) {
-      loop.steps(between_looks - 1);
+    for (long k = 0; k < steps; k += between_checks) {
+      loop.steps(between_checks - 1);
       double now = 0;
-      loop.watched_step([&] { now = fastest(model_); });
+      loop.sampled_step([&] { now = fastest(model_); });
       if (!(now < growth * shake_size)) return true;
     }
     return false;
@@ -101,7 +101,7 @@ class Trial {
 
   /// Back to the state before the shake.
   void reset() {
-    lay_model_state(model_, start_);
+    restore_model_state(model_, start_);
     Kokkos::deep_copy(model_.nodes.velocity, 0.0);
   }
 

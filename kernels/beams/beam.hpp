@@ -9,7 +9,7 @@ namespace railwave {
 /// rotations Q_a, Q_b and places x_a, x_b, with Q the rotation half-way between,
 ///   stretch and shears  Gamma = Q^T (x_b - x_a) / L - e_1,   twist and curvatures  kappa = log(Q_a^T Q_b) / L,
 /// and the energy L/2 (Gamma . C_N Gamma + kappa . C_M kappa), whose derivatives are the forces and moments: without
-/// history, free of stress in any rigid motion, energy and both momenta kept. See Simo & Vu-Quoc 1986, Crisfield &
+/// history, free of stress in any rigid motion, energy and both momenta kept. See Simo and Vu-Quoc 1986, Crisfield and
 /// Jelenic 1999. The shear stiffnesses hold the bending inside an element (MacNeal 1978), so that one element bends as
 /// exactly as many.
 struct BeamArrays {

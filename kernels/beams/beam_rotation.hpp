@@ -31,7 +31,8 @@ struct BeamNodeMoment {
   }
 };
 
-/// Central difference of the rotations, as of the places: spins half a step ahead, then the exponential map.
+/// Central difference of the rotations, as of the places: spins half a step ahead, then the exponential map (Simo and
+/// Vu-Quoc 1986).
 struct BeamRotationUpdate {
   BeamNodeMoment node;
   double velocity_step;  ///< s: half a step at the first one

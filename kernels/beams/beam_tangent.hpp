@@ -25,19 +25,19 @@ struct BeamTangent {
       Vector3 unit = none;
       unit[i] = 1;
       const BeamEnds of_force = beam_ends(beams, e, m, unit, none), of_moment = beam_ends(beams, e, m, none, unit);
-      lay(e, i, of_force.force, of_force.moment[0], of_force.moment[1]);
-      lay(e, 3 + i, none, of_moment.moment[0], of_moment.moment[1]);
+      store(e, i, of_force.force, of_force.moment[0], of_force.moment[1]);
+      store(e, 3 + i, none, of_moment.moment[0], of_moment.moment[1]);
       const bool constant = i == 0 && held && beams.tightened(e) == BeamArrays::holding;
       stiffness(e, i) = constant ? 0.0 : inverse * beams.stiffness(e, i);
       stiffness(e, 3 + i) = inverse * beams.bending(e, i);
       if (i == 0) continue;
-      lay(e, 5 + i, of_force.force, none, none);
+      store(e, 5 + i, of_force.force, none, none);
       stiffness(e, 5 + i) = inverse * std::fmax(m.force[0], 0.0);
     }
   }
 
-  KOKKOS_INLINE_FUNCTION void lay(int e, int s, const Vector3& force, const Vector3& first,
-                                  const Vector3& second) const {
+  KOKKOS_INLINE_FUNCTION void store(int e, int s, const Vector3& force, const Vector3& first,
+                                    const Vector3& second) const {
     for (int k = 0; k < 3; ++k) {
       share(e, s, 0, k) = force[k];
       share(e, s, 1, k) = -force[k];

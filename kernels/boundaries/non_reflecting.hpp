@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/nodes/paced_nodes.hpp"
+#include "kernels/nodes/subcycled_nodes.hpp"
 
-/// Non-reflecting ends: the traction -rho C_d v_n n - rho C_s v_t of Lysmer & Kuhlemeyer (1969) on a surface's faces,
+/// Non-reflecting ends: the traction -rho C_d v_n n - rho C_s v_t of Lysmer and Kuhlemeyer 1969 on a surface's faces,
 /// lumped at their nodes.
 namespace railwave {
 
@@ -34,15 +34,15 @@ KOKKOS_INLINE_FUNCTION Vector3 symmetric_solve(const double (&a)[6], const Vecto
 /// on the stable step, and what they dissipate, v_n . C v_n, is never negative.
 struct NonReflectingForce {
   NonReflectingArrays ends;
-  PacedAcceleration acceleration;
+  SubcycledAcceleration acceleration;
   double lag;      ///< s from the velocities' instant to this one, half a step; 0 at a run's first
   double elapsed;  ///< s since the instant before; 0 at the first
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
-    const int n = ends.nodes(i), r = nodes.extra(n), pace = acceleration.paces.pace(n);
-    if (acceleration.paces.level.extent(0) != 0 && acceleration.paces.level(n) > acceleration.phase) return;
-    const double mass = nodes.mass(n), half = pace * lag;
+    const int n = ends.nodes(i), r = nodes.external_row(n), steps = acceleration.levels.steps(n);
+    if (acceleration.levels.level.extent(0) != 0 && acceleration.levels.level(n) > acceleration.phase) return;
+    const double mass = nodes.mass(n), half = steps * lag;
     const Vector3 v = row(nodes.velocity, n), support = row(ends.support, i);
     double dashpot[6], matrix[6];
     for (int k = 0; k < 6; ++k) {
@@ -53,10 +53,10 @@ struct NonReflectingForce {
     const Vector3 a = symmetric_solve(matrix, others - symmetric_product(dashpot, v));
     const Vector3 now = -1.0 * symmetric_product(dashpot, v + half * a);
     // The trapezoidal rule, as of all loads: the account's kinetic energy changes by just that.
-    ends.dissipated(i) -= 0.5 * pace * elapsed * dot(row(ends.force, i) + now, v);
+    ends.dissipated(i) -= 0.5 * steps * elapsed * dot(row(ends.force, i) + now, v);
     for (int k = 0; k < 3; ++k) {
       ends.force(i, k) = now[k];
-      acceleration.plain.force.extra.load(r, k) += now[k] + support[k];
+      acceleration.plain.force.external.load(r, k) += now[k] + support[k];
     }
   }
 };

@@ -29,14 +29,15 @@ struct alignas(16) MouthCorner {
 };
 
 /// Boxes around the master's segments, by which those near a place are found: leaves of eight segments, branches of
-/// sixteen leaves, in an order in which neighbours are near each other. They hold until the next look.
+/// sixteen leaves, in an order in which neighbours are near each other. They hold until the next check.
 struct SegmentBoxes {
   static constexpr int leaf_size = 8, branch_size = 16;
   Array<int*> order;           ///< of the segments
   Array<double* [6]> segment;  ///< m, the least of x, y, z, then the largest; by place in the order
   Array<double* [6]> leaf;
   Array<double* [6]> branch;
-  Array<double* [3]> normal;  ///< outward unit normals of the segments' middles at the last look; by place in the order
+  Array<double* [3]>
+      normal;  ///< outward unit normals of the segments' middles at the last check; by place in the order
 
   KOKKOS_INLINE_FUNCTION int segment_count() const { return static_cast<int>(segment.extent(0)); }
   KOKKOS_INLINE_FUNCTION int leaf_count() const { return static_cast<int>(leaf.extent(0)); }
@@ -67,7 +68,7 @@ struct ContactArrays {
   Array<int*> tracked;                  ///< segment that the node was last seen over, touched or not; -1: none yet
   Array<double* [2]> place;             ///< xi, eta on the tracked segment
   Array<int*> status;                   ///< 0: apart, 1: sticks, 2: slips
-  Array<double*> gap;                   ///< m, negative: penetration; as old as the last look where the node is far;
+  Array<double*> gap;                   ///< m, negative: penetration; as old as the last check where the node is far;
                                         ///< beside_surface, turned_away
   Array<double*> entry_depth;           ///< m: how deep the node was when it came in beside an open surface; its gap
                                         ///< counts from there
@@ -80,12 +81,13 @@ struct ContactArrays {
 struct alignas(16) WindowEntry {
   int slave;  ///< position among the pair's slave nodes
   int node;   ///< model node number
-  int near;   ///< near_one_sheet, near_several_sheets: it can touch until the next look, and is projected at each step;
-              ///< 0: far
+  int near;  ///< near_one_sheet, near_several_sheets: it can touch until the next check, and is projected at each step;
+             ///< 0: far
   int unused;
 };
 
-/// Which slave nodes can touch until the window is laid out anew, ascending, and which of them can until the next look.
+/// Which slave nodes can touch until the window is laid out anew, ascending, and which of them can until the next
+/// check.
 struct ContactWindow {
   int count = 0;
   Array<WindowEntry*> entries;

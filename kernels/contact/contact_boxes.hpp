@@ -4,12 +4,12 @@
 
 namespace railwave {
 
-/// Box around a segment: where it is and can be until the next look, at its present speed and a quarter more, and
+/// Box around a segment: where it is and can be until the next check, at its present speed and a quarter more, and
 /// `sudden` for what waves and loads can add; and how far beside it a node still counts as over it.
 struct BoxSegments {
   ContactProjection surface;
   Array<const double* [3]> velocity;
-  double interval;  ///< s until the next look
+  double interval;  ///< s until the next check
   double sudden;    ///< m
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
@@ -57,9 +57,9 @@ struct BoxBoxes {
   }
 };
 
-/// @param interval s, @param sudden m, until the next look
-inline void lay_boxes(const ContactProjection& surface, const Array<const double* [3]>& velocity, double interval,
-                      double sudden) {
+/// @param interval s, @param sudden m, until the next check
+inline void update_boxes(const ContactProjection& surface, const Array<const double* [3]>& velocity, double interval,
+                         double sudden) {
   const SegmentBoxes& boxes = surface.contact.boxes;
   Kokkos::parallel_for("segment_boxes", SpreadRange(0, boxes.segment_count()),
                        BoxSegments{surface, velocity, interval, sudden});

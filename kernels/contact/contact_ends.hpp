@@ -14,7 +14,7 @@ struct ContactEndArrays {
                                  ///< that is coarse, 3 both
   Array<const int*> first_around;  ///< slave_count + 1
   Array<const int*> around;        ///< slaves that share a facet with a slave
-  Array<int*> touched;  ///< by slave: bit 0 where it touches at this glance, bit 1 where it did at the one before
+  Array<int*> touched;  ///< by slave: bit 0 where it touches at this check, bit 1 where it did at the one before
 };
 
 /// The way over a surface's facets from a facet to where a place is. On the device, or on the host with mirrors of the
@@ -91,7 +91,7 @@ struct ContactEndForces {
   }
 };
 
-/// Of a contact that has opened: slave nodes that touched at the last glance, and how many of these are beyond an end
+/// Of a contact that has opened: slave nodes that touched at the last check, and how many of these are beyond an end
 /// of the master now.
 struct ContactEndLosses {
   static constexpr int values = 2;

@@ -4,20 +4,20 @@
 #include "kernels/contact/contact_track.hpp"
 #include "kernels/contact/law_at_nodes.hpp"
 #include "kernels/contact/laws/linear_penalty.hpp"
-#include "kernels/nodes/extra_force.hpp"
+#include "kernels/nodes/external_force.hpp"
 
 namespace railwave {
 
 /// Takes reactions from the master's nodes.
 struct MasterReaction {
   ContactProjection surface;
-  ExtraForceSum extra;
-  Array<const int*> extra_row;  ///< by model node
+  ExternalForceSum external;
+  Array<const int*> external_row;  ///< by model node
 
   /// At a mouth's corner both lips have a share. Equal and opposite to the last bit: this lip takes what the other
   /// leaves.
   KOKKOS_INLINE_FUNCTION void subtract(int corner, const FixedForce& reaction) const {
-    if (corner >= 0) return extra.subtract(extra_row(corner), reaction);
+    if (corner >= 0) return external.subtract(external_row(corner), reaction);
     const MouthCorner mouth = surface.contact.mouth_corners(-1 - corner);
     double share[MouthCorner::pieces];
     surface.shares_of(mouth, share);
@@ -25,11 +25,11 @@ struct MasterReaction {
                           static_cast<double>(reaction.quanta[2])}};
     FixedForce left = reaction;
     for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
-      const FixedForce part = extra.fixed(share[piece] * quanta);
+      const FixedForce part = external.fixed(share[piece] * quanta);
       for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
-      extra.subtract(extra_row(mouth.node[piece]), part);
+      external.subtract(external_row(mouth.node[piece]), part);
     }
-    extra.subtract(extra_row(mouth.node[0]), left);
+    external.subtract(external_row(mouth.node[0]), left);
   }
 };
 
@@ -42,15 +42,15 @@ struct CurvedReaction : MasterReaction {
       : MasterReaction(reaction), segment(of), force(on_slave) {}
 
   KOKKOS_INLINE_FUNCTION void corners(const Vector3 (&share)[4]) const {
-    FixedForce left = extra.fixed(extra.in_quanta(force));
+    FixedForce left = external.fixed(external.in_quanta(force));
     for (int k = 0; k < 4; ++k) {
-      const FixedForce part = k < 3 ? extra.fixed(extra.in_quanta(share[k])) : left;
+      const FixedForce part = k < 3 ? external.fixed(external.in_quanta(share[k])) : left;
       for (int c = 0; c < 3; ++c) left.quanta[c] -= part.quanta[c];
       subtract(segment.node[k], part);
     }
   }
   KOKKOS_INLINE_FUNCTION void pair(int plus, int minus, const Vector3& share) const {
-    const FixedForce part = extra.fixed(extra.in_quanta(share));
+    const FixedForce part = external.fixed(external.in_quanta(share));
     subtract(plus, part);
     subtract(minus, {{-part.quanta[0], -part.quanta[1], -part.quanta[2]}});
   }
@@ -67,8 +67,8 @@ template <bool Friction, class Law = LinearPenalty, class Normals = FacetNormals
 struct ContactForce {
   ContactSearch search;
   ContactWindow window;
-  ExtraForceSum extra;
-  Array<const int*> extra_row;  ///< by model node
+  ExternalForceSum external;
+  Array<const int*> external_row;  ///< by model node
   FirstTouch first_touch;
   LawAtNodes<Law, Normals> law;
 
@@ -165,34 +165,34 @@ struct ContactForce {
   /// first addition, for no load moves past an atomic operation and each would wait for memory by itself.
   KOKKOS_INLINE_FUNCTION void scatter(int node, const Segment& segment, const Projection& now,
                                       const Vector3& force) const {
-    const int slave_row = extra_row(node);
+    const int slave_row = external_row(node);
     int master_row[4];
     bool at_mouth = false;
     for (int k = 0; k < 4; ++k) {
       at_mouth = at_mouth || segment.node[k] < 0;
-      master_row[k] = segment.node[k] < 0 ? -1 : extra_row(segment.node[k]);
+      master_row[k] = segment.node[k] < 0 ? -1 : external_row(segment.node[k]);
     }
-    const Vector3 quanta = extra.in_quanta(force);
-    const FixedForce whole = extra.fixed(quanta);
+    const Vector3 quanta = external.in_quanta(force);
+    const FixedForce whole = external.fixed(quanta);
     FixedForce reaction[4], left = whole;
     for (int k = 0; k < 4; ++k) {
-      reaction[k] = k < 3 ? extra.fixed(segment_shape(k, now.place.xi, now.place.eta) * quanta) : left;
+      reaction[k] = k < 3 ? external.fixed(segment_shape(k, now.place.xi, now.place.eta) * quanta) : left;
       for (int c = 0; c < 3; ++c) left.quanta[c] -= reaction[k].quanta[c];
     }
-    extra.add(slave_row, whole);
+    external.add(slave_row, whole);
     for (int k = 0; k < 4; ++k)
-      if (master_row[k] >= 0) extra.subtract(master_row[k], reaction[k]);
+      if (master_row[k] >= 0) external.subtract(master_row[k], reaction[k]);
     if (at_mouth)
       for (int k = 0; k < 4; ++k)
-        if (segment.node[k] < 0) MasterReaction{search, extra, extra_row}.subtract(segment.node[k], reaction[k]);
+        if (segment.node[k] < 0) MasterReaction{search, external, external_row}.subtract(segment.node[k], reaction[k]);
   }
 
   /// The same on a curved master, where nodes around the segment feel the force too.
   KOKKOS_INLINE_FUNCTION void scatter_curved(int node, const Projection& now, const Vector3& force) const {
     const Segment segment = search.contact.surface(now.segment);
-    extra.add(extra_row(node), extra.fixed(extra.in_quanta(force)));
+    external.add(external_row(node), external.fixed(external.in_quanta(force)));
     Normals::reaction(search, now.segment, now.place, force,
-                      CurvedReaction({search, extra, extra_row}, segment, force));
+                      CurvedReaction({search, external, external_row}, segment, force));
   }
 };
 

@@ -51,7 +51,7 @@ template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
   ContactSearch search;
   ContactWindow window;
-  ExtraForceSum extra;
+  ExternalForceSum external;
   FreeMotion free_motion;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
@@ -150,7 +150,7 @@ struct ContactMultiplier {
   KOKKOS_INLINE_FUNCTION void predict(const int s, const int k) const {
     MultiplierRow& r = multipliers.rows(s);
     if (r.active == 0 || k >= r.count) return;
-    r.row[k] = free_motion.acceleration.force.nodes.extra(r.node[k]);
+    r.row[k] = free_motion.acceleration.force.nodes.external_row(r.node[k]);
     r.compliances[k] = free_motion.compliance(r.node[k]);
     r.predicted[k] = free_motion(r.node[k]) - movement(r, k);
   }
@@ -163,14 +163,14 @@ struct ContactMultiplier {
 
   KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r) const {
     if (r.active == 0) return;
-    const Vector3 quanta = extra.in_quanta(r.pending);
-    const FixedForce whole = extra.fixed(quanta);
+    const Vector3 quanta = external.in_quanta(r.pending);
+    const FixedForce whole = external.fixed(quanta);
     FixedForce left = whole;
-    extra.add(r.row[0], whole);
+    external.add(r.row[0], whole);
     for (int k = 1; k < r.count; ++k) {
-      const FixedForce share = k + 1 < r.count ? extra.fixed(-r.weight[k] * quanta) : left;
+      const FixedForce share = k + 1 < r.count ? external.fixed(-r.weight[k] * quanta) : left;
       for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
-      extra.subtract(r.row[k], share);
+      external.subtract(r.row[k], share);
     }
   }
 
@@ -204,8 +204,8 @@ struct ContactMultiplier {
     r.pressing = pressing;
   }
 
-  /// Hands over the last changes; leaves forces and status for the next step and for those who look, and books the work
-  /// done since the last.
+  /// Hands over the last changes; leaves forces and status for the next step and for those who read them, and books the
+  /// work done since the last.
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
@@ -241,7 +241,7 @@ struct ContactMultiplier {
 
   /// m, of one of a multiplier's nodes under the contact forces handed to it so far.
   KOKKOS_INLINE_FUNCTION Vector3 movement(const MultiplierRow& r, int k) const {
-    return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * extra.contact_force(r.row[k]));
+    return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * external.contact_force(r.row[k]));
   }
 
   KOKKOS_INLINE_FUNCTION static std::uint64_t multiplicity_share(double weight) {

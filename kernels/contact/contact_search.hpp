@@ -98,7 +98,7 @@ struct ContactSearch : ContactProjection {
   }
 
   /// Whether segments that turn from the nearest by 60 degrees or more can be met within a distance from the slave.
-  /// Right at a look.
+  /// Right at a check.
   KOKKOS_INLINE_FUNCTION bool several_sheets(const Vector3& slave, const Projection& nearest, double distance) const {
     bool found = false;
     const Vector3 normal = unit_normal(see(slave, nearest.segment), nearest.place);
@@ -136,7 +136,7 @@ struct ContactSearch : ContactProjection {
 
   /// Over a side or corner where the slave's projection lies inside no segment, the way between it and the slave is the
   /// normal: so it turns from that of one segment to that of the next. Which side of the surface the slave is on is
-  /// told by the mean of the normals around, weighted by angles (Baerentzen and Aanaes 2005).
+  /// decided by the mean of the normals around, weighted by angles (Baerentzen and Aanaes 2005).
   KOKKOS_INLINE_FUNCTION static void towards_side(Projection& result, const Vector3& weighted) {
     const double distance = norm(result.offset);
     if (!(distance > 1e-12)) return;

@@ -70,10 +70,10 @@ struct ContactTrack {
 /// Which nodes that are found in the body have come in through its surface: those no deeper than both have moved since
 /// the node was last seen apart; and around a sharp edge, or where the surface was not below before, only through a
 /// face that the node was outside of. What comes in deep from beside an open surface, or was in the body when it came
-/// to be looked at, is turned away until it has left.
+/// to be checked, is turned away until it has left.
 struct FirstTouch {
-  LastStep last;  ///< no time elapsed: all is taken in
-  double paces;   ///< how many steps the slowest node's own step takes (subcycling)
+  LastStep last;      ///< no time elapsed: all is taken in
+  double most_steps;  ///< how many steps the slowest node's own step takes (subcycling)
 
   static constexpr double reserve = 1.25;         ///< on the motion
   static constexpr double rounding_share = 1e-5;  ///< of a segment's diagonal
@@ -87,9 +87,9 @@ struct FirstTouch {
     if (!(now.gap < 0) || !(last.elapsed > 0)) return;
     const double before = search.contact.gap(s);
     if (search.contact.entry_depth(s) > 0) return;
-    if (before < 0) return;  // the look has seen it through, or it pressed a moment ago
+    if (before < 0) return;  // the check has seen it through, or it pressed a moment ago
     const Segment segment = search.contact.surface(now.segment);
-    const Vector3 way = paces * last.relative_motion(search, node, now.segment, now.place);
+    const Vector3 way = most_steps * last.relative_motion(search, node, now.segment, now.place);
     const double size = norm(search.diagonal(segment)), rounding = rounding_share * size,
                  deepest = reserve * norm(way) + rounding;
     const Vector3 slave = row(search.position, node);

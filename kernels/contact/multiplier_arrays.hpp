@@ -25,7 +25,7 @@ struct alignas(16) MultiplierRow {
   int count;          ///< of nodes
   int node[most_nodes_of_multiplier];            ///< of the model: the slave's and the segment's
   int master[most_nodes_of_multiplier];          ///< the latter as master nodes; of the first none
-  int row[most_nodes_of_multiplier];             ///< theirs in the extra forces
+  int row[most_nodes_of_multiplier];             ///< theirs in the external forces
   double weight[most_nodes_of_multiplier];       ///< 1, and minus the shape functions
   double compliances[most_nodes_of_multiplier];  ///< m/N, of FreeMotion
   int slips;

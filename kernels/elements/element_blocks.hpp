@@ -75,7 +75,7 @@ struct FrameTurn {
   KOKKOS_FORCEINLINE_FUNCTION double operator()(int i, int j) const { return blocks.frame(p, 3 * i + j); }
 };
 
-/// Lays the frames along three of each block's nodes as they stand now.
+/// Updates the frames, which lie along three of each block's nodes as they stand now.
 struct RenewFrames {
   ElementBlocks blocks;
   Array<const double*[3]> position, reference;
@@ -114,8 +114,8 @@ KOKKOS_FORCEINLINE_FUNCTION void corner_modes(const S* component, const BatchCor
 }
 
 /// A block's nodes in scratch memory, component by component.
-/// @tparam Nodes what moves them: NodeAdvance, or CarriedAdvance where nodes are in single precision
-/// (carried_blocks.hpp)
+/// @tparam Nodes what moves them: NodeAdvance, or RelativeAdvance where nodes are in single precision
+/// (relative_blocks.hpp)
 template <class S, bool WithVelocity, bool WithMass, class Nodes = NodeAdvance>
 struct StagedNodes {
   S* position;           ///< m; in single precision from the frame's point

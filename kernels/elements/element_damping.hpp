@@ -4,7 +4,7 @@
 
 #include "kernels/elements/damping_arrays.hpp"
 #include "kernels/elements/element_modes.hpp"
-#include "kernels/nodes/carried_blocks.hpp"
+#include "kernels/nodes/relative_blocks.hpp"
 #include "kernels/support/lane_choice.hpp"
 
 namespace railwave {
@@ -23,23 +23,24 @@ KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& /*staged*/, const 
 }
 
 template <class Staged>
-KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const CarriedArrays& nodes, int p, int n, int l) {
-  const CarriedArm origin = nodes.arm(p);
-  const CarrierStep& carrier = nodes.carrier(origin.carrier);
+KOKKOS_FORCEINLINE_FUNCTION Vector3 velocity_of(const Staged& staged, const RelativeArrays& nodes, int p, int n,
+                                                int l) {
+  const FrameArm origin = nodes.arm(p);
+  const FrameStep& frame = nodes.frame(origin.frame);
   float arm[3];
   for (int i = 0; i < 3; ++i)
-    arm[i] = product(carrier.turn, i, origin.x[0], origin.x[1], origin.x[2]) +
+    arm[i] = product(frame.turn, i, origin.x[0], origin.x[1], origin.x[2]) +
              (staged.position[i * staged.stride + l] - staged.displacement[i * staged.stride + l]);
   Vector3 v;
   for (int i = 0; i < 3; ++i)
-    v[i] = carrier.next.velocity[i] +
-           static_cast<double>(product(carrier.rate, i, arm[0], arm[1], arm[2]) + nodes.node(n).velocity[i]);
+    v[i] = frame.next.velocity[i] +
+           static_cast<double>(product(frame.rate, i, arm[0], arm[1], arm[2]) + nodes.node(n).velocity[i]);
   return v;
 }
 
 /// Damping forces of one block's elements, with the velocities half a step back:
 ///   sigma = beta (lambda tr(d) I + 2 mu d) - q I,  d the rate of strain,
-///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (von Neumann & Richtmyer 1950; Landshoff
+///   q = rho l (Q1 l tr(d)^2 - Q2 c tr(d)) where tr(d) < 0, l = V^(1/3)   (Neumann and Richtmyer 1950; Landshoff
 ///   1955),
 /// by the mean gradient, and - alpha m v on the nodes, alpha being the part's and that of absorbing layers there.
 /// Hourglass modes have their own control. Forces go to rows of the partial ones beside those of the elements'
@@ -142,7 +143,7 @@ struct BlockDamping {
 };
 
 /// Of elements evaluated every so many steps: books the half of the forces' work that they do after their evaluation,
-/// one step later, when nodes of a finer pace still have the velocity that followed it.
+/// one step later, when nodes of a finer level still have the velocity that followed it.
 template <class S>
 struct BookDamping {
   DampingArrays damping;

@@ -10,7 +10,7 @@ namespace railwave {
 /// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
 /// which the nodes add up in fixed order (nobody waits for anybody, and a run is bitwise the same on any number of
 /// threads); nodes that are the block's alone are advanced at once where `Advance` says so.
-/// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
+/// @tparam Nodes how nodes are kept and moved: NodeAdvance or RelativeAdvance
 template <class S, class Material, class Hourglass, bool Advance, class Nodes = NodeAdvance>
 struct ElementForce {
   using T = Pack<S>;

@@ -4,8 +4,8 @@
 
 /// The eight corner values of a hexahedron written in its modes: products of the corner signs xi, eta, zeta. The
 /// constant mode is left out (nothing in an element depends on it); modes 0 to 2 are linear (xi, eta, zeta), 3 to 6 the
-/// hourglass base vectors Gamma_M of Flanagan & Belytschko 1981 (eta zeta, xi zeta, xi eta, xi eta zeta). In modes the
-/// mean gradient takes a fifth of the operations that it takes corner by corner, and far fewer values live at once,
+/// hourglass base vectors Gamma_M of Flanagan and Belytschko 1981 (eta zeta, xi zeta, xi eta, xi eta zeta). In modes
+/// the mean gradient takes a fifth of the operations that it takes corner by corner, and far fewer values live at once,
 /// which is what bounds these kernels on a GPU.
 namespace railwave {
 
@@ -52,10 +52,10 @@ KOKKOS_FORCEINLINE_FUNCTION void corners_of(const T (&m)[7], T (&f)[8]) {
   f[7] = t1 - above_plus;
 }
 
-/// Mean gradient of Flanagan & Belytschko 1981, eqs. 16 and 79: B[i] = dV/dx[i], the exact derivative of the trilinear
-/// volume, in modes. With a, b, c the linear and p, q, r the first three hourglass modes of the coordinates (over 8),
-/// V = 8 ([abc] + ([rbp] + [qpc] + [arq]) / 3), [] the triple product; the fourth does not enter.
-/// The mean gradient of a nodal field u over the element, (1/V) sum_k u_k B[j][k], is exact for linear fields on warped
+/// Mean gradient of Flanagan and Belytschko 1981, eqs. 16 and 79: B[i] = dV/dx[i], the exact derivative of the
+/// trilinear volume, in modes. With a, b, c the linear and p, q, r the first three hourglass modes of the coordinates
+/// (over 8), V = 8 ([abc] + ([rbp] + [qpc] + [arq]) / 3), [] the triple product; the fourth does not enter. The mean
+/// gradient of a nodal field u over the element, (1/V) sum_k u_k B[j][k], is exact for linear fields on warped
 /// elements, so the patch test holds to rounding.
 /// @param x modes of the coordinates [direction][mode], m
 /// @param B result [direction][mode], m2

@@ -6,8 +6,8 @@
 
 namespace railwave {
 
-/// Eigenvalues of a symmetric 3 x 3 matrix on its diagonal, eigenvectors as columns of Q: Jacobi's method (Golub & Van
-/// Loan, 8.5), sweep by sweep in fixed order.
+/// Eigenvalues of a symmetric 3 x 3 matrix on its diagonal, eigenvectors as columns of Q: Jacobi's method (Golub and
+/// Van Loan 2013, 8.5), sweep by sweep in fixed order.
 KOKKOS_INLINE_FUNCTION void diagonalize(double (&A)[3][3], double (&Q)[3][3]) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) Q[i][j] = i == j ? 1 : 0;

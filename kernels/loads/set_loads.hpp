@@ -2,14 +2,14 @@
 
 #include "kernels/loads/connector.hpp"
 #include "kernels/loads/torque.hpp"
-#include "kernels/nodes/extra_force.hpp"
+#include "kernels/nodes/external_force.hpp"
 #include "kernels/support/batches.hpp"
 
 namespace railwave {
 
 /// The loads on one row: gathers its contributions, after giving those of torques and connectors their values.
 struct RowLoads {
-  ExtraForces extra;
+  ExternalForces external;
   ConnectorArrays connectors;
   TorqueArrays torques;
   Array<const double*[3]> position, velocity;
@@ -20,17 +20,17 @@ struct RowLoads {
   /// @tparam batch one where a kernel does much else: batches take registers
   template <int batch>
   KOKKOS_INLINE_FUNCTION void gather(const int i) const {
-    const LoadedRow loaded = extra.loaded(i);
+    const LoadedRow loaded = external.loaded(i);
     Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last,
-                                        [&](int k) { return without_torque(extra.shares(k)); });
+                                        [&](int k) { return without_torque(external.shares(k)); });
     if (torques.count > 0) sum = sum + torque_forces(loaded);
-    for (int c = 0; c < 3; ++c) extra.sum.load(loaded.row, c) = sum[c];
+    for (int c = 0; c < 3; ++c) external.sum.load(loaded.row, c) = sum[c];
   }
 
   /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
   KOKKOS_INLINE_FUNCTION WeightedVector without_torque(const RowShare& share) const {
     const bool torque = share.law >= connectors.count, connector = share.law >= 0 && !torque;
-    const auto& from = connector ? connectors.force : extra.contribution;
+    const auto& from = connector ? connectors.force : external.contribution;
     return {torque ? 0.0 : share.weight, row(from, connector ? share.law : share.contribution)};
   }
 
@@ -38,13 +38,13 @@ struct RowLoads {
   KOKKOS_INLINE_FUNCTION Vector3 torque_forces(const LoadedRow& loaded) const {
     Vector3 sum{{0, 0, 0}};
     for (int k = loaded.first; k < loaded.last; ++k) {
-      const RowShare share = extra.shares(k);
+      const RowShare share = external.shares(k);
       if (share.law < connectors.count) continue;
       const int t = share.law - connectors.count;
       const Vector3 arm =
           row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
       const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
-      set_contribution(extra, velocity, share.contribution, force, elapsed);
+      set_contribution(external, velocity, share.contribution, force, elapsed);
       sum = sum + force;
     }
     return sum;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/nodes/extra_force_sum.hpp"
+#include "kernels/nodes/external_force_sum.hpp"
 #include "kernels/support/lanes.hpp"
 
 namespace railwave {
@@ -15,7 +15,7 @@ struct NodeArrays {
   Array<int*>
       first_partial;  ///< count + 1; a node's partial forces are partial_place[first_partial(n)] ... in fixed order
   Array<int*> partial_place;  ///< rows of the partial forces: one for each block that the node belongs to
-  Array<int*> extra;          ///< row in the extra forces (loads, connectors, contact), -1: none
+  Array<int*> external_row;   ///< row in ExternalForces (loads, connectors, contact), -1: none
   Array<int*> constraint;     ///< row in the constraint table, -1: free
 };
 
@@ -44,24 +44,24 @@ struct PartialForces {
 
 /// A node that no block advances by itself, with what is asked of it at once: most belong to two blocks.
 struct alignas(16) SharedNode {
-  int node;      ///< with `special_bit` where extra forces or a constraint concern it
+  int node;      ///< with `special_bit` where external forces or a constraint concern it
   int place[2];  ///< its first partial forces, -1: none
   int more;      ///< 1: there are others, 0: none
 };
 inline constexpr int special_bit = static_cast<int>(0x80000000u);
 
-/// Sum of the element forces on a node and of its extra forces, in fixed order, N.
+/// Sum of the element forces on a node and of its external forces, in fixed order, N.
 struct NodalForce {
   NodeArrays nodes;
   PartialForces partial;
-  ExtraForceSum extra;
+  ExternalForceSum external;
 
-  KOKKOS_INLINE_FUNCTION Vector3 extra_force(int n) const {
-    const int r = nodes.extra(n);
-    return r >= 0 ? extra.force(r) : Vector3{{0, 0, 0}};
+  KOKKOS_INLINE_FUNCTION Vector3 external_force(int n) const {
+    const int r = nodes.external_row(n);
+    return r >= 0 ? external.force(r) : Vector3{{0, 0, 0}};
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const { return with_partials(extra_force(n), n, 0); }
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const { return with_partials(external_force(n), n, 0); }
 
   /// Adds a node's partial forces from the given one on.
   KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int n, int from) const {
@@ -74,7 +74,7 @@ struct NodalForce {
   KOKKOS_INLINE_FUNCTION Vector3 operator()(const SharedNode& shared) const {
     const int n = shared.node & ~special_bit;
     Vector3 force{{0, 0, 0}};
-    if (shared.node < 0) force = extra_force(n);
+    if (shared.node < 0) force = external_force(n);
     for (int k = 0; k < 2; ++k)
       if (shared.place[k] >= 0) force = force + partial(shared.place[k]);
     return shared.more == 0 ? force : with_partials(force, n, 2);
@@ -143,7 +143,7 @@ struct NodeUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
     advance.move(n, acceleration(n));
-    if (advance.nodes.extra(n) >= 0) acceleration.force.extra.clear_contact(advance.nodes.extra(n));
+    if (advance.nodes.external_row(n) >= 0) acceleration.force.external.clear_contact(advance.nodes.external_row(n));
   }
 };
 

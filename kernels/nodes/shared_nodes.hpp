@@ -18,12 +18,12 @@ struct SharedNodeUpdate {
     const int n = node.node & ~special_bit;
     const double inverse_mass = 1.0 / advance.nodes.mass(n);
     const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
-    const int r = node.node < 0 ? advance.nodes.extra(n) : -1;
-    if (rows_here && r >= 0 && rows.extra.loaded_of_row(r) >= 0) rows.gather<1>(rows.extra.loaded_of_row(r));
+    const int r = node.node < 0 ? advance.nodes.external_row(n) : -1;
+    if (rows_here && r >= 0 && rows.external.loaded_of_row(r) >= 0) rows.gather<1>(rows.external.loaded_of_row(r));
     Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
     if (node.node < 0) a = acceleration.constrain(n, a);
     advance.move(n, a, x, v);
-    if (r >= 0) acceleration.force.extra.clear_contact(r);
+    if (r >= 0) acceleration.force.external.clear_contact(r);
   }
 };
 

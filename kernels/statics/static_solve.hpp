@@ -69,7 +69,7 @@ struct StaticUnbalance {
   StaticResidual residual;
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
     sum[0] += norm(row(residual.residual, n));
-    sum[1] += norm(residual.body_force(n)) + norm(residual.acceleration.force.extra_force(n));
+    sum[1] += norm(residual.body_force(n)) + norm(residual.acceleration.force.external_force(n));
   }
 };
 

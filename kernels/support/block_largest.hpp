@@ -20,9 +20,9 @@ struct Largest {
   /// What is not a number counts as larger than any. Of equal values the lowest item's is kept.
   KOKKOS_INLINE_FUNCTION void add(int k, double candidate, int item) {
     if (item < 0) return;
-    const double told = candidate == candidate ? candidate : INFINITY;
-    if (place[k] >= 0 && !(told > value[k] || (told == value[k] && item < place[k]))) return;
-    value[k] = told;
+    const double ranked = candidate == candidate ? candidate : INFINITY;
+    if (place[k] >= 0 && !(ranked > value[k] || (ranked == value[k] && item < place[k]))) return;
+    value[k] = ranked;
     place[k] = item;
   }
 };

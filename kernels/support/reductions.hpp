@@ -83,7 +83,7 @@ class Reductions {
     const bool twice = blocks > most_left;
     const int parts = twice ? (blocks + sum_block - 1) / sum_block : blocks;
     const std::size_t place = used_;
-    Value* const left = reinterpret_cast<Value*>(room(static_cast<std::size_t>(parts) * words));
+    Value* const left = reinterpret_cast<Value*>(reserve(static_cast<std::size_t>(parts) * words));
     if (twice) {
       const std::size_t needed = static_cast<std::size_t>(blocks) * words;
       if (space_.blocks.extent(0) < needed) space_.blocks = unset_array<double*>("blocks of reductions", needed);
@@ -96,7 +96,7 @@ class Reductions {
     queued_.push_back({place, parts, std::move(use)});
   }
 
-  double* room(std::size_t words) {
+  double* reserve(std::size_t words) {
     if (space_.left.extent(0) < used_ + words) {
       const auto more = unset_array<double*>("left of reductions", 2 * (used_ + words));
       const auto used = Kokkos::make_pair(std::size_t{0}, used_);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kernels/nodes/carried_nodes.hpp"
+#include "kernels/nodes/relative_nodes.hpp"
 #include "kernels/support/team.hpp"
 
 /// Ties between meshes that need not match. A slave node keeps its place over a face of the master,
@@ -43,7 +43,7 @@ struct TieArrays {
   int slave_count = 0, master_count = 0;
   Array<TiedPlace*> places;  ///< by slave
   Array<int*> master_nodes;
-  Array<int*> master_rows;  ///< of the extra forces
+  Array<int*> master_rows;  ///< of the external forces
   Array<int*> first_share;  ///< master_count + 1
   Array<TieShare*> shares;
   Array<double* [9]> passed_on;  ///< N by slave: its force; what turns the face's normal, for slopes along xi and eta
@@ -123,19 +123,19 @@ struct TieFollow {
 };
 
 /// The same where nodes are in single precision.
-struct CarriedTieFollow {
+struct RelativeTieFollow {
   TieFollow in_double;
-  CarriedArrays carried;
-  Array<const int*> carrier;  ///< by slave
+  RelativeArrays relative;
+  Array<const int*> frame;  ///< by slave
 
   KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
     in_double(s);
     const int n = in_double.ties.places(s).slave;
-    const CarrierInstant& next = carried.carrier(carrier(s)).next;
+    const FrameInstant& next = relative.frame(frame(s)).next;
     const Vector3 X = row(in_double.nodes.reference, n);
     const Vector3 d = row(in_double.nodes.position, n) - next.position(X),
                   w = row(in_double.nodes.velocity, n) - next.velocity_of(X);
-    CarriedNode& own = carried.node(n);
+    RelativeNode& own = relative.node(n);
     for (int k = 0; k < 3; ++k) {
       own.displacement[k] = static_cast<float>(d[k]);
       own.velocity[k] = static_cast<float>(w[k]);

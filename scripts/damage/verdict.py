@@ -111,11 +111,11 @@ class Commands:
             return finding(f"takes {answer.memory / 1e9:.1f} GB")
         if self.sanitized:
             own = re.search(r"ERROR: (Address|Leak)Sanitizer|runtime error:", answer.complaint)
-            told_crash = (
+            reported_crash = (
                 "HDF5 library crashed" in answer.complaint
                 and "in railwave::" not in answer.complaint.split("ERROR:")[-1].split("#6")[0]
             )
-            if own and not told_crash:
+            if own and not reported_crash:
                 return finding("sanitizer")
         if "HDF5-DIAG" in answer.complaint or "terminate called" in answer.complaint:
             return finding("noise")
@@ -123,7 +123,7 @@ class Commands:
             if answer.same(sound):
                 return Outcome("as from the sound file")
             if seed.beside and not answer.said:
-                return Outcome("told by the next command that reads")
+                return Outcome("reported by the next command that reads")
             if not seed.checked:
                 return Outcome("other output, file without checksums")
             if self.only_texts(seed, name, data, sound):
@@ -136,9 +136,9 @@ class Commands:
         if not re.search(r"damaged\.h5|results\.h5|results\.checkpoint\.h5", answer.complaint):
             return finding("message without the file's name")
         if "HDF5 library crashed" in answer.complaint:
-            return Outcome("crash of HDF5, told")
+            return Outcome("crash of HDF5, reported")
         if "came to no end" in answer.complaint:
-            return Outcome("endless loop in HDF5, told")
+            return Outcome("endless loop in HDF5, reported")
         return Outcome("refused with a message")
 
     def only_texts(self, seed, name, data, sound):

@@ -37,7 +37,7 @@ class Body:
         self.travels = False
         self._every = np.arange(0, len(self.nodes), max(1, len(self.nodes) // FITTED))
 
-    def look_whether_it_travels(self, outputs):
+    def check_whether_it_travels(self, outputs):
         """Whether between these outputs its rigid motion is more than a small part of its size or of a turn."""
         if not self.moves or len(self._every) < 3:
             return

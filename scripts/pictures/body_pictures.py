@@ -30,7 +30,7 @@ class Stage:
         self.view = View(*read_view(view))
         if scale != 1:
             for body in self.bodies:
-                body.look_whether_it_travels(self.outputs)
+                body.check_whether_it_travels(self.outputs)
         self._survey(limits, box)
 
     def _survey(self, limits, box):

@@ -13,7 +13,7 @@ import numpy as np
 def outlines(x, y, value):
     """Points of the line round `value` > 0 on a structured surface, (points, 2). Where a mesh line leaves the inside,
     the zero of the parabola through the squares at its last three nodes inside, between the last one and the next node
-    (as `railwave contact` does, src/post/patch_area.cpp)."""
+    (as `railwave contact` does, src/post/patch_shape.cpp)."""
     points = []
     place = np.stack([x, y], axis=-1)
 

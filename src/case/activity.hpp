@@ -20,16 +20,16 @@ class Activity {
   int place_;
 };
 
-/// While it lives, what takes longer than some three seconds is told on the standard error, then every ten seconds, as
-/// "railwave: 13 s so far: ACTIVITY". By a timer of the system (SIGALRM), whose handler only writes: no thread and no
-/// memory are needed. Ends before a run's steps begin, which have progress lines of their own.
+/// While it lives, what takes longer than some three seconds is reported on the standard error, then every ten seconds,
+/// as "railwave: 13 s so far: ACTIVITY". By a timer of the system (SIGALRM), whose handler only writes: no thread and
+/// no memory are needed. Ends before a run's steps begin, which have progress lines of their own.
 class PatienceTimer {
  public:
   PatienceTimer();
   ~PatienceTimer() { stop(); }
   PatienceTimer(const PatienceTimer&) = delete;
   PatienceTimer& operator=(const PatienceTimer&) = delete;
-  /// Nothing is told any more.
+  /// Nothing is reported any more.
   void stop();
 };
 

@@ -46,4 +46,14 @@ Document parse_document(std::string text, Complaints& complaints);
 /// a complaint, when it looks like a list, table or quoted text but is broken.
 bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints);
 
+/// Puts `section.key=value` texts of the command line into the document, where they replace what the file says. A named
+/// entry must exist in the file; keys are checked later, like the file's own. Former names of sections bring a remark.
+void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints,
+                     Complaints& remarks);
+
+/// What of a case its static state can depend on, one line for each value, however the file was laid out: all but the
+/// title, [time], [output], how the time loop steps, and the velocities of initial and prescribed motions and the
+/// latter's displacements. Mesh files stand by their names.
+std::string static_text(const Node& root);
+
 }  // namespace railwave::case_file

@@ -1,10 +1,9 @@
-#include "case/expand_hammers.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
 
+#include "case/expand.hpp"
 #include "case/field_table.hpp"
 #include "case/track_entries.hpp"
 

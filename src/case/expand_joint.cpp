@@ -1,6 +1,6 @@
-#include "case/expand_joint.hpp"
-
 #include <cmath>
+
+#include "case/track_entries.hpp"
 
 namespace railwave::case_file {
 namespace {

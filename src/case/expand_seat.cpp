@@ -1,9 +1,8 @@
-#include "case/expand_seat.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "case/solid_pad.hpp"
+#include "case/track_entries.hpp"
 
 namespace railwave::case_file {
 namespace {

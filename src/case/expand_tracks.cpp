@@ -1,5 +1,3 @@
-#include "case/expand_tracks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "case/expand_joint.hpp"
-#include "case/expand_seat.hpp"
+#include "case/expand.hpp"
 #include "case/solid_pad.hpp"
+#include "case/track_entries.hpp"
 
 namespace railwave::case_file {
 namespace {

@@ -1,7 +1,6 @@
-#include "case/fit_to_rails.hpp"
-
 #include <fmt/format.h>
 
+#include "case/expand.hpp"
 #include "case/track_entries.hpp"
 
 namespace railwave::case_file {
@@ -11,7 +10,7 @@ template <class Mesh>
 void fit(const scene::Scene& scene, const scene::MeshSource& source, Mesh& mesh, const char* what_it_needs,
          Complaints& complaints) {
   const scene::MeshSource* rail = find_entry(scene.meshes, mesh.rail);
-  if (!rail) return;  // told where names are checked
+  if (!rail) return;  // reported where names are checked
   if (rail->type != scene::MeshType::rail)
     complaints.add({source.line},
                    fmt::format("[meshes.{}] rail: '{}' is no mesh of type \"rail\", which alone has {}; name one",

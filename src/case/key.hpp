@@ -67,7 +67,7 @@ struct Key {
   std::string unit;
   Range range;
   std::optional<Range> usual;  ///< what the field has; what lies outside is warned of. Absent: by unit (plausible.hpp)
-  bool any_size = false;       ///< as large as one likes: limits of the watch, which a huge number switches off
+  bool any_size = false;       ///< as large as one likes: limits of the monitor, which a huge number switches off
   PairOf pair;                 ///< of a list of pairs
   bool required = false;
   bool is_path = false;       ///< a file, relative to the case file's folder; must exist
@@ -192,7 +192,8 @@ class EntryCheck;
 struct Section {
   std::string name;
   std::string help;
-  std::string singular;  ///< of a named one: "part"
+  std::string singular;     ///< of a named one: "part"
+  std::string former_name;  ///< of earlier versions: accepted with a warning; empty: none
   bool required = false;
   std::vector<Key> keys;
   std::function<void*(scene::Scene&, const scene::Place&)> open;  ///< makes (named) or finds the entry to fill

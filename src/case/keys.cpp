@@ -34,7 +34,7 @@ const std::vector<Section>& sections() {
       time_section(),
       checkpoint_section(),
       solver_section(),
-      watch_section(),
+      monitor_section(),
       output_section(),
   };
   return all;
@@ -45,6 +45,18 @@ const Section* find_section(const std::string& name) {
     if (section.name == name) return &section;
   }
   return nullptr;
+}
+
+const Section* find_renamed_section(const std::string& former_name) {
+  if (former_name.empty()) return nullptr;
+  for (const auto& section : sections()) {
+    if (section.former_name == former_name) return &section;
+  }
+  return nullptr;
+}
+
+std::string renamed_text(const Section& section) {
+  return "[" + section.former_name + "]: is called [" + section.name + "] now; the old name is still accepted";
 }
 
 std::vector<std::string> section_names() {

@@ -15,6 +15,12 @@ const std::vector<Section>& sections();
 /// The section of that name, or null.
 const Section* find_section(const std::string& name);
 
+/// The section that had that name in earlier versions, or null.
+const Section* find_renamed_section(const std::string& former_name);
+
+/// The warning of such a name.
+std::string renamed_text(const Section& section);
+
 /// Names of all sections that have one.
 std::vector<std::string> section_names();
 
@@ -28,7 +34,7 @@ Section checkpoint_section();
 Section solver_section();
 Section output_section();
 
-Section watch_section();  // keys_watch.cpp
+Section monitor_section();  // keys_monitor.cpp
 
 /// What the sets of a type of mesh are called, for the reference page.
 struct MeshSets {

@@ -101,7 +101,7 @@ Section solver_section() {
       key("subcycling", &Solver::subcycling,
           "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded "
           "keeps "
-          "the finest step; outputs fall on whole rounds of the levels, so their intervals are rounded to these; "
+          "the finest step; outputs fall on whole cycles of the levels, so their intervals are rounded to these; "
           "settling "
           "goes on without; not with `step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")

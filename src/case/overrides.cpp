@@ -1,5 +1,4 @@
-#include "case/overrides.hpp"
-
+#include "case/document.hpp"
 #include "case/keys.hpp"
 #include "case/suggest.hpp"
 
@@ -75,7 +74,8 @@ Node* holder(const std::vector<std::string>& words, Node& root, std::string& mis
 
 }  // namespace
 
-void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints) {
+void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints,
+                     Complaints& remarks) {
   for (const auto& text : overrides) {
     const auto equals = text.find('=');
     if (equals == std::string::npos) {
@@ -83,7 +83,11 @@ void apply_overrides(const std::vector<std::string>& overrides, Node& root, Comp
       continue;
     }
     const auto path = trimmed(text.substr(0, equals));
-    const auto words = split(path);
+    auto words = split(path);
+    if (const auto* section = find_renamed_section(words[0])) {
+      remarks.add({0, true}, renamed_text(*section));
+      words[0] = section->name;
+    }
     Node value;
     if (!parse_override_value(trimmed(text.substr(equals + 1)), path, value, complaints)) continue;
     std::string mistake;

@@ -2,7 +2,9 @@
 
 #include <string>
 
+#include "case/complaints.hpp"
 #include "case/key.hpp"
+#include "case/scene.hpp"
 
 /// Which numbers a key takes at all, which ones the field has, and which unit was probably meant where a number is
 /// neither.
@@ -29,5 +31,8 @@ std::string oddity(const Key& key, double number);
 
 /// A table of the limits by unit, in Markdown.
 std::string unit_limits_markdown();
+
+/// Warns of what is odd about a whole scene, where no single key tells: wheels faster than any train.
+void remark_on_scene(const scene::Scene& scene, Complaints& remarks);
 
 }  // namespace railwave::case_file

@@ -1,10 +1,9 @@
-#include "case/plausible_scene.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "case/plausible.hpp"
 #include "case/usual_sizes.hpp"
 
 namespace railwave::case_file {

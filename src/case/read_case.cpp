@@ -4,16 +4,10 @@
 #include <set>
 
 #include "case/document.hpp"
-#include "case/expand_hammers.hpp"
-#include "case/expand_tracks.hpp"
-#include "case/fit_to_rails.hpp"
+#include "case/expand.hpp"
 #include "case/keys.hpp"
-#include "case/overrides.hpp"
-#include "case/plausible_scene.hpp"
-#include "case/read_curves.hpp"
+#include "case/plausible.hpp"
 #include "case/read_entry.hpp"
-#include "case/results_place.hpp"
-#include "case/static_text.hpp"
 #include "case/suggest.hpp"
 
 namespace railwave {
@@ -88,6 +82,20 @@ std::string unknown_section(const Node& node, Reading& reading) {
   return near;
 }
 
+/// Gives sections under names of earlier versions their present ones.
+void rename_sections(Node& root, Complaints& complaints, Complaints& remarks) {
+  for (auto& node : root.children) {
+    const auto* section = find_renamed_section(node.name);
+    if (!section) continue;
+    if (root.find(section->name))
+      complaints.add(node.where, "[" + section->former_name + "]: is the former name of [" + section->name +
+                                     "], which the file has too; put the keys of both there");
+    else
+      remarks.add(node.where, renamed_text(*section));
+    node.name = section->name;
+  }
+}
+
 void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
   std::set<std::string> meant;
   const auto& top = *find_section("");
@@ -113,7 +121,18 @@ void read_sections(const Node& root, scene::Scene& scene, Reading& reading) {
   }
 }
 
+std::string name_of(const std::string& case_path) {
+  const std::string name = std::filesystem::path(case_path).stem().string();
+  return name.empty() || name == "." || name == ".." ? "case" : name;
+}
+
 }  // namespace
+
+std::string default_results_folder(const std::string& case_path) { return "results/" + name_of(case_path); }
+
+std::string default_results_file(const std::string& case_path) {
+  return default_results_folder(case_path) + '/' + name_of(case_path) + ".h5";
+}
 
 scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides,
                        std::vector<std::string>* warnings) {
@@ -124,9 +143,10 @@ scene::Scene read_case(const std::string& path, const std::vector<std::string>& 
 
   scene::Scene scene;
   scene.path = path;
-  apply_overrides(overrides, document.root, complaints);
-  scene.static_text = static_text(document.root);
   Complaints remarks(path);
+  rename_sections(document.root, complaints, remarks);
+  apply_overrides(overrides, document.root, complaints, remarks);
+  scene.static_text = static_text(document.root);
   Reading reading{complaints,        remarks,           std::filesystem::path(path).parent_path().string(),
                   document.complete, refers_to_nothing, {}};
   scene.output.file = default_results_file(path);

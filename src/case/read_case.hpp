@@ -14,4 +14,11 @@ namespace railwave {
 scene::Scene read_case(const std::string& path, const std::vector<std::string>& overrides = {},
                        std::vector<std::string>* warnings = nullptr);
 
+/// The folder that is a case's own where it names no other: results/NAME, NAME being the case file's name without its
+/// ending. It counts from the folder in which the program runs.
+std::string default_results_folder(const std::string& case_path);
+
+/// Where a run writes unless the case says output.file: results/NAME/NAME.h5.
+std::string default_results_file(const std::string& case_path);
+
 }  // namespace railwave

@@ -1,5 +1,3 @@
-#include "case/read_curves.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "case/error.hpp"
+#include "case/expand.hpp"
 #include "case/memory.hpp"
 #include "case/number_table.hpp"
 

@@ -24,8 +24,8 @@ std::string alternatives(const std::vector<std::string>& choices);
 /// Says what is wrong, and where.
 using Complain = std::function<void(Where, const std::string&)>;
 
-/// The node as the key's kind of value; nothing when it is of another kind or out of range, which has been told by
-/// `complain`; what is odd, but taken, is told by `remark`. Names are not looked up here.
+/// The node as the key's kind of value; nothing when it is of another kind or out of range, which has been reported by
+/// `complain`; what is odd, but taken, is reported by `remark`. Names are not looked up here.
 std::optional<Value> read_value(const Key& key, const Node& node, const Complain& complain, const Complain& remark);
 
 }  // namespace railwave::case_file

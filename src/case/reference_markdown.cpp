@@ -212,7 +212,7 @@ std::string case_reference_markdown() {
   for (const auto& section : sections()) text += section_text(section);
   return text +
          "\n# Limits by unit\n\nBesides what the tables above allow, for every key that has the unit; those of "
-         "`[watch]` may be larger.\n\n" +
+         "`[monitor]` may be larger.\n\n" +
          unit_limits_markdown();
 }
 

@@ -1,5 +1,4 @@
 #include "case/rules.hpp"
-#include "case/rules_rail.hpp"
 #include "case/usual_sizes.hpp"
 
 #include <fmt/format.h>

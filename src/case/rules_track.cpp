@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "case/expand_tracks.hpp"
+#include "case/expand.hpp"
 #include "case/rules.hpp"
-#include "case/rules_rail.hpp"
 
 namespace railwave::case_file {
 

@@ -240,7 +240,7 @@ struct PrescribedMotion : Place {
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-/// Dashpots on a surface that let waves out (Lysmer & Kuhlemeyer 1969); while the scene settles its nodes are held.
+/// Dashpots on a surface that let waves out (Lysmer and Kuhlemeyer 1969); while the scene settles its nodes are held.
 struct NonReflecting : Place {
   std::string target;  ///< `part.surface`
 };
@@ -302,8 +302,8 @@ struct Solver {
   bool elements_in_single() const { return precision != Precision::double_precision; }
 };
 
-/// What a run looks out for: beyond a limit it warns, beyond a fatal one it stops.
-struct Watch {
+/// What a run is monitored for: beyond a limit it warns, beyond a fatal one it stops.
+struct Monitor {
   bool active = true;
   double energy_error = 0.05;       ///< of the balance, over what deformation has held and dissipated
   double fatal_energy_error = 0.5;  ///< the same; the run stops
@@ -357,7 +357,7 @@ struct Sleeper : Place {
 
 enum class FishplateFit { tie, contact };
 
-/// Half a track or a whole one, generated: see case/expand_tracks.hpp for what it becomes.
+/// Half a track or a whole one, generated: see case/expand.hpp for what it becomes.
 struct Track : Place {
   RailMesh rail;
   std::string rail_material;  ///< empty: elastic rail steel of its own
@@ -423,7 +423,7 @@ struct Scene {
   Checkpoint checkpoint;
   Time time;
   Solver solver;
-  Watch watch;
+  Monitor monitor;
   Output output;
 };
 

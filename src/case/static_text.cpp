@@ -1,9 +1,9 @@
-#include "case/static_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+
+#include "case/document.hpp"
 
 namespace railwave::case_file {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<const char*, 18> without = {".title",
                                                  ".time",
                                                  ".checkpoint",
-                                                 ".watch",
+                                                 ".monitor",
                                                  ".output",
                                                  ".solver.step_estimate",
                                                  ".solver.subcycling",

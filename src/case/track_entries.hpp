@@ -75,4 +75,27 @@ class TrackEntries {
   std::string prefix_;
 };
 
+/// A place where a rail lies on a sleeper.
+struct RailSeat {
+  double x = 0;                         ///< m, of its middle, in the track's own axes
+  std::string sleeper;                  ///< part
+  std::string rail;                     ///< part, and its mesh
+  double rail_start = 0, rail_end = 0;  ///< m
+  std::string pad_material;             ///< of a solid pad
+  int number = 0;
+};
+
+/// Adds the fastening of a seat: connector `NAME_fastening_K`; with a solid pad part `NAME_pad_K`, tied to foot and
+/// sleeper, and that connector if the pad leaves anything to it.
+/// @param kind of the sleeper, with everything said
+void add_fastening(TrackEntries& entries, const scene::Sleeper& kind, const RailSeat& seat);
+
+/// Half the thickness of a rail's web where it is thinnest, m.
+double half_web(const std::string& section);
+
+/// The joint at a track's gap: fishplates NAME_fishplate_left and _right (left: towards -y), tied to or in contact with
+/// both rails, and bolts. Bolt k is a beam NAME_bolt_k with pretension between points NAME_bolt_k_left and _right
+/// beyond the plates' outer sides; thinner beams of the points' names spread its head over the nodes `bolt_k` there.
+void add_joint(TrackEntries& entries, const std::string& material);
+
 }  // namespace railwave::case_file

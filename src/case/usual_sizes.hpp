@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the field has, for warnings before a run and for the causes that the watch names.
+/// What the field has, for warnings before a run and for the causes that the monitor names.
 namespace railwave {
 
 /// Mean size of a part's elements, m.

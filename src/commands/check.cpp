@@ -38,7 +38,7 @@ double part_mass(const std::vector<double>& mass, const Assembly::PartRange& par
   return sum;
 }
 
-/// The first part after `first` that isn't the same mesh of the same material: a track's sleepers are told once.
+/// The first part after `first` that isn't the same mesh of the same material: a track's sleepers are reported once.
 std::size_t first_unlike(const scene::Scene& scene, std::size_t first) {
   const scene::Part& one = scene.parts[first];
   std::size_t next = first + 1;
@@ -61,7 +61,7 @@ void describe_step(const Model& model, std::ostream& out) {
     out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count,
                      model.scene.time.end);
-  for (const std::string& line : describe_output_times(model.scene.output, model, model.subcycling.round()))
+  for (const std::string& line : describe_output_times(model.scene.output, model, model.subcycling.cycle()))
     out << "  " << line << '\n';
   for (const std::string& line : describe_subcycling(model.scene, model.subcycling))
     out << "  subcycling: " << line << '\n';
@@ -119,7 +119,7 @@ void describe_tasks(const std::string& title, const std::vector<std::string>& li
 
 }  // namespace
 
-void tell(const char* kind, const std::vector<std::string>& lines, std::ostream& out) {
+void report(const char* kind, const std::vector<std::string>& lines, std::ostream& out) {
   for (const std::string& line : lines) out << kind << ": " << line << '\n';
   out.flush();
 }

@@ -17,7 +17,7 @@ void add_response_command(CLI::App& app, ResponseRequest& request, const std::fu
   command->add_option("--window-end", request.window_end,
                       "what the exponential window comes down to at the end; default 0.05");
   command->add_option("--resolution", request.resolution, "largest distance of two lines, Hz; default 1");
-  command->add_option("--prominence", request.prominence, "of peaks and troughs that are told, dB; default 3");
+  command->add_option("--prominence", request.prominence, "of peaks and troughs that are reported, dB; default 3");
   command->add_option("--from", request.from, "Hz; default 20");
   command->add_option("--to", request.to, "Hz; default: where the force's spectrum is 20 dB down");
   command->add_option("--csv", request.csv, "also write all lines as CSV");

@@ -26,7 +26,7 @@ std::string typed(const std::string& path) {
 
 }  // namespace
 
-void tell_next_steps(const scene::Scene& scene, bool completed, std::ostream& out) {
+void report_next_steps(const scene::Scene& scene, bool completed, std::ostream& out) {
   const std::string& results = scene.output.file;
   std::error_code failed;
   if (!std::filesystem::exists(results, failed)) return;  // it ended before its first output
@@ -47,7 +47,7 @@ void tell_next_steps(const scene::Scene& scene, bool completed, std::ostream& ou
     next("paraview " + typed(xdmf_path(results)), "fields in space; choose its 'XDMF Reader'");
 }
 
-void tell_what_gets_lost(const scene::Scene& scene, std::ostream& out) {
+void report_what_gets_lost(const scene::Scene& scene, std::ostream& out) {
   try {
     check_what_gets_lost(scene, {});
   } catch (const InputError& error) {

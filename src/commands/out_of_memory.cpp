@@ -11,7 +11,7 @@
 
 #include "case/memory.hpp"
 #include "commands/process.hpp"
-#include "output/room.hpp"
+#include "output/free_memory.hpp"
 
 namespace {
 
@@ -26,7 +26,7 @@ constexpr std::size_t large = std::size_t{1} << 20;  ///< bytes; what is smaller
 // functions of the device.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && !defined(__CUDACC__)
 [[gnu::noinline]] void* operator new(std::size_t size) {
-  if (size < large || railwave::leaves_room(size))
+  if (size < large || railwave::leaves_free_memory(size))
     if (void* const place = std::malloc(size ? size : 1)) return place;
   if (!railwave::has_begun()) railwave::end_for_want_of_memory();  // nobody is there yet to catch anything
   refused = size;
@@ -59,7 +59,7 @@ bool is_out_of_memory(const std::exception& error) {
 
 std::string out_of_memory(const std::exception& error) try {
   const std::string said = error.what();
-  if (const auto* no_room = dynamic_cast<const NoRoom*>(&error)) refused = no_room->wanted();
+  if (const auto* too_little = dynamic_cast<const TooLittleMemory*>(&error)) refused = too_little->wanted();
   const std::string wanted = is_refusal_of_kokkos(error.what()) ? refused_by_kokkos(said)
                              : refused > 0                      ? bytes_text(static_cast<double>(refused)) + " more"
                                                                 : "more memory";

@@ -40,7 +40,8 @@ bool is_out_of_memory(const std::exception& error);
 std::string out_of_memory(const std::exception& error);
 
 /// Libraries may end the program by themselves: HDF5 1.10 calls exit(-1) without a word where it finds no memory for an
-/// identifier, on whatever thread. While one of these lives such an end is told, and has the exit code of a failure.
+/// identifier, on whatever thread. While one of these lives such an end is reported, and has the exit code of a
+/// failure.
 class NoSuddenExit {
  public:
   NoSuddenExit();
@@ -75,10 +76,10 @@ bool was_signalled();
 int in_reading_child(const std::string& command, const std::vector<std::string>& files,
                      const std::function<int()>& work);
 
-/// The same for a look at files before something else is done with them.
-/// @return the exit code to end with; nothing: `look` came to its end, go on (only in this process, the child is to
+/// The same for reading files before something else is done with them.
+/// @return the exit code to end with; nothing: `read` came to its end, go on (only in this process, the child is to
 /// end)
-std::optional<int> after_look_in_child(const std::string& command, const std::vector<std::string>& files,
-                                       const std::function<void()>& look);
+std::optional<int> after_reading_in_child(const std::string& command, const std::vector<std::string>& files,
+                                          const std::function<void()>& read);
 
 }  // namespace railwave

@@ -132,11 +132,11 @@ int in_reading_child(const std::string& command, const std::vector<std::string>&
   return child == 0 ? work_naming_files(files, work) : wait_for(child, command, files);
 }
 
-std::optional<int> after_look_in_child(const std::string& command, const std::vector<std::string>& files,
-                                       const std::function<void()>& look) {
+std::optional<int> after_reading_in_child(const std::string& command, const std::vector<std::string>& files,
+                                          const std::function<void()>& read) {
   const pid_t child = fork_reader(command, files);
   if (child == 0) {
-    look();
+    read();
     return 0;
   }
   const int code = wait_for(child, command, files);

@@ -14,7 +14,7 @@ namespace {
 std::atomic<bool> sudden{false};
 
 /// Allocates nothing: there may be nothing left.
-void tell() {
+void report() {
   if (!sudden) return;
   remove_unfinished();
   constexpr const char* text =
@@ -29,7 +29,7 @@ void tell() {
 }  // namespace
 
 NoSuddenExit::NoSuddenExit() {
-  static const int registered = std::atexit(tell);
+  static const int registered = std::atexit(report);
   sudden = registered == 0;
 }
 

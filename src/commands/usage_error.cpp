@@ -123,8 +123,8 @@ std::string help_on(const CLI::App& app, const std::vector<std::string>& topic) 
     if (topic.size() == 1) text += (text.empty() ? "" : "\n") + case_help(topic[0]);
   } catch (const InputError& unknown) {
     const auto near = nearest_name(topic[0], command_names(app));
-    const bool told = std::string(unknown.what()).find("did you mean") != std::string::npos;
-    if (text.empty() && !near.empty() && !told)
+    const bool suggested = std::string(unknown.what()).find("did you mean") != std::string::npos;
+    if (text.empty() && !near.empty() && !suggested)
       throw InputError(
           fmt::format("no command, section or key of the case file is called '{}'; did you mean the command '{}'?",
                       printable(topic[0]), near));

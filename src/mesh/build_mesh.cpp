@@ -1,10 +1,18 @@
 #include "mesh/build_mesh.hpp"
 
+#include <cmath>
+
 #include "case/error.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 namespace railwave {
+namespace {
+
+/// Only where its parameters fit each other may a mesh be counted; where they don't, its maker says so.
+bool counts(double number) { return number >= 0 && std::isfinite(number); }
+
+}  // namespace
 
 MeshGenerator generator_of(const scene::MeshSource& source) {
 #define RAILWAVE_GENERATOR(type, Parameters) type##_generator,
@@ -19,6 +27,20 @@ Mesh build_mesh(const scene::MeshSource& source, MeshNotes* notes) {
   } catch (const MeshTooLarge& problem) {
     throw InputError(place_of(source) + problem.what());
   }
+}
+
+double expected_elements(const scene::MeshSource& source) {
+  try {
+    const double found = generator_of(source).elements(source);
+    return counts(found) ? found : 0;
+  } catch (const MeshTooLarge& problem) {
+    throw InputError(place_of(source) + problem.what());
+  }
+}
+
+double fine_element_size(const scene::MeshSource& source) {
+  const auto fine_size = generator_of(source).fine_size;
+  return fine_size ? fine_size(source) : 0;
 }
 
 }  // namespace railwave

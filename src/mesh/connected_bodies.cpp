@@ -1,8 +1,8 @@
-#include "mesh/connected_bodies.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
+
+#include "mesh/face_table.hpp"
 
 namespace railwave {
 namespace {

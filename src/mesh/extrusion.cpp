@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 namespace railwave {
 
@@ -15,7 +15,7 @@ class Extruder {
   Extruder(const SectionMesh& section, const Stations& stations, const Placement& place, bool turned)
       : section_(section), stations_(stations), place_(place), turned_(turned) {
     const double nodes = static_cast<double>(section.nodes.size()) * static_cast<double>(stations.position.size());
-    expect_mesh_room(extruded_elements(section, stations), nodes);
+    expect_mesh_memory(extruded_elements(section, stations), nodes);
     node_at_.assign(section.nodes.size() * stations.position.size(), -1);
   }
 

@@ -33,4 +33,8 @@ class FaceTable {
   std::vector<Entry> entries_;         // ascending by nodes, then element and side
 };
 
+/// Into how many bodies a mesh falls whose elements hold together by common faces: an edge or a node in common is a
+/// hinge.
+int connected_bodies(const Mesh& mesh);
+
 }  // namespace railwave

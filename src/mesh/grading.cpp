@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 namespace railwave {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/grading.hpp"
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 namespace railwave {
 namespace {
@@ -21,7 +21,7 @@ Mesh grid_mesh(const Grid& grid, const GridPlacement& place) {
   const auto number = [&](int i, int j, int k) { return (k * (n[1] + 1) + j) * nodes_along + i % nodes_along; };
   const auto has_sides = [&](int axis) { return axis > 0 || !grid.closed; };
 
-  expect_mesh_room(double(n[0]) * n[1] * n[2], double(nodes_along) * (n[1] + 1.0) * (n[2] + 1.0));
+  expect_mesh_memory(double(n[0]) * n[1] * n[2], double(nodes_along) * (n[1] + 1.0) * (n[2] + 1.0));
   Mesh mesh;
   mesh.nodes.reserve(std::size_t(nodes_along) * (n[1] + 1) * (n[2] + 1));
   for (int k = 0; k <= n[2]; ++k)

@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace railwave {
@@ -37,5 +38,16 @@ struct Mesh {
     return result;
   }
 };
+
+/// Mirrors a mesh at the plane y = 0. Elements stay right-handed and faces look outwards: an element's first four
+/// corners become its last. Sets keep their names.
+inline void mirror(Mesh& mesh) {
+  for (Vec3& x : mesh.nodes) x[1] = -x[1];
+  for (auto& corners : mesh.elements)
+    for (int i = 0; i < 4; ++i) std::swap(corners[i], corners[i + 4]);
+  for (auto& [name, faces] : mesh.surfaces)
+    for (Face& face : faces)
+      if (face.side < 2) face.side = 1 - face.side;
+}
 
 }  // namespace railwave

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "case/error.hpp"
-#include "mesh/connected_bodies.hpp"
+#include "mesh/face_table.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/surface_above.hpp"
 #include "mesh/vectors.hpp"

@@ -11,8 +11,8 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/mesh_size.hpp"
-#include "mesh/mirror.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/mesh_memory.hpp"
 #include "mesh/seam.hpp"
 #include "mesh/vectors.hpp"
 #include "model/beams/beams.hpp"
@@ -108,7 +108,7 @@ void append(Assembly& assembly, const Mesh& mesh, const std::string& part) {
   }
 }
 
-/// How far from `origin` along `direction` the triangle is (Moeller & Trumbore 1997); infinity: missed.
+/// How far from `origin` along `direction` the triangle is (Moeller and Trumbore 1997); infinity: missed.
 double distance_to_triangle(const Vec3& origin, const Vec3& direction, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 e1 = difference(b, a), e2 = difference(c, a), p = cross(direction, e2);
   const double determinant = dot(e1, p);
@@ -257,7 +257,7 @@ Assembly assemble(const scene::Scene& scene) {
 Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
   const Activity assembling("putting the parts together");
   Assembly assembly;
-  expect_room_for_parts(scene);
+  expect_memory_for_parts(scene);
   for (const scene::Part& part : scene.parts) {
     Mesh mesh = mesh_of(scene, part, notes);
     if (part.mirror) mirror(mesh);

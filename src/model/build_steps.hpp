@@ -7,9 +7,9 @@ namespace railwave {
 
 /// solver_support.cpp: InputError for [solver] wishes that no code honours
 void refuse_unknown_methods(const scene::Scene& scene);
-/// model_room.cpp: InputError when the arrays of a model of these parts can't fit where the steps are computed, on the
-/// host or a GPU
-void expect_model_room(const Assembly& assembly);
+/// model_memory.cpp: InputError when the arrays of a model of these parts can't fit where the steps are computed, on
+/// the host or a GPU
+void expect_model_memory(const Assembly& assembly);
 /// element_groups.cpp: InputError for an element that is inverted or flat
 void check_elements(const AssembledScene& assembled);
 /// element_groups.cpp: blocks, hourglass scales, lengths, masses
@@ -18,16 +18,16 @@ void build_elements(AssembledScene& assembled, const AbsorbingLayers& absorbing,
 /// node_arrays.cpp: state, gather lists, constraints
 void build_node_arrays(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, const Ties& ties,
                        NodalState& nodal);
-/// carriers.cpp: nodes in single precision
-void build_carried_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
-                         NodalState& nodal);
+/// relative_coordinates.cpp: nodes in single precision
+void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
+                          NodalState& nodal);
 /// beams.cpp: sections, masses, rotations
 void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);
 /// loads.cpp: loads, connectors, moments on beams, node sets
 Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads);
-/// extra_forces.cpp: the nodes that feel other forces than elements', and whose these are
-void build_extra_forces(const Assembly& assembly, const Contributions& contributions,
-                        std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
+/// external_forces.cpp: the nodes that feel other forces than elements', and whose these are
+void build_external_forces(const Assembly& assembly, const Contributions& contributions,
+                           std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
 /// prescribed_nodes.cpp: sets of nodes that move as rigid motions say
 void build_prescribed_motions(const AssembledScene& assembled, std::vector<PrescribedSet>& prescribed);
 /// ties.cpp: places of slave nodes on their masters' faces
@@ -45,7 +45,7 @@ void refuse_contradictions(const AssembledScene& assembled, const std::vector<Co
 void resolve_rolling(AssembledScene& assembled);
 /// stable_step.cpp: the stable step by each estimate, which may ask what all of the model does together
 void build_stable_step(Model& model);
-/// subcycling.cpp: paces of nodes
+/// subcycling.cpp: levels of nodes
 void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);
 /// left_out.cpp: what the scene does not need and the run will not compute
 std::vector<std::string> what_is_left_out(const scene::Scene& scene);

@@ -19,7 +19,7 @@ namespace railwave {
 namespace {
 
 struct FetchNodes {
-  PacedAcceleration acceleration;
+  SubcycledAcceleration acceleration;
   double lag;
   NodeField field;
   Array<const int*> wanted;
@@ -31,7 +31,7 @@ struct FetchNodes {
     Vector3 value = row(nodes.position, n);
     if (field == NodeField::displacement) value = value - row(nodes.reference, n);
     if (field == NodeField::velocity)
-      value = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
+      value = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
     if (field == NodeField::acceleration) value = acceleration.plain(n);
     for (int k = 0; k < 3; ++k) result(3 * i + k) = value[k];
   }
@@ -188,7 +188,7 @@ struct SlavesNow {
 /// What curved segments hand on to the master's nodes, by these.
 struct CurvedShares {
   ContactSearch search;
-  ExtraForceSum sum;
+  ExternalForceSum sum;
   Array<const int*> place_of_node;
   Array<const double* [3]> force;
   KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
@@ -210,8 +210,8 @@ void add_curved_forces(const NodalState& nodal, const ContactPair& pair, const A
                        std::vector<double>& on_master) {
   std::vector<int> place(nodal.nodes.count, -1);
   for (std::size_t m = 0; m < pair.master_nodes.size(); ++m) place[pair.master_nodes[m]] = static_cast<int>(m);
-  ExtraForceSum sum;
-  sum.quantum = nodal.extra.sum.quantum;
+  ExternalForceSum sum;
+  sum.quantum = nodal.external.sum.quantum;
   sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
   Kokkos::parallel_for(
       "curved_shares", Range(0, pair.arrays.slave_count),
@@ -248,7 +248,7 @@ HostField own_node_field(const NodalState& nodal, NodeField field, const std::ve
   const auto result = unset_array<double*>("node field", 3 * nodes.size());
   Kokkos::parallel_for(
       "fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-      FetchNodes{nodal.paced_acceleration(), nodal.velocity_lag, field, to_device("wanted", nodes), result});
+      FetchNodes{nodal.subcycled_acceleration(), nodal.velocity_lag, field, to_device("wanted", nodes), result});
   return {3, to_vector(result)};
 }
 

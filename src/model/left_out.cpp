@@ -34,7 +34,7 @@ std::vector<std::string> what_is_left_out(const scene::Scene& scene) {
   note(scene.absorbing_layers.empty(), "absorbing layers");
   note(scene.ties.empty(), "ties between meshes");
   note(!scene.settle.active, "settling: the run starts from the undeformed mesh");
-  note(!scene.watch.active, "the watch: nobody looks for faults but for values that are not finite");
+  note(!scene.monitor.active, "the monitor: faults are not looked for, but for values that are not finite");
   bool any_viscous = false;
   for (const auto& part : scene.parts) any_viscous = any_viscous || part.hourglass == scene::HourglassType::viscous;
   note(!any_viscous, "viscous hourglass control: element kernels read no velocities");

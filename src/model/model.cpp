@@ -19,7 +19,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   model.scene = scene;
   model.assembly = assembly;
   model.gravity = {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
-  expect_model_room(model.assembly);
+  expect_model_memory(model.assembly);
   Activity laying("ordering the elements");
   check_elements(model);
   model.order =
@@ -28,25 +28,25 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_elements(model, model.absorbing, model, model.partial);
   build_beams(model, model.beams);
   {
-    const Activity looking("laying out contacts and ties");
+    const Activity activity("laying out contacts and ties");
     build_contacts(model, model.contacts);
     build_ties(model, model.contacts, model.ties);
   }
   build_non_reflecting(model, model.contacts, model.ends);
   const Contributions contributions = build_loads(model, model.beams, model);
-  build_extra_forces(model.assembly, contributions, model.contacts, model.ties, model.ends, model);
+  build_external_forces(model.assembly, contributions, model.contacts, model.ties, model.ends, model);
   build_prescribed_motions(model, model.prescribed);
   refuse_contradictions(model, model.contacts);
   resolve_rolling(model);
   build_node_arrays(model, model.elements, model.ties, model);
-  build_carried_nodes(model, model.elements, model.ties, model);
+  build_relative_nodes(model, model.elements, model.ties, model);
   build_element_histories(model, model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
   const Activity estimating("estimating the stable step");
   build_stable_step(model);
   build_subcycling(model.elements, model.ends, model);
-  plan_steps(model.scene, model.subcycling.round(), model);
+  plan_steps(model.scene, model.subcycling.cycle(), model);
 }
 
 namespace {
@@ -85,11 +85,11 @@ void reset_to_start(Model& model) {
     Kokkos::deep_copy(pair.arrays.tracked, -1);
     Kokkos::deep_copy(pair.arrays.gap, beside_surface);
     reset_contact_law(*pair.contact, pair.law);
-    pair.next_look = -1;
+    pair.next_check = -1;
     pair.boxed = false;
     pair.slaves_at_layout = {};
   }
-  model.carried.begun = false;
+  model.relative.begun = false;
   model.time = 0;
   model.step = 0;
   model.velocity_lag = 0;

@@ -5,7 +5,7 @@
 
 #include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 #include "model/subcycling.hpp"
 
 namespace railwave {
@@ -14,15 +14,15 @@ namespace railwave {
 /// seconds before it. Every task works on it.
 struct NodalState {
   NodeArrays nodes;
-  CarriedNodes carried;
+  RelativeNodes relative;
   Array<double* [3][3]> constraints;
   Subcycling subcycling;
   PartialForces partial;
   Array<SharedNode*> shared_nodes;  ///< those that no block advances by itself
-  ExtraForces extra;
+  ExternalForces external;
   Vector3 gravity{{0, 0, 0}};  ///< m/s2
   std::shared_ptr<ReductionSpace> reduction_space =
-      std::make_shared<ReductionSpace>();  ///< of the account, the watch, the static start
+      std::make_shared<ReductionSpace>();  ///< of the account, the monitor, the static start
 
   double time = 0;  ///< s
   long step = 0;
@@ -31,11 +31,11 @@ struct NodalState {
   int node_count() const { return nodes.count; }
 
   /// Force and acceleration of a node from what the last force phase left in the arrays.
-  NodalAcceleration acceleration() const { return {{nodes, partial, extra.sum}, gravity, constraints}; }
+  NodalAcceleration acceleration() const { return {{nodes, partial, external.sum}, gravity, constraints}; }
 
-  /// The same as the scheme uses it at an instant when all levels are in phase: v(t) = v(stored) + pace lag
+  /// The same as the scheme uses it at an instant when all levels are in phase: v(t) = v(stored) + steps lag
   /// acceleration.
-  PacedAcceleration paced_acceleration() const { return {acceleration(), subcycling.paces}; }
+  SubcycledAcceleration subcycled_acceleration() const { return {acceleration(), subcycling.node_levels}; }
 };
 
 }  // namespace railwave

@@ -46,13 +46,13 @@ void build_gather(const std::vector<ElementGroup>& groups, NodeArrays& nodes) {
 /// A node of one block only, on which nothing else acts, is advanced by its block; the others are listed.
 void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal) {
   const auto first = to_host(nodal.nodes.first_partial);
-  const auto extra = to_host(nodal.nodes.extra), constraint = to_host(nodal.nodes.constraint);
+  const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
   const auto place = to_host(nodal.nodes.partial_place);
   std::vector<SharedNode> listed;
   std::vector<char> alone(nodal.nodes.count, 1);
   for (int n = 0; n < nodal.nodes.count; ++n) {
     const int count = first(n + 1) - first(n);
-    const bool special = extra(n) >= 0 || constraint(n) >= 0;
+    const bool special = external(n) >= 0 || constraint(n) >= 0;
     if (count == 1 && !special) continue;
     alone[n] = 0;
     listed.push_back({special ? n | special_bit : n,

@@ -33,9 +33,9 @@ Division divide(double end, double interval) {
   return {count, end / static_cast<double>(count), false};
 }
 
-/// Steps in the whole number of rounds nearest to an interval, at least one round.
-long whole_rounds(double interval, double step, long round) {
-  return std::max(1L, std::lround(interval / (static_cast<double>(round) * step))) * round;
+/// Steps in the whole number of cycles nearest to an interval, at least one cycle.
+long whole_cycles(double interval, double step, long cycle) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(cycle) * step))) * cycle;
 }
 
 /// The least multiple of `unit` that is at least `least`.
@@ -51,19 +51,19 @@ long common_multiple(long a, long b, double most) {
 
 }  // namespace
 
-StepPlan lay_steps(double end, double largest, double history, double fields, long round, bool fixed) {
+StepPlan equal_steps(double end, double largest, double history, double fields, long cycle, bool fixed) {
   const double needed = end / largest;
-  const long fewest = up_to_multiple(needed, round);
+  const long fewest = up_to_multiple(needed, cycle);
   const Division samples = history > 0 ? divide(end, history) : Division{},
                  outputs = fields > 0 ? divide(end, fields) : Division{1, end, true};
   StepPlan plan{fewest, end / static_cast<double>(fewest), {history > 0 ? samples.interval : 0, outputs.interval}};
   if (fixed) return plan;
 
   const double most = std::fmax(static_cast<double>(fewest), most_more * needed);
-  // Divisions of the run whose ends must be ends of rounds: both outputs', or those of the histories alone.
+  // Divisions of the run whose ends must be ends of cycles: both outputs', or those of the histories alone.
   for (const long division : {common_multiple(samples.count, outputs.count, most), samples.count}) {
-    if (division == 0 || static_cast<double>(division) * static_cast<double>(round) > most) continue;
-    const long count = up_to_multiple(needed, division * round);
+    if (division == 0 || static_cast<double>(division) * static_cast<double>(cycle) > most) continue;
+    const long count = up_to_multiple(needed, division * cycle);
     if (static_cast<double>(count) > most) continue;
     plan.count = count;
     // By the interval as it was asked for, so that a later end has the same steps.
@@ -73,7 +73,7 @@ StepPlan lay_steps(double end, double largest, double history, double fields, lo
     return plan;
   }
   if (history > 0) {
-    const long every = whole_rounds(samples.interval, largest, round);
+    const long every = whole_cycles(samples.interval, largest, cycle);
     if (const long count = up_to_multiple(needed, every); static_cast<double>(count) <= most) {
       plan.count = count;
       plan.size = end / static_cast<double>(count);
@@ -83,18 +83,18 @@ StepPlan lay_steps(double end, double largest, double history, double fields, lo
   return plan;
 }
 
-void plan_steps(const scene::Scene& scene, long round, StepSizes& sizes) {
+void plan_steps(const scene::Scene& scene, long cycle, StepSizes& sizes) {
   const StepPlan plan =
-      lay_steps(scene.time.end, largest_step(scene.time, sizes.stable_step), scene.output.history_interval,
-                scene.output.field_interval, round, scene.time.step > 0);
+      equal_steps(scene.time.end, largest_step(scene.time, sizes.stable_step), scene.output.history_interval,
+                  scene.output.field_interval, cycle, scene.time.step > 0);
   sizes.step_count = plan.count;
   sizes.step_size = plan.size;
   sizes.output_times = plan.times;
 }
 
-std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long round) {
+std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long cycle) {
   const auto line = [&](const char* what, double interval, double asked, bool ends_only) {
-    const long every = whole_rounds(interval, sizes.step_size, round);
+    const long every = whole_cycles(interval, sizes.step_size, cycle);
     if (ends_only || every >= sizes.step_count) return fmt::format("{} at the beginning and the end", what);
     const double apart = static_cast<double>(every) * sizes.step_size;
     return fmt::format(

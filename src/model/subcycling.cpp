@@ -26,16 +26,16 @@ double Subcycling::gain() const {
 
 namespace {
 
-/// Level of each node: extra forces are evaluated at every step, elements at their own pace, and dashpots of
-/// non-reflecting ends at their nodes'. Rows of partial forces ascend by level, so a node's first row is of its finest
-/// block.
+/// Level of each node: external forces are evaluated at every step, elements at the steps of their level, and dashpots
+/// of non-reflecting ends at their nodes'. Rows of partial forces ascend by level, so a node's first row is of its
+/// finest block.
 std::vector<std::uint8_t> node_levels(const NodalState& nodal, const NonReflectingEnds& ends) {
   const auto first = to_host(nodal.nodes.first_partial), place = to_host(nodal.nodes.partial_place);
-  const auto extra = to_host(nodal.nodes.extra);
+  const auto external = to_host(nodal.nodes.external_row);
   std::vector<std::uint8_t> level(nodal.nodes.count, 0);
   for (int n = 0; n < nodal.nodes.count; ++n)
-    if ((extra(n) < 0 || (!ends.alone.empty() && ends.alone[n] != 0)) && first(n + 1) > first(n))
-      while (place(first(n)) >= nodal.subcycling.paces.row_end[level[n]]) ++level[n];
+    if ((external(n) < 0 || (!ends.alone.empty() && ends.alone[n] != 0)) && first(n + 1) > first(n))
+      while (place(first(n)) >= nodal.subcycling.node_levels.row_end[level[n]]) ++level[n];
   return level;
 }
 
@@ -50,11 +50,11 @@ void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflecti
   int rows = 0;
   for (const ElementGroup& group : groups) {
     rows = group.rows_end();
-    for (int l = group.level; l < most_levels; ++l) subcycling.paces.row_end[l] = rows;
+    for (int l = group.level; l < most_levels; ++l) subcycling.node_levels.row_end[l] = rows;
     for (int count : group.element_count) subcycling.elements[group.level] += count;
   }
   const auto level = node_levels(nodal, ends);
-  subcycling.paces.level = to_device("node levels", level);
+  subcycling.node_levels.level = to_device("node levels", level);
 
   const auto shared = to_host(nodal.shared_nodes);
   const auto level_of = [&](const SharedNode& node) { return level[node.node & ~special_bit]; };
@@ -75,7 +75,7 @@ std::vector<std::string> describe_subcycling(const scene::Scene& scene, const Su
       lines.push_back(l == 0 ? fmt::format("{} elements at every step", subcycling.elements[l])
                              : fmt::format("{} elements every {} steps", subcycling.elements[l], 1L << l));
   lines.push_back(fmt::format("{:.3g} times fewer element updates; outputs every whole {} steps", subcycling.gain(),
-                              subcycling.round()));
+                              subcycling.cycle()));
   return lines;
 }
 

@@ -4,21 +4,21 @@
 #include <vector>
 
 #include "case/scene.hpp"
-#include "kernels/nodes/paced_nodes.hpp"
+#include "kernels/nodes/subcycled_nodes.hpp"
 #include "model/assembly.hpp"
 
 namespace railwave {
 
-/// How a model is subcycled; see kernels/nodes/paced_nodes.hpp.
+/// How a model is subcycled; see kernels/nodes/subcycled_nodes.hpp.
 struct Subcycling {
   int levels = 1;  ///< 1: every element takes every step
-  NodePaces paces;
+  SubcycleLevels node_levels;
   std::vector<int> shared_end;  ///< by level: how many of the model's shared nodes are of it or finer
   std::vector<long> elements;   ///< by level
 
   /// Steps from one instant at which everything is in phase to the next.
-  long round() const { return 1L << (levels - 1); }
-  bool in_phase(long step) const { return step % round() == 0; }
+  long cycle() const { return 1L << (levels - 1); }
+  bool in_phase(long step) const { return step % cycle() == 0; }
   /// The coarsest level that is evaluated at a step.
   int phase(long step) const;
   /// By what factor element updates fall.

@@ -14,7 +14,7 @@ namespace railwave {
 enum class ArrayUse {
   constant,       ///< made with the model
   run_state,      ///< what the rest of a run depends on: zero at the start, kept by checkpoints
-  settled_state,  ///< of that, what a settled scene is told by: kept with it besides
+  settled_state,  ///< of that, what a settled scene is identified by: kept with it besides
   trial_state,  ///< of that, what each evaluation of forces changes: a trial of settling that is not taken is put back
   scratch       ///< made anew before it is read
 };
@@ -47,16 +47,16 @@ void visit_arrays(const Named<Visitor>& visit, NodeArrays& nodes) {
   visit(ArrayUse::constant, "mass", nodes.mass);
   visit(ArrayUse::constant, "first_partial", nodes.first_partial);
   visit(ArrayUse::constant, "partial_place", nodes.partial_place);
-  visit(ArrayUse::constant, "extra", nodes.extra);
+  visit(ArrayUse::constant, "external_row", nodes.external_row);
   visit(ArrayUse::constant, "constraint", nodes.constraint);
 }
 
 template <class Visitor>
-void visit_arrays(const Named<Visitor>& visit, CarriedNodes& carried) {
-  visit(ArrayUse::run_state, "node", carried.node);
-  visit(ArrayUse::run_state, "shared_arm", carried.shared_arm);
-  visit(ArrayUse::run_state, "motion", carried.motion);
-  visit(ArrayUse::run_state, "steps", carried.steps);
+void visit_arrays(const Named<Visitor>& visit, RelativeNodes& relative) {
+  visit(ArrayUse::run_state, "node", relative.node);
+  visit(ArrayUse::run_state, "shared_arm", relative.shared_arm);
+  visit(ArrayUse::run_state, "motion", relative.motion);
+  visit(ArrayUse::run_state, "steps", relative.steps);
 }
 
 template <class Visitor>
@@ -85,8 +85,8 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   visit(ArrayUse::constant, "node_drag", group.damping.node_drag);
   visit(ArrayUse::run_state, "damping_energy", group.damping.energy);
 
-  visit(ArrayUse::constant, "carrier_local", group.carried.local);
-  visit(ArrayUse::run_state, "carrier_arm", group.carried.arm);
+  visit(ArrayUse::constant, "relative_local", group.relative.local);
+  visit(ArrayUse::run_state, "carrier_arm", group.relative.arm);
 }
 
 template <class Visitor>
@@ -107,15 +107,15 @@ void visit_arrays(const Named<Visitor>& visit, ElementHistories& histories) {
 }
 
 template <class Visitor>
-void visit_arrays(const Named<Visitor>& visit, ExtraForces& extra) {
-  visit(ArrayUse::run_state, "load", extra.sum.load);
-  visit(ArrayUse::run_state, "contact", extra.sum.contact);
-  visit(ArrayUse::constant, "loaded", extra.loaded);
-  visit(ArrayUse::constant, "loaded_of_row", extra.loaded_of_row);
-  visit(ArrayUse::constant, "shares", extra.shares);
-  visit(ArrayUse::run_state, "contribution", extra.contribution);
-  visit(ArrayUse::constant, "contribution_node", extra.contribution_node);
-  visit(ArrayUse::run_state, "contribution_work", extra.work);
+void visit_arrays(const Named<Visitor>& visit, ExternalForces& external) {
+  visit(ArrayUse::run_state, "load", external.sum.load);
+  visit(ArrayUse::run_state, "contact", external.sum.contact);
+  visit(ArrayUse::constant, "loaded", external.loaded);
+  visit(ArrayUse::constant, "loaded_of_row", external.loaded_of_row);
+  visit(ArrayUse::constant, "shares", external.shares);
+  visit(ArrayUse::run_state, "contribution", external.contribution);
+  visit(ArrayUse::constant, "contribution_node", external.contribution_node);
+  visit(ArrayUse::run_state, "contribution_work", external.work);
 }
 
 template <class Visitor>
@@ -207,7 +207,7 @@ void visit_arrays(const Named<Visitor>& visit, Ties& all) {
   visit(ArrayUse::constant, "shares", ties.shares);
   visit(ArrayUse::run_state, "passed_on", ties.passed_on);
   visit(ArrayUse::run_state, "before", ties.before);
-  visit(ArrayUse::constant, "carrier", all.carrier);
+  visit(ArrayUse::constant, "frame", all.frame);
 }
 
 template <class Visitor>
@@ -265,10 +265,10 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
     for (std::size_t k = 0; k < list.size(); ++k) visit_arrays(of(module + "_" + std::to_string(k) + "_"), list[k]);
   };
   visit_arrays(of("nodes_"), model.nodes);
-  visit_arrays(of("carried_"), model.carried);
+  visit_arrays(of("carried_"), model.relative);
   each("elements", model.elements);
   if (model.element_histories) visit_arrays(of("element_histories_"), *model.element_histories);
-  visit_arrays(of("extra_"), model.extra);
+  visit_arrays(of("extra_"), model.external);
   visit_arrays(of("sets_"), model.sets);
   each("load", model.loads);
   visit_arrays(of("connectors_"), model.connectors.arrays);
@@ -282,7 +282,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   const Named<Visitor> own = of("model_");
   own(ArrayUse::constant, "constraints", model.constraints);
   own(ArrayUse::constant, "shared_nodes", model.shared_nodes);
-  own(ArrayUse::constant, "paces", model.subcycling.paces.level);
+  own(ArrayUse::constant, "node_levels", model.subcycling.node_levels.level);
   // The account of damping takes the rows of the step before.
   bool damped = false;
   for (const ElementGroup& group : model.elements) damped = damped || group.damping.active();

@@ -41,10 +41,10 @@ void print(const scene::Scene& scene, const std::vector<Mode>& modes, bool sever
   }
 }
 
-/// A line for each part whose hourglass control holds so much of modes' energy that a run's watch would warn of it:
+/// A line for each part whose hourglass control holds so much of modes' energy that a run's monitor would warn of it:
 /// their frequencies are those of the control. The mode with the largest share stands for the others.
 void warn_of_hourglass(const scene::Scene& scene, const std::vector<Mode>& modes, std::ostream& out) {
-  const double limit = scene.watch.hourglass_share;
+  const double limit = scene.monitor.hourglass_share;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {
     std::size_t worst = modes.size();
     int count = 0;
@@ -57,7 +57,7 @@ void warn_of_hourglass(const scene::Scene& scene, const std::vector<Mode>& modes
     const scene::Part& part = scene.parts[p];
     out << fmt::format(
         "warning: [parts.{}] (line {}) is bent over few elements: its hourglass control holds more than {:.3g} "
-        "(watch.hourglass_share) of the energy of {} of the {} modes, "
+        "(monitor.hourglass_share) of the energy of {} of the {} modes, "
         "at most {:.3g} of mode {}'s ({:.1f} Hz), whose frequencies depend on hourglass_coefficient; refine it where "
         "these modes bend it (docs/hourglass.md)\n",
         part.name, part.line, limit, count, modes.size(), modes[worst].hourglass_share, worst + 1,

@@ -2,21 +2,21 @@
 
 #include <exception>
 
+#include "output/free_memory.hpp"
 #include "output/results_writer.hpp"
-#include "output/room.hpp"
 
 namespace railwave {
 namespace {
 
-// The queue's room: two outputs of fields and thousands of history samples beside them, which are small and must not
-// wait for fields being written.
-constexpr std::size_t size_of_history = 1, size_of_fields = 4096, room = 3 * size_of_fields - 1;
+// The queue's capacity: two outputs of fields and thousands of history samples beside them, which are small and must
+// not wait for fields being written.
+constexpr std::size_t size_of_history = 1, size_of_fields = 4096, capacity = 3 * size_of_fields - 1;
 
 }  // namespace
 
 BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far,
                                    std::function<void()> on_failure)
-    : writer_(std::move(path), std::move(description), so_far), thread_(room, std::move(on_failure)) {
+    : writer_(std::move(path), std::move(description), so_far), thread_(capacity, std::move(on_failure)) {
   thread_.add(hdf5::be_quiet);
 }
 
@@ -31,7 +31,8 @@ void BackgroundWriter::fields(const FieldSource& source, double time, long step)
         select_fields(run.sets, run.fields, static_cast<int>(run.contacts.size()), source));
   }
   // The snapshot and what is fetched for it: made only where that leaves HDF5, in its thread, what it looked for.
-  if (!leaves_room(2 * selection_->bytes() + memory_margin)) throw NoRoom(2 * selection_->bytes() + memory_margin);
+  if (!leaves_free_memory(2 * selection_->bytes() + memory_margin))
+    throw TooLittleMemory(2 * selection_->bytes() + memory_margin);
   const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection_);
   thread_.add([this, snapshot, time, step] { writer_.fields(*snapshot, time, step); }, size_of_fields);
 }
@@ -46,7 +47,7 @@ void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {
         } catch (const std::exception& error) {
           const bool first = trouble_.empty();
           trouble_ = std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();
-          if (first) tell_at_once(trouble_);
+          if (first) report_at_once(trouble_);
         }
       },
       size_of_fields);

@@ -29,8 +29,8 @@ class BackgroundWriter {
   /// Fetches from `source` before it returns.
   void fields(const FieldSource& source, double time, long step);
 
-  /// Writes the state after what was given before. What goes wrong with it stops nothing; it is told at once, and see
-  /// checkpoint_trouble().
+  /// Writes the state after what was given before. What goes wrong with it stops nothing; it is reported at once, and
+  /// see checkpoint_trouble().
   void checkpoint(RunState state, const CheckpointFile& file);
 
   /// Waits for all that was given; what went wrong with checkpoints, empty: nothing.

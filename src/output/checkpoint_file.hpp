@@ -40,8 +40,8 @@ class CheckpointFile {
   std::string path_, key_;
 };
 
-/// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the watch and
-/// what is told on the way, the mesh in the solver's order, the program's version.
+/// Hash of everything that a run's course and its results depend on: the case but for its title, its end, the monitor
+/// and what is reported on the way, the mesh in the solver's order, the program's version.
 std::string checkpoint_key(const AssembledScene& assembled, const std::string& program_version);
 
 /// Where a case's checkpoint lies: unless it says so, results.h5 -> results.checkpoint.h5.

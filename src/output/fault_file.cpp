@@ -56,11 +56,11 @@ std::string write_part(const Assembly& assembly, const ElementModel& elements, c
 void write_files(const AssembledScene& assembled, const ElementModel& elements, const NodalState& nodal,
                  const Ties& ties, const Fault& fault, const std::string& path) {
   const double half_edge =
-      assembled.scene.watch.box > 0 ? assembled.scene.watch.box : elements_about * std::cbrt(fault.element_volume);
+      assembled.scene.monitor.box > 0 ? assembled.scene.monitor.box : elements_about * std::cbrt(fault.element_volume);
   check_results_place(path);
   hdf5::File file = hdf5::File::create(path, kinds::fault());
   const hdf5::Group root = file.root(), parts = root.create_group("parts");
-  root.set_attribute("fault", fault.told());
+  root.set_attribute("fault", fault.summary());
   root.set_attribute("time", nodal.time);
   root.set_attribute("step", nodal.step);
   std::string grids;

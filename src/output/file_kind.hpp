@@ -16,7 +16,7 @@ struct FileKind {
   /// - text: what stands among its first bytes;
   /// - table (CSV, which has no room for a mark): the first columns of its heading, separated by commas; a unit, as in
   /// `time [s]`, counts where
-  ///   it is told here.
+  ///   it is reported here.
   std::string mark;
   std::string more;  ///< table: what each further column's name contains, which has a unit if the first has one; empty:
                      ///< there is none

@@ -36,7 +36,7 @@ std::optional<Identity> identity(const std::string& path) {
   return facts ? std::optional<Identity>({facts->st_dev, facts->st_ino}) : std::nullopt;
 }
 
-/// Files that may be replaced whatever they are, see give(). Time and length are told too: a new file may get the
+/// Files that may be replaced whatever they are, see give(). Time and length are reported too: a new file may get the
 /// number of one that is gone. The thread that writes results asks for them as well.
 struct GivenFiles {
   using File = std::tuple<dev_t, ino_t, time_t, long, off_t>;

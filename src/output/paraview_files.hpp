@@ -35,9 +35,9 @@ void remove_fault_file(const std::string& path);
 /// Writes the surroundings of a fault as the run left them, for ParaView: `path` (HDF5) and its XDMF companion. A group
 /// for each part that has elements in the box about the fault: parts/NAME with coordinates (undeformed, m),
 /// connectivity, every field of case/field_table.hpp that output.fields may name, and by element its number in the
-/// model (element) and whether the fault names it (culprit: 1). The box's half edge is watch.box, or six times the
+/// model (element) and whether the fault names it (culprit: 1). The box's half edge is monitor.box, or six times the
 /// culprit's size; a fault without a place has no file. An older run's files of that name are removed. Where none can
-/// be made that is told on stderr: the fault itself matters more.
+/// be made that is reported on stderr: the fault itself matters more.
 /// @return whether it was written
 bool write_fault_file(const AssembledScene& assembled, const ElementModel& elements, const NodalState& nodal,
                       const Ties& ties, const Fault& fault, const std::string& path);

@@ -68,7 +68,7 @@ void Progress::settled(const Model& model, const SettleReport& report) {
 void Progress::history(const Model&, const HistorySample& sample) { table_->history(sample); }
 
 void Progress::warning(const Model&, const Fault& fault) {
-  out_ << (fault.fatal ? "FAULT: " : "warning: ") << fault.told() << '\n' << std::flush;
+  out_ << (fault.fatal ? "FAULT: " : "warning: ") << fault.summary() << '\n' << std::flush;
 }
 
 void Progress::end(const Model&, const RunSummary& summary) { table_->end(summary); }

@@ -152,10 +152,10 @@ void ProgressTable::end(const RunSummary& summary) {
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n",
                       duration_text(summary.wall_seconds), 1e-6 * summary.element_steps_per_second,
                       plan_.element_count);
-  if (!summary.watched.empty())
-    out_ << fmt::format("  watch, worst values (limits): {}\n    its looks took {:.2g} s, {:.2g} % of the run\n",
-                        summary.watched, summary.watch_seconds,
-                        100 * summary.watch_seconds / std::max(summary.wall_seconds, 1e-9));
+  if (!summary.worst_values.empty())
+    out_ << fmt::format("  monitor, worst values (limits): {}\n    its checks took {:.2g} s, {:.2g} % of the run\n",
+                        summary.worst_values, summary.monitor_seconds,
+                        100 * summary.monitor_seconds / std::max(summary.wall_seconds, 1e-9));
   if (summary.checkpoints > 0)
     out_ << fmt::format("  {} checkpoints, for which the run waited {:.3g} s in all, {:.2g} % of its time\n",
                         summary.checkpoints, summary.checkpoint_seconds,

@@ -16,7 +16,7 @@ struct ResultsThere {
   double completed_until = -1;  ///< s, the end of a complete run
 };
 
-ResultsThere look_into(const std::string& path, bool last_too = false) {
+ResultsThere inspect(const std::string& path, bool last_too = false) {
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored))
     throw InputError(fmt::format("--restart: there are no results {} to add to; run the case without --restart", path));
@@ -41,12 +41,12 @@ void check_can_be_extended(const std::string& results_path) {
   std::error_code ignored;
   if (!std::filesystem::exists(results_path, ignored)) return;
   check_results_place(results_path);  // tells whether another run is writing them
-  look_into(results_path, true);
+  inspect(results_path, true);
 }
 
 Restart find_restart(const std::string& results_path, const CheckpointFile& checkpoint, double end) {
   Restart restart;
-  const ResultsThere there = look_into(results_path);
+  const ResultsThere there = inspect(results_path);
   if (there.key != checkpoint.key())
     throw InputError(
         fmt::format("--restart: the results {} are of another case, of this case before it was changed, or of another "

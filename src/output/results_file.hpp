@@ -20,7 +20,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
 
   /// Throws InputError when what the run will write can't fit onto the disk.
-  void check_room(const AssembledScene& assembled, const StepSizes& sizes) const;
+  void check_disk_space(const AssembledScene& assembled, const StepSizes& sizes) const;
 
   /// Before the run begins: where its states are kept. When the run is complete they are taken away, unless the one at
   /// its end is to stay.
@@ -57,7 +57,7 @@ struct ResultsSize {
 ResultsSize results_size(const RunDescription& description, const AssembledScene& assembled, const StepSizes& sizes);
 
 /// Throws InputError when a file of that size can't fit into `available` bytes however well its fields are compressed.
-void check_results_room(const ResultsSize& size, const scene::Scene& scene, double available);
+void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene, double available);
 
 /// Bytes that the file system of the file's folder has free; infinity where it doesn't tell.
 double free_bytes_at(const std::string& path);

@@ -74,7 +74,7 @@ ResultsSize results_size(const RunDescription& description, const AssembledScene
   return size;
 }
 
-void check_results_room(const ResultsSize& size, const scene::Scene& scene, double available) {
+void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene, double available) {
   // Stresses of a body that swings all through keep about two thirds, of one that mostly rests nearly nothing.
   constexpr double least_share = 0.02;
   if (size.history_bytes + least_share * size.field_bytes <= available) return;

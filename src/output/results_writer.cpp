@@ -172,10 +172,10 @@ void ResultsWriter::create_sections(const FieldSource& source) {
       contact_sides_.push_back({names.name, slave, section.node_count(slave), section.facet_count(slave)});
   }
   has_sections_ = true;
-  if (outputs_ > 0) tell_earlier_times();
+  if (outputs_ > 0) report_earlier_times();
 }
 
-void ResultsWriter::tell_earlier_times() {
+void ResultsWriter::report_earlier_times() {
   if (description_.sets.empty() && contact_sides_.empty()) return;
   const std::string group =
       description_.sets.empty() ? "/contact/" + contact_sides_.front().contact : description_.sets.front().group();
@@ -190,7 +190,7 @@ void ResultsWriter::fields(const FieldSource& source, double time, long step) {
   flush(time);
   if (!xdmf_.is_there()) {
     xdmf_.begin_anew();
-    tell_earlier_times();
+    report_earlier_times();
   }
   if (!description_.sets.empty() || !contact_sides_.empty())
     xdmf_.add(time, outputs_, description_.sets, contact_sides_);
@@ -198,7 +198,7 @@ void ResultsWriter::fields(const FieldSource& source, double time, long step) {
 }
 
 void ResultsWriter::flush(std::optional<double> time) {
-  if (const std::string done = file_.keep_name(); !done.empty()) tell_at_once(done);
+  if (const std::string done = file_.keep_name(); !done.empty()) report_at_once(done);
   history_->write();
   if (time) {
     for (FieldSection& section : field_sections_) section.add_time(*time);

@@ -84,7 +84,7 @@ class ResultsWriter {
   void create_file();
   void extend_file(const ResultsSoFar& so_far);
   void create_sections(const FieldSource& source);
-  void tell_earlier_times();
+  void report_earlier_times();
 
   /// Writes the waiting history and brings everything to the disk. `time` is that of the fields added since the last
   /// flush, if any. A kill leaves all of it or nothing.
@@ -113,6 +113,8 @@ void check_results_place(const std::string& path);
 std::string xdmf_path(const std::string& results_path);
 
 /// Tells what can't wait for the run's summary, from whichever thread.
-inline void tell_at_once(const std::string& what) { std::fputs(("railwave: warning: " + what + "\n").c_str(), stderr); }
+inline void report_at_once(const std::string& what) {
+  std::fputs(("railwave: warning: " + what + "\n").c_str(), stderr);
+}
 
 }  // namespace railwave

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
-#include "case/results_place.hpp"
+#include "case/read_case.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/file_kind.hpp"
 #include "output/paraview_files.hpp"
@@ -24,7 +24,7 @@ bool in_own_folder(const scene::Scene& scene, const std::string& path) {
   return fs::path(path).parent_path() == fs::path(default_results_folder(scene.path));
 }
 
-hdf5::RootAttributes look_into(const std::string& path, const FileKind& kind) {
+hdf5::RootAttributes inspect(const std::string& path, const FileKind& kind) {
   if (!is_of_kind(path, kind)) return {};
   return hdf5::read_root_attributes(path).value_or(hdf5::RootAttributes{});
 }
@@ -33,10 +33,10 @@ hdf5::RootAttributes look_into(const std::string& path, const FileKind& kind) {
 void check_unfinished(const scene::Scene& scene) {
   const std::string& results_path = scene.output.file;
   const std::string checkpoint = target_of(checkpoint_path(scene));
-  const auto results = look_into(results_path, kinds::results());
+  const auto results = inspect(results_path, kinds::results());
   const std::string run = results.text("run");
   for (const std::string& file : {checkpoint, checkpoint + ".previous"}) {
-    const auto state = look_into(file, kinds::checkpoint());
+    const auto state = inspect(file, kinds::checkpoint());
     const std::string of = state.text("run");
     if (of.empty()) continue;
     if (of != run)
@@ -59,7 +59,7 @@ void check_unfinished(const scene::Scene& scene) {
 /// Cases of the same name share results/NAME.
 void check_other_case(const scene::Scene& scene) {
   if (!in_own_folder(scene, scene.output.file)) return;
-  const std::string other = look_into(scene.output.file, kinds::results()).text("case_file");
+  const std::string other = inspect(scene.output.file, kinds::results()).text("case_file");
   std::error_code failed;
   if (other.empty() || !fs::exists(other, failed) || !fs::exists(scene.path, failed) ||
       fs::equivalent(other, scene.path, failed) || failed)

@@ -72,7 +72,7 @@ SettledStates::Found SettledFiles::find(const AssembledScene& assembled) {
   if (!assembled.scene.settle.cache || assembled.scene.static_text.empty()) return found;
   const std::string name = path(assembled);
   std::error_code ignored;
-  if (!std::filesystem::exists(name, ignored)) return found;  // whatever else lies there is told below
+  if (!std::filesystem::exists(name, ignored)) return found;  // whatever else lies there is reported below
   found.file = name;
   try {
     found.state = read_state(name, key(assembled));

@@ -4,8 +4,8 @@
 
 namespace railwave {
 
-TaskThread::TaskThread(std::size_t room, std::function<void()> on_failure)
-    : room_(room), on_failure_(std::move(on_failure)), thread_([this] { work(); }) {}
+TaskThread::TaskThread(std::size_t capacity, std::function<void()> on_failure)
+    : capacity_(capacity), on_failure_(std::move(on_failure)), thread_([this] { work(); }) {}
 
 TaskThread::~TaskThread() {
   {
@@ -19,7 +19,7 @@ TaskThread::~TaskThread() {
 void TaskThread::add(std::function<void()> task, std::size_t size) {
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    done_.wait(lock, [&] { return failure_ || taken_ == 0 || taken_ + size <= room_; });
+    done_.wait(lock, [&] { return failure_ || taken_ == 0 || taken_ + size <= capacity_; });
     throw_if_failed();
     waiting_.push_back({std::move(task), size});
     taken_ += size;
@@ -52,7 +52,7 @@ void TaskThread::work() {
       failure = std::current_exception();
     }
     if (failure && on_failure_) on_failure_();
-    next.task = nullptr;  // what it holds goes before its room is free, and outside the lock
+    next.task = nullptr;  // what it holds goes before its share of the capacity is free, and outside the lock
     lock.lock();
     taken_ -= next.size;
     if (failure) {

@@ -11,7 +11,6 @@
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
 #include "output/hdf5/hdf5.hpp"
-#include "post/name_patterns.hpp"
 
 namespace railwave {
 namespace {

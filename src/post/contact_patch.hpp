@@ -1,9 +1,8 @@
 #pragma once
 
-#include "post/equivalent_ellipse.hpp"
 #include "post/micro_slip.hpp"
+#include "post/patch_shape.hpp"
 #include "post/rigid_slip.hpp"
-#include "post/slip_regions.hpp"
 
 namespace railwave {
 
@@ -22,7 +21,7 @@ struct ContactPatch {
 
   LocalFrame frame;          ///< about the centre of the normal force
   double area_by_count = 0;  ///< m2, sum of the areas of the nodes in contact
-  double area = 0;           ///< m2, inside the zero line of the pressure (post/patch_area.hpp)
+  double area = 0;           ///< m2, inside the zero line of the pressure (post/patch_shape.hpp)
   EquivalentEllipse ellipse;
   double peak_nodal_pressure = 0;   ///< Pa, largest normal force of a node over the node's area
   double peak_facet_pressure = 0;   ///< Pa, largest mean of a facet (eq. 3.3)
@@ -63,5 +62,15 @@ struct ContactSurfaces {
 
 /// The patch of the touching nodes listed; all zero without nodes.
 ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<int>& nodes, const PatchOptions& options);
+
+/// Contact solution of one pair at one instant.
+struct ContactSolution {
+  ContactPatch whole;                 ///< of all touching nodes together
+  std::vector<ContactPatch> patches;  ///< told apart, small ones too, the one with the largest normal force first
+  int stray_nodes = 0;                ///< in small patches beside the others; without others, beside the largest
+  double stray_force = 0;             ///< N, sum of their normal forces
+};
+
+ContactSolution contact_solution(const ContactState& state, const PatchOptions& options = {});
 
 }  // namespace railwave

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "post/facet_stress.hpp"
+#include "post/facet.hpp"
 
 namespace railwave {
 namespace {

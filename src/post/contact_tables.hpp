@@ -2,7 +2,7 @@
 
 #include "output/file_kind.hpp"
 #include "post/centre_cut.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "post/table.hpp"
 
 namespace railwave {

@@ -172,7 +172,7 @@ int decay_command(const DecayRequest& request, std::ostream& out) {
                      request.direction.empty() ? "the force" : request.direction, probes.size() - 1, probes[1].distance,
                      probes.back().distance, test.input().load);
   print(out, measured);
-  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
+  for (const std::string& text : notes.summary()) out << "note: " << text << '\n';
   if (request.csv) write_table(*request.csv, csv(measured), rate_table());
   if (request.hdf5)
     write_own_file(*request.hdf5, file_format, test.first(),

@@ -10,8 +10,8 @@
 #include "case/error.hpp"
 #include "case/number_text.hpp"
 #include "case/suggest.hpp"
+#include "post/channel_name.hpp"
 #include "post/history_series.hpp"
-#include "post/name_patterns.hpp"
 
 namespace railwave {
 namespace {
@@ -56,7 +56,7 @@ ResponseSettings ResponseSettings::of(double resolution, const std::string& wind
   return {resolution, window == "exponential" ? window_end : 1};
 }
 
-std::vector<std::string> SignalNotes::told() const {
+std::vector<std::string> SignalNotes::summary() const {
   std::vector<std::string> all = texts;
   if (left_share > 0)
     all.push_back(
@@ -69,7 +69,7 @@ std::vector<std::string> SignalNotes::told() const {
 HammerTest::HammerTest(const std::vector<std::string>& files, const std::string& load) {
   if (files.empty()) throw InputError("no results file was named");
   for (const std::string& file : files) results_.emplace_back(file);
-  results_.front().damage_told([&] {
+  results_.front().report_damage([&] {
     const hdf5::Group history = results_.front().history();
     if (!history.has("set")) return;
     for (const std::string& set : history.group("set").names()) {
@@ -83,7 +83,7 @@ HammerTest::HammerTest(const std::vector<std::string>& files, const std::string&
         fmt::format("{} has the displacement, velocity and acceleration of no set; add a section [probes.NAME] to the "
                     "case, or name sets of nodes in output.history_sets",
                     files.front()));
-  results_.front().damage_told([&] { choose_input(load), check_texts(); });
+  results_.front().report_damage([&] { choose_input(load), check_texts(); });
   for (const ResultsReader& results : results_) {
     const HistorySeries series =
         read_history(results, {{fmt::format("load.{}.force.{}", input_.load, vector_text(input_.direction))}});
@@ -147,14 +147,14 @@ void HammerTest::check_texts() const {
 }
 
 std::string HammerTest::asker(const std::string& set) const {
-  return results_.front().damage_told([&] {
+  return results_.front().report_damage([&] {
     const hdf5::Group group = results_.front().history().group("set").group(set);
     return group.has_attribute("asked_by") ? group.text_attribute("asked_by") : std::string();
   });
 }
 
 std::optional<Eigen::Vector3d> HammerTest::place(const std::string& set) const {
-  return results_.front().damage_told([&]() -> std::optional<Eigen::Vector3d> {
+  return results_.front().report_damage([&]() -> std::optional<Eigen::Vector3d> {
     const hdf5::Group group = results_.front().history().group("set").group(set);
     if (!group.has("position")) return std::nullopt;
     return read_vector(group, "position");

@@ -40,7 +40,7 @@ struct SignalNotes {
   double left_share = 0;           ///< of the largest acceleration at the end, where that is too much
   std::string left_at;             ///< set
 
-  std::vector<std::string> told() const;
+  std::vector<std::string> summary() const;
 };
 
 /// One or several runs (blows) of the same hammer test.

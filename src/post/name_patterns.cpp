@@ -1,9 +1,8 @@
-#include "post/name_patterns.hpp"
-
 #include <algorithm>
 #include <string_view>
 
 #include "case/number_text.hpp"
+#include "post/channel_name.hpp"
 
 namespace railwave {
 namespace {

@@ -1,7 +1,7 @@
-#include "post/patch_velocity.hpp"
-
 #include <cmath>
 #include <limits>
+
+#include "post/patch_ways.hpp"
 
 namespace railwave {
 namespace {

@@ -12,7 +12,7 @@
 #include "output/hdf5/hdf5.hpp"
 #include "post/hammer_test.hpp"
 #include "post/own_file.hpp"
-#include "signal/resonances.hpp"
+#include "signal/frequency_response.hpp"
 
 namespace railwave {
 namespace {
@@ -43,8 +43,8 @@ void check(const ResponseRequest& request) {
                      request.overwrite);
 }
 
-/// A response and the lines of it that are told and written.
-struct Told {
+/// A response and the lines of it that are reported and written.
+struct ReportedResponse {
   HammerResponse where;
   FrequencyResponse lines;
   std::vector<Resonance> resonances;
@@ -69,23 +69,23 @@ FrequencyResponse cut(const FrequencyResponse& whole, double from, double to) {
 double decibels(double amplitude) { return 20 * std::log10(std::max(amplitude, 1e-300)); }
 double degrees(const Complex& value) { return 180 / M_PI * std::arg(value); }
 
-void print(std::ostream& out, const Told& told, const std::string& unit) {
-  out << fmt::format("{} ({})\n", told.where.name, told.where.kind);
-  if (told.resonances.empty())
+void print(std::ostream& out, const ReportedResponse& reported, const std::string& unit) {
+  out << fmt::format("{} ({})\n", reported.where.name, reported.where.kind);
+  if (reported.resonances.empty())
     out << "  no peak or trough\n";
   else
     out << fmt::format("  {:>6} {:>10} {:>13} {:>8} {:>10}\n", "", "Hz", unit, "dB", "damping %");
-  for (const Resonance& one : told.resonances)
+  for (const Resonance& one : reported.resonances)
     out << fmt::format("  {:>6} {:>10.1f} {:>13.4g} {:>8.1f} {:>10}\n", one.peak ? "peak" : "trough", one.frequency,
                        one.amplitude, decibels(one.amplitude),
                        one.damping && one.peak ? fmt::format("{:.2f}", 100 * *one.damping) : "-");
 }
 
-std::string csv(const std::vector<Told>& all) {
+std::string csv(const std::vector<ReportedResponse>& all) {
   fmt::memory_buffer text;
   const auto add = std::back_inserter(text);
   fmt::format_to(add, "{}\n", heading);
-  for (const Told& one : all)
+  for (const ReportedResponse& one : all)
     for (std::size_t k = 0; k < one.lines.frequency.size(); ++k) {
       const Complex value = one.lines.value[k];
       const std::string name =
@@ -106,13 +106,13 @@ void write(const hdf5::Group& group, const char* name, const char* unit, std::si
 }
 
 void write_file(const std::string& path, const HammerTest& test, const ResponseRequest& request,
-                const std::vector<Told>& all) {
+                const std::vector<ReportedResponse>& all) {
   write_own_file(path, file_format, test.first(), [&](const hdf5::Group& root) {
     root.set_attribute("results_files", request.results);
     root.set_attribute("input", test.input().load);
     root.set_attribute("quantity", request.quantity);
     const char* unit = units[static_cast<std::size_t>(integrations(request))].c_str();
-    for (const Told& one : all) {
+    for (const ReportedResponse& one : all) {
       const hdf5::Group group = root.create_group(one.where.name);
       group.set_attribute("kind", one.where.kind);
       const FrequencyResponse& lines = one.lines;
@@ -140,7 +140,7 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
   if (request.responses.empty()) places = test.all();
 
   SignalNotes notes;
-  std::vector<Told> all;
+  std::vector<ReportedResponse> all;
   double reliable = 0;
   for (const HammerResponse& place : places) {
     FrequencyResponse whole = test.accelerance(place, settings, notes);
@@ -159,12 +159,12 @@ int response_command(const ResponseRequest& request, std::ostream& out) {
       reliable = force_limit(whole, 20);
     }
     integrate(whole, integrations(request), decay);
-    Told told{place, cut(whole, request.from.value_or(20), request.to.value_or(reliable)), {}};
-    told.resonances = find_resonances(told.lines.frequency, told.lines.value, request.prominence, decay);
-    all.push_back(std::move(told));
+    ReportedResponse reported{place, cut(whole, request.from.value_or(20), request.to.value_or(reliable)), {}};
+    reported.resonances = find_resonances(reported.lines.frequency, reported.lines.value, request.prominence, decay);
+    all.push_back(std::move(reported));
   }
-  for (const Told& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
-  for (const std::string& text : notes.told()) out << "note: " << text << '\n';
+  for (const ReportedResponse& one : all) print(out, one, units[static_cast<std::size_t>(integrations(request))]);
+  for (const std::string& text : notes.summary()) out << "note: " << text << '\n';
   if (request.csv) write_table(*request.csv, csv(all), response_table());
   if (request.hdf5) write_file(*request.hdf5, test, request, all);
   return 0;

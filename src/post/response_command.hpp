@@ -16,7 +16,7 @@ struct ResponseRequest {
   std::string window = "none";           ///< or exponential
   double window_end = 0.05;              ///< what the exponential window comes down to
   double resolution = 1;                 ///< Hz
-  double prominence = 3;                 ///< dB, of the peaks told
+  double prominence = 3;                 ///< dB, of the peaks reported
   std::optional<double> from, to;        ///< Hz
   std::optional<std::string> csv, hdf5;
   bool overwrite = false;  ///< files of others too

@@ -91,22 +91,22 @@ ResultsReader::ResultsReader(const std::string& path) : path_(path) {
 }
 
 bool ResultsReader::completed() const {
-  return damage_told([&] { return file_.root().number_attribute("completed") != 0; });
+  return report_damage([&] { return file_.root().number_attribute("completed") != 0; });
 }
 std::string ResultsReader::reason() const {
-  return damage_told([&] { return file_.root().text_attribute("reason"); });
+  return report_damage([&] { return file_.root().text_attribute("reason"); });
 }
 
 std::vector<std::string> ResultsReader::contacts() const {
-  return damage_told([&] { return file_.root().group("contact").names(); });
+  return report_damage([&] { return file_.root().group("contact").names(); });
 }
 
 hdf5::Group ResultsReader::history() const {
-  return damage_told([&] { return file_.root().group("history"); });
+  return report_damage([&] { return file_.root().group("history"); });
 }
 
 std::string ResultsReader::slave_surface(const std::string& contact) const {
-  return damage_told([&] {
+  return report_damage([&] {
     const std::string surface = file_.root().group("contact").group(contact).group("slave").text_attribute("surface");
     if (surface.empty()) throw std::runtime_error("its slave surface has no name");
     return surface;

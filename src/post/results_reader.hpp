@@ -22,7 +22,7 @@ class ResultsReader {
 
   /// What `read` returns, which reads this file: what it throws becomes an InputError that names the file as damaged.
   template <class Read>
-  auto damage_told(const Read& read) const {
+  auto report_damage(const Read& read) const {
     try {
       return read();
     } catch (const InputError&) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/sets/point_search.hpp"
-#include "post/facet_place.hpp"
+#include "post/facet.hpp"
 
 namespace railwave {
 

@@ -1,8 +1,8 @@
-#include "signal/resonances.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "signal/frequency_response.hpp"
 
 namespace railwave {
 namespace {

@@ -89,9 +89,9 @@ class RunObserver {
   virtual void history(const Model& /*model*/, const HistorySample& /*sample*/) {}
   /// The model stands at `sample.time`; fields are fetched by the functions of model/fields.hpp.
   virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/) {}
-  /// At every history sample, and at looks of the watch, where histories are rarer.
+  /// At every history sample, and at checks of the monitor, where histories are rarer.
   virtual void progress(const Model& /*model*/, const HistorySample& /*sample*/) {}
-  /// Once for each kind of thing that the watch warns of, when it is first seen; again if it becomes fatal.
+  /// Once for each kind of thing that the monitor warns of, when it is first seen; again if it becomes fatal.
   virtual void warning(const Model& /*model*/, const Fault& /*fault*/) {}
   virtual void end(const Model& /*model*/, const RunSummary& /*summary*/) {}
 };

@@ -12,8 +12,8 @@ class OutputSchedule {
   OutputSchedule(const NodalState& nodal, const StepSizes& sizes)
       : nodal_(nodal),
         sizes_(sizes),
-        history_(sizes.output_times.history, sizes.step_size, nodal.subcycling.round()),
-        fields_(sizes.output_times.fields, sizes.step_size, nodal.subcycling.round()) {}
+        history_(sizes.output_times.history, sizes.step_size, nodal.subcycling.cycle()),
+        fields_(sizes.output_times.fields, sizes.step_size, nodal.subcycling.cycle()) {}
 
   bool last() const { return nodal_.step == sizes_.step_count; }
   bool history() const { return history_.due(nodal_.step) || last(); }
@@ -25,7 +25,7 @@ class OutputSchedule {
     fields_.step_changed(nodal_.step, from, sizes_.step_size);
   }
 
-  /// See StateTaker.
+  /// See StateSaver.
   template <class Archive>
   void archive(Archive& archive) {
     history_.archive(archive, "history_due");

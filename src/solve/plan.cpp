@@ -55,8 +55,8 @@ std::vector<Task> motion_tasks(Model& model, StepKind kind) {
 std::vector<Task> own_force_tasks(Model& model, StepKind kind) {
   const GoingAlong along = going_along(model, kind);
   std::vector<Task> tasks;
-  if (model.carried.active() && kind != StepKind::settling)
-    tasks.push_back(carrier_task(model, model.elements, model, kind));
+  if (model.relative.active() && kind != StepKind::settling)
+    tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
   append(tasks, load_tasks(model, model, model.beams, kind, along));
   append(tasks, contact_tasks(model.scene, model, model.contacts, kind, along));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, along));

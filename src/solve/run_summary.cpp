@@ -6,7 +6,7 @@
 #include "model/subcycling.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "solve/monitor/force_swing.hpp"
-#include "solve/monitor/watch.hpp"
+#include "solve/monitor/monitor.hpp"
 #include "solve/step_control.hpp"
 #include "solve/tasks.hpp"
 
@@ -34,14 +34,14 @@ void summarize_steps(const AssembledScene& assembled, const NodalState& nodal, c
   summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
 }
 
-void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, const Watch& watch,
-                        const std::vector<ForceSwing>& swings, const std::vector<std::string>& doubts,
-                        RunSummary& summary) {
+void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                        const Monitor& monitor, const std::vector<ForceSwing>& swings,
+                        const std::vector<std::string>& doubts, RunSummary& summary) {
   const std::vector<std::string> checkpoint_trouble = summary.warnings;
-  summary.account = watch.account_told();
-  summary.watched = watch.worst_told();
-  summary.warnings = watch.told();
-  append(summary.warnings, watch.never_closed());
+  summary.account = monitor.account_summary();
+  summary.worst_values = monitor.worst_summary();
+  summary.warnings = monitor.summary();
+  append(summary.warnings, monitor.never_closed());
   append(summary.warnings, late_contacts(contacts));
   append(summary.warnings, checkpoint_trouble);
   for (const PlacedSet& placed : placed_sets(assembled.scene, assembled.assembly))
@@ -50,7 +50,7 @@ void summarize_findings(const AssembledScene& assembled, const std::vector<Conta
   for (const PlacedElements& placed : placed_element_sets(assembled.scene, assembled.assembly))
     if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
   for (std::size_t c = 0; c < swings.size(); ++c)
-    if (const std::string line = swings[c].told(assembled.scene.contacts[c].name); !line.empty())
+    if (const std::string line = swings[c].summary(assembled.scene.contacts[c].name); !line.empty())
       summary.swings.push_back(line);
 }
 

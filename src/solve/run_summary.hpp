@@ -16,7 +16,7 @@ namespace railwave {
 struct BeamModel;
 class ForceSwing;
 class StepControl;
-class Watch;
+class Monitor;
 
 /// How a run ended.
 struct RunSummary {
@@ -25,9 +25,9 @@ struct RunSummary {
   bool out_of_time = false;       ///< it ended because its wall-time budget was spent
   int checkpoints = 0;            ///< written
   double checkpoint_seconds = 0;  ///< s, the loop waited for these in all
-  double watch_seconds = 0;       ///< s, that looks of the watch added to the run
+  double monitor_seconds = 0;     ///< s, that checks of the monitor added to the run
   std::string account;            ///< how well the energy account was kept, or that nobody judged it
-  std::string watched;            ///< the worst values that it saw, and their limits; empty: it saw nothing
+  std::string worst_values;       ///< the worst values that it saw, and their limits; empty: it saw nothing
   long first_step = 0;            ///< at which this process took the run up; 0 unless restarted
   double time = 0;
   long steps = 0;
@@ -35,11 +35,11 @@ struct RunSummary {
   double smallest_step = 0, largest_step = 0;  ///< s
   int step_renewals = 0;                       ///< of the global estimate of the stable step
   std::vector<std::string> step_estimates;     ///< what each estimate of the stable step allows, and which one counts
-  std::vector<std::string> subcycling;  ///< how many elements go at which pace, and what that saves; none without it
+  std::vector<std::string> subcycling;  ///< how many elements are of which level, and what that saves; none without it
   double wall_seconds = 0;
   double element_steps_per_second = 0;  ///< of the element updates that were made
   std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated
-  std::optional<Fault> fault;           ///< what stopped it, if the watch did
+  std::optional<Fault> fault;           ///< what stopped it, if the monitor did
   std::vector<std::string> warnings;    ///< what may have cost accuracy
   std::vector<std::string> left_out;    ///< what the scene did not need and the run did not compute
 };
@@ -52,8 +52,8 @@ void summarize_steps(const AssembledScene& assembled, const NodalState& nodal, c
 /// Completes account, warnings and swings of a run that has ended. The summary holds already why it ended, its fault,
 /// and what went wrong with its checkpoints.
 /// @param doubts lines that were reported when the run began
-void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts, const Watch& watch,
-                        const std::vector<ForceSwing>& swings, const std::vector<std::string>& doubts,
-                        RunSummary& summary);
+void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
+                        const Monitor& monitor, const std::vector<ForceSwing>& swings,
+                        const std::vector<std::string>& doubts, RunSummary& summary);
 
 }  // namespace railwave

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "case/error.hpp"
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 #include "model/host_copy.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -16,12 +16,12 @@ namespace {
 /// Share by which the step must be able to grow before it does: every change moves the outputs by a part of a step.
 constexpr double worthwhile_gain = 0.01;
 
-/// Steps between looks for slave nodes that touch although the estimate did not predict it.
-constexpr long steps_between_looks = 500;
+/// Steps between checks for slave nodes that touch although the estimate did not predict it.
+constexpr long steps_between_checks = 500;
 
-/// Steps in the whole number of rounds nearest to an interval, at least one round.
-long whole_rounds(double interval, double step, long round) {
-  return std::max(1L, std::lround(interval / (static_cast<double>(round) * step))) * round;
+/// Steps in the whole number of cycles nearest to an interval, at least one cycle.
+long whole_cycles(double interval, double step, long cycle) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(cycle) * step))) * cycle;
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ bool StepControl::due() const {
   const int every = scene_.solver.renew_steps;
   if (!sizes_.global_estimate || every == 0 || nodal_.step == renewed_at_) return false;
   if (nodal_.step - renewed_at_ >= every) return true;
-  return nodal_.step % steps_between_looks == 0 && touched_unseen();
+  return nodal_.step % steps_between_checks == 0 && touched_unseen();
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.
@@ -65,7 +65,7 @@ bool StepControl::plan() {
   const long planned = sizes_.step_count - nodal_.step;
   const double largest_now = largest_step(scene_.time, sizes_.stable_step);
   const long steps = std::max(1L, static_cast<long>(std::ceil(left / largest_now - 1e-9)));
-  // At the beginning the outputs can still be laid evenly.
+  // At the beginning the outputs can still be spaced evenly.
   if (nodal_.step == 0) {
     const long before = sizes_.step_count;
     plan_steps(scene_, 1, sizes_);
@@ -89,13 +89,13 @@ void StepControl::move_end() {
         fmt::format("time.end: the checkpoint's t = {:.6g} s lies beyond {:.6g} s; name a later end, or run the case "
                     "without --restart",
                     now, end));
-  const auto round = static_cast<double>(nodal_.subcycling.round());
-  sizes_.step_count = nodal_.step + static_cast<long>(round * std::ceil((end - now) / (round * step) - 1e-6));
+  const auto cycle = static_cast<double>(nodal_.subcycling.cycle());
+  sizes_.step_count = nodal_.step + static_cast<long>(cycle * std::ceil((end - now) / (cycle * step) - 1e-6));
 }
 
 bool StepControl::renew() {
   if (!due() || nodal_.step == sizes_.step_count) return false;
-  if (nodal_.carried.begun) give_nodes_back(nodal_);
+  if (nodal_.relative.begun) update_absolute_nodes(nodal_);
   renew_global_step(scene_, contacts_, nodal_.time, sizes_);
   ++renewals_;
   renewed_at_ = nodal_.step;
@@ -105,13 +105,13 @@ bool StepControl::renew() {
   return changed;
 }
 
-EverySoOften::EverySoOften(double interval, double step, long round)
-    : interval_(interval), round_(round), every_(whole_rounds(interval, step, round)) {}
+EverySoOften::EverySoOften(double interval, double step, long cycle)
+    : interval_(interval), cycle_(cycle), every_(whole_cycles(interval, step, cycle)) {}
 
 void EverySoOften::step_changed(long step, double old_size, double new_size) {
   const long missing = step < next_ ? next_ - step : (every_ - (step - next_) % every_) % every_;
-  next_ = missing == 0 ? step : step + whole_rounds(static_cast<double>(missing) * old_size, new_size, round_);
-  every_ = whole_rounds(interval_, new_size, round_);
+  next_ = missing == 0 ? step : step + whole_cycles(static_cast<double>(missing) * old_size, new_size, cycle_);
+  every_ = whole_cycles(interval_, new_size, cycle_);
 }
 
 }  // namespace railwave

@@ -27,7 +27,7 @@ class StepControl {
   bool renew();
 
   /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as
-  /// they are and go on to the first whole round at that end or after it. Throws InputError where the state lies beyond
+  /// they are and go on to the first whole cycle at that end or after it. Throws InputError where the state lies beyond
   /// the end.
   void move_end();
 
@@ -35,7 +35,7 @@ class StepControl {
   double smallest() const { return smallest_; }
   double largest() const { return largest_; }
 
-  /// See StateTaker.
+  /// See StateSaver.
   template <class Archive>
   void archive(Archive& archive) {
     archive.value("control_begin_time", begin_time_);
@@ -62,18 +62,18 @@ class StepControl {
   double smallest_ = 0, largest_ = 0;
 };
 
-/// Something due about every `interval` seconds, at steps: `interval` rounded to whole rounds of steps (at least one)
+/// Something due about every `interval` seconds, at steps: `interval` rounded to whole cycles of steps (at least one)
 /// and counted from the start, or from where a change of step left it, so that it keeps its times.
 class EverySoOften {
  public:
-  /// @param interval s; 0: every round
-  /// @param round steps: 1, or those between two instants at which all is in phase
-  EverySoOften(double interval, double step, long round = 1);
+  /// @param interval s; 0: every cycle
+  /// @param cycle steps: 1, or those between two instants at which all is in phase
+  EverySoOften(double interval, double step, long cycle = 1);
   bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
   /// From `step` on; what is due at that very step stays due.
   void step_changed(long step, double old_size, double new_size);
 
-  /// See StateTaker.
+  /// See StateSaver.
   template <class Archive>
   void archive(Archive& archive, const std::string& name) {
     archive.value(name + "_every", every_);
@@ -82,7 +82,7 @@ class EverySoOften {
 
  private:
   double interval_;
-  long round_, every_, next_ = 0;
+  long cycle_, every_, next_ = 0;
 };
 
 }  // namespace railwave

@@ -56,8 +56,8 @@ struct GoingAlong {
 };
 
 /// Before all else: nodes in single precision, and the double ones where these are read.
-Task carrier_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
-                  StepKind kind);
+Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
+                            StepKind kind);
 
 /// (a) Loads, connectors, torques, beams, and their gather at the nodes.
 std::vector<Task> load_tasks(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,

@@ -8,7 +8,7 @@
 #include "model/checks/doubts.hpp"
 #include "solve/monitor/account.hpp"
 #include "solve/monitor/force_swing.hpp"
-#include "solve/monitor/watch.hpp"
+#include "solve/monitor/monitor.hpp"
 #include "solve/output_schedule.hpp"
 #include "solve/plan.hpp"
 #include "solve/run_summary.hpp"
@@ -51,7 +51,7 @@ struct LoopMemory {
   StepControl control;
   OutputSchedule due;
   std::vector<ForceSwing> swings;
-  Watch watch;
+  Monitor monitor;
   double total_at_start = 0;
   long history_rows = 0, field_outputs = 0;
   double elapsed = 0;  ///< s, of the step before
@@ -64,7 +64,7 @@ struct LoopMemory {
     archive.value("swings", count);
     swings.resize(count);
     for (std::size_t c = 0; c < count; ++c) swings[c].archive(archive, fmt::format("swing_{}", c));
-    watch.archive(archive);
+    monitor.archive(archive);
     archive.value("total_at_start", total_at_start);
     archive.value("history_rows", history_rows);
     archive.value("field_outputs", field_outputs);
@@ -84,7 +84,7 @@ class TimeLoop {
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
         memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model, model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
-                Watch(model, model, model, model, model.contacts)},
+                Monitor(model, model, model, model, model.contacts)},
         plans_(model) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
@@ -98,7 +98,7 @@ class TimeLoop {
       checkpoint_if_due();
       plan_step();
       plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
-      memory_.watch.glance();
+      memory_.monitor.check_contact_ends();
       if (sampled_) monitor_and_output();
       if (ends()) break;
       plans_.advance(instant_);
@@ -119,9 +119,9 @@ class TimeLoop {
   }
 
   void restore() {
-    lay_model_state(model_, *keeping_.from);
-    StateLayer layer(*keeping_.from);
-    memory_.archive(layer);
+    restore_model_state(model_, *keeping_.from);
+    StateRestorer restorer(*keeping_.from);
+    memory_.archive(restorer);
     memory_.control.move_end();
   }
 
@@ -145,9 +145,9 @@ class TimeLoop {
   void checkpoint() {
     const WallClock clock;
     RunState state;
-    take_model_state(model_, state);
-    StateTaker taker(state);
-    memory_.archive(taker);
+    save_model_state(model_, state);
+    StateSaver saver(state);
+    memory_.archive(saver);
     state.history_rows = memory_.history_rows;
     state.field_outputs = memory_.field_outputs;
     keeping_.checkpoints->keep(std::move(state));
@@ -156,7 +156,7 @@ class TimeLoop {
     summary_.checkpoint_seconds += clock.seconds();
   }
 
-  /// The size of this step, and whether anybody looks at its instant.
+  /// The size of this step, and whether its instant is sampled.
   void plan_step() {
     const double size_before = model_.step_size;
     if (memory_.control.renew()) memory_.due.step_changed(size_before);
@@ -164,14 +164,14 @@ class TimeLoop {
     // A run that goes on with a model that has run before begins at a later step.
     first_ = !keeping_.from && model_.step == summary_.first_step;
     output_due_ = memory_.due.history() || memory_.due.fields() || stopping_;
-    const bool monitor_due = memory_.watch.due(model_.step) && model_.subcycling.in_phase(model_.step);
+    const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
     if (sampled_ && !output_due_) monitor_timing_.begin();
   }
 
   void monitor_and_output() {
-    HistorySample sample =
-        (output_due_ ? take_sample : take_look)(model_, model_.step_size, memory_.watch.part_energies(model_.step));
+    HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(model_, model_.step_size,
+                                                                            memory_.monitor.part_energies(model_.step));
     if (first_) memory_.total_at_start = balance_total(sample.energy);
     sample.energy.balance_error = balance_total(sample.energy) - memory_.total_at_start;
     monitor(sample);
@@ -183,15 +183,15 @@ class TimeLoop {
   /// Looks for faults and reports them.
   void monitor(HistorySample& sample) {
     if (output_due_) monitor_timing_.begin();
-    const std::vector<Fault> found = memory_.watch.look(sample);
+    const std::vector<Fault> found = memory_.monitor.check(sample);
     if (output_due_) monitor_timing_.end(false);
     for (const Fault& fault : found)
       for (RunObserver* observer : observers_) observer->warning(model_, fault);
-    const Fault* fault = memory_.watch.fatal();
+    const Fault* fault = memory_.monitor.fatal();
     if (!fault) return;
     summary_.fault = *fault;
-    summary_.reason = fault->told();
-    if (!output_due_) add_what_histories_tell(model_, sample);
+    summary_.reason = fault->summary();
+    if (!output_due_) add_history_values(model_, sample);
   }
 
   void output(const HistorySample& sample) {
@@ -224,12 +224,12 @@ class TimeLoop {
     const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
     if (!trouble.empty()) summary_.warnings.push_back(trouble);
     summary_.wall_seconds = since_first_step_.seconds();  // until all is written
-    summary_.watch_seconds =
+    summary_.monitor_seconds =
         monitor_timing_.seconds(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
     summary_.completed = summary_.reason.empty();
     summary_.left_out = model_.left_out;
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
-    summarize_findings(model_, model_.contacts, memory_.watch, memory_.swings, doubts_, summary_);
+    summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
     return summary_;
   }
@@ -250,7 +250,7 @@ class TimeLoop {
   bool first_ = false;       ///< of all steps of the run, not of one that goes on from a checkpoint
   bool stopping_ = false;    ///< after this step
   bool output_due_ = false;  ///< histories or fields
-  bool sampled_ = false;     ///< the instant's forces and energies are looked at
+  bool sampled_ = false;     ///< the instant's forces and energies are sampled
 };
 
 }  // namespace

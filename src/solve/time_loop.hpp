@@ -19,7 +19,7 @@ struct RunKeeping {
 };
 
 /// Runs a model from rest, or from its settled state, to the scene's end (thesis table 2.1) and tells the observers.
-/// Ends early when interrupted (`request_stop`) or when the watch finds something fatal; the summary says which.
+/// Ends early when interrupted (`request_stop`) or when the monitor finds something fatal; the summary says which.
 /// @param settled where settled states are kept; null: nowhere
 /// @param keeping throws std::runtime_error where the state to go on from does not fit the model
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr,

@@ -170,7 +170,7 @@ active = false
 [checkpoint]
 interval = 60
 [solver]
-[watch]
+[monitor]
 [output]
 history_interval = 1e-5
 field_interval = 1e-4
@@ -270,7 +270,7 @@ def entries(scene_text):
     import tomllib
     scene = tomllib.loads(scene_text)
     for section, content in scene.items():
-        if section in ("time", "settle", "checkpoint", "solver", "watch", "output", "gravity"):
+        if section in ("time", "settle", "checkpoint", "solver", "monitor", "output", "gravity"):
             yield section, None, content
         else:
             for name, entry in content.items():
@@ -357,7 +357,7 @@ def faults_of(place, value, code, out, err):
         if max(map(len, err.splitlines() or [""])) > 600:
             faults.append("a message of more than 600 characters")
         words = place.split(".")
-        # Many steps, or outputs, may come of any key: what sets the step is told instead.
+        # Many steps, or outputs, may come of any key: what sets the step is reported instead.
         derived = "the step is set by" in err or "see whether the step is" in err
         if words[-1] not in err and not (len(words) == 3 and words[1] in err) and not derived:
             faults.append("names neither the key nor the entry")

@@ -49,7 +49,7 @@ TEST_CASE("each broken case gets its messages, and no others", "[case]") {
   }
 }
 
-TEST_CASE("mistakes of the command line are told as such", "[case]") {
+TEST_CASE("mistakes of the command line are reported as such", "[case]") {
   TemporaryCase file(small_case);
   const auto said = [&](const std::string& override_text) { return mistakes_of(file.path(), {override_text}); };
   CHECK(said("time.end") == "command line: 'time.end' must be section.key=value, such as time.end=1e-3");
@@ -106,7 +106,7 @@ TEST_CASE("a file that cannot be a case says what it is", "[case]") {
       std::string::npos);
 }
 
-TEST_CASE("a file that may not be read is told", "[case]") {
+TEST_CASE("a file that may not be read is reported", "[case]") {
   TemporaryCase file(small_case);
   fs::permissions(file.path(), fs::perms::none);
   if (std::ifstream(file.path()).good())

@@ -15,7 +15,7 @@ import json_schema
 
 SOURCE = pathlib.Path(os.environ.get("RAILWAVE_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
 PAGES = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
-SINGLE = ("settle", "time", "checkpoint", "solver", "watch", "output", "gravity")
+SINGLE = ("settle", "time", "checkpoint", "solver", "monitor", "output", "gravity")
 
 
 def help_of(*command):
@@ -79,7 +79,7 @@ class Commands(unittest.TestCase):
                 seen += 1
         self.assertGreater(seen, 40)
 
-    def test_every_option_is_told(self):
+    def test_every_option_is_documented(self):
         text = "\n".join(page.read_text(encoding="utf-8") for page in PAGES)
         for command, options in self.known.items():
             for option in options - {"--help", "--version"}:
@@ -135,7 +135,7 @@ class Keys(unittest.TestCase):
                         seen += 1
         self.assertGreater(seen, 10)
 
-    def test_keys_told_with_their_section_exist(self):
+    def test_keys_named_with_their_section_exist(self):
         for page in PAGES:
             for code in code_of(page):
                 for section, key in re.findall(r"(?<![\w./-])([a-z_]+)\.([a-z_]+)(?![\w.(/])", code):
@@ -143,14 +143,14 @@ class Keys(unittest.TestCase):
                         with self.subTest(page=page.name, code=code):
                             self.assertIn(key, self.keys(section))
 
-    def test_defaults_of_the_watch_are_those_of_the_table(self):
-        properties, seen = self.schema["properties"]["watch"]["properties"], 0
+    def test_defaults_of_the_monitor_are_those_of_the_table(self):
+        properties, seen = self.schema["properties"]["monitor"]["properties"], 0
         for key, default in re.findall(
-            r"\| `([a-z_]+)` \| ([0-9.e-]+)", (SOURCE / "docs/watch.md").read_text(encoding="utf-8")
+            r"\| `([a-z_]+)` \| ([0-9.e-]+)", (SOURCE / "docs/monitor.md").read_text(encoding="utf-8")
         ):
             if key in properties:
-                told = re.search(r"default ([0-9.e+-]+)$", properties[key]["description"])
-                self.assertEqual(float(default), float(told[1]), key)
+                stated = re.search(r"default ([0-9.e+-]+)$", properties[key]["description"])
+                self.assertEqual(float(default), float(stated[1]), key)
                 seen += 1
         self.assertGreaterEqual(seen, 5)
 

@@ -87,7 +87,7 @@ TEST_CASE("a hammer may strike what a track makes, with the hourglass control th
   }
 }
 
-TEST_CASE("names of hammers and probes that are taken are told", "[case]") {
+TEST_CASE("names of hammers and probes that are taken are reported", "[case]") {
   TemporaryCase file(small_case + blow + "[probes.blow]\npart = \"cube\"\nposition = [0, 0, 0]\n");
   CHECK_THAT(
       mistakes_of(file.path()),

@@ -14,7 +14,7 @@ using namespace railwave::test;
 using Catch::Matchers::ContainsSubstring;
 using Catch::Matchers::Equals;
 
-TEST_CASE("numbers of bytes are told for people", "[case]") {
+TEST_CASE("numbers of bytes are written for people", "[case]") {
   CHECK(bytes_text(0) == "0 bytes");
   CHECK(bytes_text(999) == "999 bytes");
   CHECK(bytes_text(1000) == "1 kB");
@@ -22,7 +22,7 @@ TEST_CASE("numbers of bytes are told for people", "[case]") {
   CHECK(bytes_text(1e30) == "1e+12 EB");
 }
 
-TEST_CASE("what Kokkos could not have is told in words of ours, whatever its version", "[case]") {
+TEST_CASE("what Kokkos could not have is reported in words of ours, whatever its version", "[case]") {
   const std::string older =
       "Kokkos failed to allocate memory for label \"position\".  Allocation using MemorySpace named \"Host\" failed "
       "with the "

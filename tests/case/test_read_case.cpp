@@ -538,3 +538,25 @@ TEST_CASE("a contact's master is one surface or several") {
   CHECK(two.text() == "third.z_max, other.z_max");
   CHECK(two == scene::SurfaceNames{"third.z_max", "other.z_max"});
 }
+
+TEST_CASE("a section's name of earlier versions is accepted with a warning", "[case]") {
+  const TemporaryCase old(small_case + "[watch]\nspeed = 7\n"), present(small_case + "[monitor]\nspeed = 7\n");
+  std::vector<std::string> warnings;
+  CHECK(read_case(old.path(), {}, &warnings).monitor.speed == 7);
+  CHECK(warnings ==
+        std::vector<std::string>{old.path() + ":12: [watch]: is called [monitor] now; the old name is still "
+                                              "accepted"});
+  CHECK(read_case(present.path(), {}, &warnings).monitor.speed == 7);
+  CHECK(warnings.empty());
+  // Of the command line, beside either name in the file.
+  for (const TemporaryCase* file : {&old, &present}) {
+    const auto scene = read_case(file->path(), {"watch.active=false", "monitor.chatter=3"}, &warnings);
+    CHECK_FALSE(scene.monitor.active);
+    CHECK(scene.monitor.chatter == 3);
+    CHECK(scene.monitor.speed == 7);
+    CHECK(warnings.back() == "command line: [watch]: is called [monitor] now; the old name is still accepted");
+  }
+  const TemporaryCase both(small_case + "[watch]\nspeed = 7\n[monitor]\nchatter = 3\n");
+  CHECK(mistakes_of(both.path()).find(":12: [watch]: is the former name of [monitor], which the file has too") !=
+        std::string::npos);
+}

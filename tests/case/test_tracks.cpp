@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <cmath>
 
-#include "case/expand_tracks.hpp"
+#include "case/expand.hpp"
 #include "case/solid_pad.hpp"
 #include "tests/case/temporary_case.hpp"
 
@@ -159,7 +159,7 @@ TEST_CASE("a joint is two fishplates on both rails, and bolts between points wit
   CHECK(named(other.contacts, "track_fishplate_right").friction == 0.2);
 }
 
-TEST_CASE("a joint's mistakes are told with what would do", "[case]") {
+TEST_CASE("a joint's mistakes are reported with what would do", "[case]") {
   const auto mistakes = [](const std::string& keys) {
     TemporaryCase file(track_case(keys));
     return mistakes_of(file.path());

@@ -5,8 +5,7 @@
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
-#include "mesh/files/abaqus_file.hpp"
-#include "mesh/files/gmsh_file.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "mesh/height_map.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -27,7 +27,7 @@ struct Both {
   Projection facet, smooth;
 };
 
-struct Look {
+struct Nearest {
   ContactSearch search;
   Array<const double* [3]> slave;
   Array<Both*> found;
@@ -38,10 +38,10 @@ struct Look {
   }
 };
 
-std::vector<Both> look(const ContactSearch& search, const std::vector<Point>& places) {
+std::vector<Both> nearest(const ContactSearch& search, const std::vector<Point>& places) {
   const Array<Both*> found("found", places.size());
-  Kokkos::parallel_for("look", Range(0, static_cast<int>(places.size())),
-                       Look{search, to_device("places", places), found});
+  Kokkos::parallel_for("nearest", Range(0, static_cast<int>(places.size())),
+                       Nearest{search, to_device("places", places), found});
   const auto host = to_host(found);
   return {host.data(), host.data() + places.size()};
 }
@@ -61,7 +61,7 @@ TEST_CASE("smooth normals make a circle of facets, and the forces lie in one lin
     heights.push_back(height(random));
     places.push_back(at(around(random), aside(random), 1 + heights.back()));
   }
-  const auto found = look(search, places);
+  const auto found = nearest(search, places);
   double largest_gap = 0, largest_turn = 0, largest_aside = 0, facet_gap = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Projection& p = found[i].smooth;
@@ -84,8 +84,9 @@ TEST_CASE("smooth normals do not jump from facet to facet", "[contact]") {
   constexpr double angle = 0.1;
   const ContactSearch search = ring(8, angle);
   for (double height : {-0.002, 0.002}) {
-    const auto found = look(search, {at(-1e-9, 0.03, 1 + height), at(1e-9, 0.03, 1 + height), at(0, 0.03, 1 + height),
-                                     at(-1e-3, 0.03, 1 + height), at(1e-3, 0.03, 1 + height)});
+    const auto found =
+        nearest(search, {at(-1e-9, 0.03, 1 + height), at(1e-9, 0.03, 1 + height), at(0, 0.03, 1 + height),
+                         at(-1e-3, 0.03, 1 + height), at(1e-3, 0.03, 1 + height)});
     INFO("height " << height << ", normals turn by " << norm(found[1].smooth.normal - found[0].smooth.normal));
     CHECK(norm(found[4].facet.normal - found[3].facet.normal) > 0.9 * angle);
     CHECK(norm(found[1].smooth.normal - found[0].smooth.normal) < 1e-7);
@@ -97,7 +98,7 @@ TEST_CASE("smooth normals do not jump from facet to facet", "[contact]") {
 
 TEST_CASE("facets that meet at more than 30 degrees keep their edge", "[contact]") {
   const ContactSearch search = ring(5, 0.6);
-  const auto found = look(search, {at(0.1, 0.03, 0.93), at(0.5, -0.03, 0.93), at(-0.2, 0.05, 0.94)});
+  const auto found = nearest(search, {at(0.1, 0.03, 0.93), at(0.5, -0.03, 0.93), at(-0.2, 0.05, 0.94)});
   for (const Both& both : found) {
     CHECK(both.smooth.segment == both.facet.segment);
     CHECK_THAT(both.smooth.gap, WithinAbs(both.facet.gap, 1e-14));
@@ -188,16 +189,16 @@ TEST_CASE("on curved segments a contact's forces are the gradient of its gap, an
     for (Point& move : nodes_move) move = {any(random), any(random), any(random)};
 
     const ContactSearch search = hills.search(nodes_move, 0);
-    const auto found = look(search, slaves);
+    const auto found = nearest(search, slaves);
     const auto shared = share(search, found, nodes_move, nullptr);
     constexpr double step = 1e-5;
-    const auto looked = [&](double factor) {
+    const auto nearest_at = [&](double factor) {
       auto there = slaves;
       for (std::size_t i = 0; i < there.size(); ++i)
         for (int c = 0; c < 3; ++c) there[i][c] += factor * moves[i][c];
-      return look(hills.search(nodes_move, factor), there);
+      return nearest(hills.search(nodes_move, factor), there);
     };
-    const auto ahead = looked(step), behind = looked(-step);
+    const auto ahead = nearest_at(step), behind = nearest_at(-step);
     double largest = 0, least_neighbours = 0;
     int compared = 0;
     for (std::size_t i = 0; i < slaves.size(); ++i) {

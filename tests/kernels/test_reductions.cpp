@@ -32,10 +32,10 @@ struct Signed {
 Largest<2> largest_of(const std::vector<double>& numbers) {
   Largest<2> found;
   ReductionSpace space;
-  Reductions looks(space);
-  looks.largest(Signed{to_device("numbers", numbers)}, static_cast<int>(numbers.size()),
-                [&](const Largest<2>& of) { found = of; });
-  looks.fetch();
+  Reductions reductions(space);
+  reductions.largest(Signed{to_device("numbers", numbers)}, static_cast<int>(numbers.size()),
+                     [&](const Largest<2>& of) { found = of; });
+  reductions.fetch();
   return found;
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("sums and largest values fetched together are those fetched alone, how
   CHECK(asked == 1);
 }
 
-TEST_CASE("of equal values the lowest item is told, and what is no number is the largest") {
+TEST_CASE("of equal values the lowest item is reported, and what is no number is the largest") {
   for (int count : {1, 31, 32, 33, 5000}) {
     std::vector<double> numbers(count);
     for (int i = 0; i < count; ++i) numbers[i] = (i * 7) % 13;

@@ -50,9 +50,9 @@ class MadeUp(unittest.TestCase):
     def assert_faults(self, *wanted):
         """Each fault begins with its place and says what it is."""
         done = check(self.folder)
-        told = done.stdout.splitlines()
-        self.assertEqual(len(told), len(wanted), done.stdout + done.stderr)
-        for line, (place, what) in zip(told, wanted):
+        said = done.stdout.splitlines()
+        self.assertEqual(len(said), len(wanted), done.stdout + done.stderr)
+        for line, (place, what) in zip(said, wanted):
             self.assertTrue(line.startswith(place + ": "), line)
             self.assertIn(what, line)
         self.assertEqual(done.returncode, 1 if wanted else 0, done.stderr)

@@ -5,7 +5,7 @@
 
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/crown.hpp"
+#include "mesh/curve.hpp"
 #include "mesh/quality.hpp"
 #include "topology.hpp"
 

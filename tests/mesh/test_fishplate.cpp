@@ -167,7 +167,7 @@ TEST_CASE("plates fit rails of other sizes") {
     }
 }
 
-TEST_CASE("fishplates that do not fit are told with what is allowed") {
+TEST_CASE("fishplates that do not fit are reported with what is allowed") {
   const auto complaint = [](auto change) {
     scene::MeshSource source = plate_source();
     change(source.fishplate);

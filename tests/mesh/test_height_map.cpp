@@ -79,7 +79,7 @@ TEST_CASE("A height map is interpolated bilinearly, and is nothing beyond its gr
   CHECK(HeightMap(other.path()).at(0.3, 1.1) == map.at(0.3, 1.1));
 }
 
-TEST_CASE("What is wrong with a height map is told with its line") {
+TEST_CASE("What is wrong with a height map is reported with its line") {
   CHECK_THAT(refusal("x,y,z\n0,0,0\n"),
              ContainsSubstring(":1: the first line is 'x,y,z', must name the columns: x,y,dz"));
   CHECK_THAT(refusal("x,y,dz\n0,0\n"), ContainsSubstring(":2: has 2 values, must have three: x,y,dz"));

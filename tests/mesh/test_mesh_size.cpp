@@ -6,7 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/mesh_size.hpp"
+#include "mesh/mesh_memory.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -45,7 +45,7 @@ void coarsen(Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("the size of a mesh is told before it is made") {
+TEST_CASE("the size of a mesh is estimated before it is made") {
   auto box = named(scene::MeshType::box);
   box.box.divisions = {7, 5, 3};
   CHECK(share(box) == 1);
@@ -59,7 +59,7 @@ TEST_CASE("the size of a mesh is told before it is made") {
 }
 
 /// Each template of a transition counts as the four elements that it can have: a quarter too many at most.
-TEST_CASE("the sizes of extruded meshes are told within a quarter, before their sections are smoothed") {
+TEST_CASE("the sizes of extruded meshes are estimated within a quarter, before their sections are smoothed") {
   auto wheel = named(scene::MeshType::wheel);
   coarsen(wheel.wheel);
   check_within(wheel, 1.25);
@@ -74,7 +74,7 @@ TEST_CASE("the sizes of extruded meshes are told within a quarter, before their 
   check_within(rail, 1.25);
 }
 
-TEST_CASE("the sizes of what lies on others is told within a factor") {
+TEST_CASE("the sizes of what lies on others is estimated within a factor") {
   auto wheelset = named(scene::MeshType::wheelset);
   coarsen(wheelset.wheelset);
   check_within(wheelset, 1.5);
@@ -118,10 +118,10 @@ TEST_CASE("parts that can't fit are refused before any of them is meshed, and th
   part.line = 12;
   part.mesh = "body";
   scene.parts.push_back(part);
-  CHECK_THROWS_WITH(expect_room_for_parts(scene, 1e6),
+  CHECK_THROWS_WITH(expect_memory_for_parts(scene, 1e6),
                     ContainsSubstring("[parts.long_rail] (line 12) by mesh 'body'") &&
                         ContainsSubstring("this machine has 1 MB left"));
-  CHECK_NOTHROW(expect_room_for_parts(scene, 1e15));
+  CHECK_NOTHROW(expect_memory_for_parts(scene, 1e15));
 }
 
 TEST_CASE("a body of millimetres for metres is refused at once") {

@@ -3,7 +3,7 @@
 
 #include "mesh/generators/rail.hpp"
 #include "mesh/generators/wheel.hpp"
-#include "mesh/mirror.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/quality.hpp"
 #include "topology.hpp"
 

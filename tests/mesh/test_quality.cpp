@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/quality.hpp"
-#include "mesh/sections/section_properties.hpp"
+#include "mesh/sections/section.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;

@@ -7,7 +7,7 @@
 #include "mesh/generators/rail.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sections/profiles.hpp"
-#include "mesh/sections/section_properties.hpp"
+#include "mesh/sections/section.hpp"
 #include "topology.hpp"
 
 using namespace railwave;

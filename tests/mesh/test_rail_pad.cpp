@@ -100,7 +100,7 @@ TEST_CASE("a rail pad keeps the foot's lines where they are parted") {
   }
 }
 
-TEST_CASE("a rail pad that is not under its rail is told") {
+TEST_CASE("a rail pad that is not under its rail is reported") {
   scene::MeshSource source = pad_source();
   source.rail_pad.start = -0.4;
   CHECK_THAT(complaint_of(source),

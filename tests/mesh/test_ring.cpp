@@ -5,7 +5,6 @@
 
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/mesh_size.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/vectors.hpp"
 #include "tests/case/temporary_case.hpp"

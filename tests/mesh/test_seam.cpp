@@ -6,7 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/connected_bodies.hpp"
+#include "mesh/face_table.hpp"
 #include "mesh/generators/rail.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/quality.hpp"
@@ -173,7 +173,7 @@ TEST_CASE("a seam as deep as the body that is not as wide leaves it in one piece
   CHECK(connected_bodies(mesh) == 1);
 }
 
-TEST_CASE("seams that cannot be are told why") {
+TEST_CASE("seams that cannot be are refused with the reason") {
   const auto complaint = [](const scene::Seam& one) -> std::string {
     Mesh mesh = box({24, 8, 4});
     try {

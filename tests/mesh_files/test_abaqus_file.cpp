@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "case/error.hpp"
-#include "mesh/files/abaqus_file.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
 using namespace railwave;

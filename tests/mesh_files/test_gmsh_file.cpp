@@ -2,7 +2,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>
 
-#include "mesh/files/gmsh_file.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
 using namespace railwave;

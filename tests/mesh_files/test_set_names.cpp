@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "case/error.hpp"
-#include "mesh/files/set_names.hpp"
+#include "mesh/files/mesh_file.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -31,7 +31,7 @@ TEST_CASE("names of sets are made fit for paths, channels and columns") {
   CHECK(fit_set_name(std::string(99, 'x') + "\xc3\xa9") == std::string(99, 'x'));  // no half letter at the end
 }
 
-TEST_CASE("what was renamed is told once, and two names that become one are refused") {
+TEST_CASE("what was renamed is reported once, and two names that become one are refused") {
   Mesh mesh;
   mesh.node_sets["to/p"] = {0};
   mesh.surfaces["to/p"] = {{0, 0}};

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Pairs of entries that cannot both hold, or are rarely meant: which are refused, which are told by `railwave check`,
-which are fine; and rolling motions. Each line of TABLE is an input and what is said of it."""
+"""Pairs of entries that cannot both hold, or are rarely meant: which are refused, which are warned of by `railwave
+check`, which are fine; and rolling motions. Each line of TABLE is an input and what is said of it."""
 import os
 import pathlib
 import re
@@ -64,7 +64,7 @@ def surface(name, part, low, high):
 
 # A surface of z_max under another name.
 AGAIN = surface("again", "lower", [-1, -1, -1], [1, 1, 1])
-# What: sections besides the two blocks, what is said: "refused: ..." exits with 2, "told: ..." warns, "" says nothing
+# What: sections besides the two blocks, what is said: "refused: ..." exits with 2, "warned: ..." warns, "" says nothing
 # of it.
 TABLE = {
     "prescribed motion across a constraint": (
@@ -127,7 +127,7 @@ TABLE = {
     "initial motion unlike a prescribed one": (
         initial("upper", velocity=[1, 0, 0]) + prescribed("upper.z_max", velocity=[2, 0, 0]),
         (
-            "told: [prescribed_motion.drive] (line .*) moves 'upper.z_max' at 2 m/s when the run begins, where"
+            "warned: [prescribed_motion.drive] (line .*) moves 'upper.z_max' at 2 m/s when the run begins, where"
             " [initial_motion.start] (line .*) gives it 1 m/s"
         ),
     ),
@@ -199,8 +199,8 @@ TABLE = {
     "non-reflecting end that is held": (
         fixed() + section("non_reflecting.end", target="lower.z_min"),
         (
-            "told: [non_reflecting.end] (line .*): constraints hold all nodes of 'lower.z_min', so that it reflects as"
-            " a fixed end"
+            "warned: [non_reflecting.end] (line .*): constraints hold all nodes of 'lower.z_min', so that it reflects"
+            " as a fixed end"
         ),
     ),
     "non-reflecting end that is held across": (
@@ -227,7 +227,8 @@ TABLE = {
         fixed()
         + fixed("upper.z_max", name="top")
         + section("connectors.spring", **{"from": "lower.z_min", "to": "upper.z_max", "stiffness": [1, 1, 1]}),
-        "told: [connectors.spring] (line .*): 'lower.z_min' and 'upper.z_max' are held, so that it is never stretched",
+        "warned: [connectors.spring] (line .*): 'lower.z_min' and 'upper.z_max' are held, so that it is never"
+        " stretched",
     ),
     "beam of a set with itself": (
         section("beams.rod", **{"from": "lower.z_min", "to": "lower.z_min", "material": "steel", "radius": 0.01}),
@@ -235,7 +236,7 @@ TABLE = {
     ),
     "force on a held set": (
         fixed() + section("loads.push", type="nodal_force", target="lower.z_min", force=[0, 0, 1]),
-        "told: [loads.push] (line .*) acts on 'lower.z_min', of whose 16 nodes all are held where it pushes",
+        "warned: [loads.push] (line .*) acts on 'lower.z_min', of whose 16 nodes all are held where it pushes",
     ),
     "force on a set that is held across": (
         fixed(directions="x") + section("loads.push", type="nodal_force", target="lower.z_min", force=[0, 0, 1]),
@@ -243,20 +244,20 @@ TABLE = {
     ),
     "force on a set that is held in part": (
         fixed() + section("loads.push", type="nodal_force", target="lower.x_min", force=[0, 0, 1]),
-        "told: of whose 16 nodes 4 are held",
+        "warned: of whose 16 nodes 4 are held",
     ),
     "pressure on a held surface": (
         fixed() + section("loads.push", type="pressure", target="lower.z_min", pressure=1e3),
-        "told: [loads.push] .* it moves nothing and does no work",
+        "warned: [loads.push] .* it moves nothing and does no work",
     ),
     "traction on a prescribed surface": (
         prescribed("lower.z_min", velocity=[0, 0, 1])
         + section("loads.push", type="traction", target="lower.z_min", traction=[1, 0, 0]),
-        "told: [loads.push]",
+        "warned: [loads.push]",
     ),
     "torque on a held set": (
         fixed() + section("loads.turn", type="torque", target="lower.z_min", moment=1),
-        "told: [loads.turn]",
+        "warned: [loads.turn]",
     ),
     "hammer on a held place": (
         fixed() + section("hammers.blow", part="lower", position=[0.01, 0.01, 0], radius=0.005, peak=1, duration=1e-4),
@@ -273,7 +274,7 @@ TABLE = {
     ),
     "two parts that overlap": (
         '[parts.twin]\nmesh = "block"\nmaterial = "steel"\nposition = [0.013, -0.002, -0.003]\n',
-        "told: [parts.lower] (line .*) and [parts.twin] (line .*) overlap: ",
+        "warned: [parts.lower] (line .*) and [parts.twin] (line .*) overlap: ",
     ),
     "two parts side by side": ('[parts.twin]\nmesh = "block"\nmaterial = "steel"\nposition = [-0.03, 0, 0]\n', ""),
     "gravity on free bodies": (section("gravity", acceleration=[0, 0, -9.81]), ""),
@@ -283,7 +284,7 @@ TABLE = {
     ),
     "a probe far from all": (
         section("probes.far", part="lower", position=[1, 1, 1]),
-        "told: lower.far (line .*) is asked for at",
+        "warned: lower.far (line .*) is asked for at",
     ),
 }
 
@@ -332,7 +333,7 @@ TABLE.update(
         ),
         "pressure on an interior surface": (
             COLUMN + section("loads.push", type="pressure", target="column.inner", pressure=1),
-            "told: [loads.push] (line .*) target: 1 of the 1 faces of 'column.inner'",
+            "warned: [loads.push] (line .*) target: 1 of the 1 faces of 'column.inner'",
         ),
     }
 )
@@ -385,7 +386,7 @@ class Inputs(unittest.TestCase):
                     self.assert_said(pattern, error)
                     continue
                 self.assertEqual(code, 0, error)
-                if kind == "told":
+                if kind == "warned":
                     self.assertIn("warning: ", out)
                     self.assert_said(pattern, out)
                 else:
@@ -479,8 +480,8 @@ class Inputs(unittest.TestCase):
             '[parts.bar]\nmesh = "bar"\nmaterial = "steel"\nposition = [0, 0, 2]\n',
         )
 
-    def test_what_begins_by_sliding_is_told_with_both_numbers(self):
-        told = {
+    def test_what_begins_by_sliding_is_reported_with_both_numbers(self):
+        wanted_lines = {
             "the old angular velocity at a new speed": (
                 dict(velocity=[40, 0, 0], angular_velocity=[0, 50, 0]),
                 "a creepage of 50 %; it rolls at ",
@@ -501,7 +502,7 @@ class Inputs(unittest.TestCase):
             "a lift": dict(velocity=[0, 0, 1]),
             "across": dict(velocity=[20, 1, 0], angular_velocity=[0, 50, 0]),
         }
-        for what, (motion, wanted) in told.items():
+        for what, (motion, wanted) in wanted_lines.items():
             with self.subTest(what):
                 code, out, error = self.check(
                     ROLLER + initial("roller", centre=[0, 0, 0.4], **motion)

@@ -1,4 +1,4 @@
-// Element sets picked by place: boxes, positions with a radius, surfaces; what is told of those that miss.
+// Element sets picked by place: boxes, positions with a radius, surfaces; what is reported of those that miss.
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>

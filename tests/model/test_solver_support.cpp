@@ -38,7 +38,7 @@ TEST_CASE("a scene without subcycling may have any precision, and the summary sa
     int lines = 0;
     for (const std::string& line : model.left_out) lines += line.find("double precision") != std::string::npos ? 1 : 0;
     CHECK(lines == (precision == scene::Precision::double_precision ? 0 : 1));
-    CHECK(model.carried.active() == (precision == scene::Precision::single_precision));
+    CHECK(model.relative.active() == (precision == scene::Precision::single_precision));
   }
 }
 

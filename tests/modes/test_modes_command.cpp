@@ -23,7 +23,7 @@ const std::string two_blocks =
     "[loads.weight]\ntype = \"nodal_force\"\ntarget = \"upper.z_max\"\nforce = [0, 0, -1]\n"
     "[time]\nend = 1e-3\n[output]\nhistory_sets = [\"upper.z_max\"]\n";
 
-std::string told(const TemporaryCase& file, ModesRequest request) {
+std::string report(const TemporaryCase& file, ModesRequest request) {
   std::ostringstream out;
   modes_command(read_case(file.path()), request, out);
   return out.str();
@@ -37,7 +37,7 @@ TEST_CASE("railwave modes tells what it leaves out and how it counts", "[modes]"
   request.up_to = 3000;
   request.csv = (file.folder() / "modes.csv").string();
   request.shapes = (file.folder() / "modes.h5").string();
-  const std::string text = told(file, request);
+  const std::string text = report(file, request);
   CHECK_THAT(text, ContainsSubstring("contacts are left out: fall"));
   CHECK_THAT(text, ContainsSubstring("hourglass control of lower is viscous in a run"));
   CHECK_THAT(text, ContainsSubstring("damping is left out"));
@@ -55,7 +55,7 @@ TEST_CASE("railwave modes of one part", "[modes]") {
   ModesRequest request;
   request.up_to = 3000;
   request.parts = {"upper"};
-  const std::string text = told(file, request);
+  const std::string text = report(file, request);
   CHECK_THAT(text, ContainsSubstring("64 elements, 125 nodes\n") && ContainsSubstring("375 free directions"));
   CHECK_THAT(text, ContainsSubstring("connectors to what is not named are left out: pad"));
   CHECK_THAT(text, ContainsSubstring("all 6 modes below 3000 Hz, counted by inertia; 6 of them rigid motions"));
@@ -65,7 +65,7 @@ TEST_CASE("railwave modes refuses what it can't serve", "[modes]") {
   const TemporaryCase file(two_blocks);
   const auto complaint = [&](const ModesRequest& request) {
     try {
-      told(file, request);
+      report(file, request);
       return std::string();
     } catch (const InputError& error) {
       return std::string(error.what());
@@ -91,7 +91,7 @@ TEST_CASE("railwave modes refuses what it can't serve", "[modes]") {
                            "[constraints.head]\ntarget = \"lower.z_max\"\nfixed = [\"x\", \"y\", \"z\"]\n");
   request = {};
   request.parts = {"lower"};
-  CHECK_THROWS_WITH(told(held, request), ContainsSubstring("nothing can move: all nodes are held"));
+  CHECK_THROWS_WITH(report(held, request), ContainsSubstring("nothing can move: all nodes are held"));
   request = {};
   request.shapes = (file.folder() / "no" / "modes.h5").string();
   CHECK_FALSE(complaint(request).empty());

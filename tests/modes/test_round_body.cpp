@@ -77,7 +77,7 @@ TEST_CASE("A mesh that is no body of revolution has modes without names", "[mode
   for (const Mode& mode : list.modes) CHECK_FALSE(mode.round.has_value());
 }
 
-TEST_CASE("Bodies on soft springs: rigid motions are told from slow ones", "[modes]") {
+TEST_CASE("Bodies on soft springs: rigid motions are distinguished from slow ones", "[modes]") {
   scene::Scene scene = mode_block({0.1, 0.1, 0.1}, {4, 4, 4}, 0.1);
   scene::Connector spring;
   spring.name = "spring";

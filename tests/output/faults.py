@@ -1,5 +1,5 @@
 """What the tests of faults share: a folder with a case, runs of the program under a failing disk, without rights or
-memory, and the table of what was told, which docs/faults.md holds."""
+memory, and the table of what was reported, which docs/faults.md holds."""
 
 import atexit
 import functools
@@ -157,7 +157,7 @@ class Folder(unittest.TestCase):
             path.unlink()
         return wanted
 
-    def told(self, what, code, text):
+    def reported(self, what, code, text):
         """A row of the table: with RAILWAVE_FAULTS=FILE it is added there; see docs/faults.md."""
         text = next(line for line in text.splitlines() if line.strip())
         text = text.replace(str(self.folder) + "/", "").replace(str(self.folder), "FOLDER").replace("railwave: ", "", 1)

@@ -18,7 +18,7 @@ ended; made by `tests/output/faults_table.py`. After each, what was there before
 file is left; results that a
 fault ended are as they were flushed last, and `railwave run CASE --restart` goes on from the last checkpoint. How \
 that is done and what
-kills leave: [restart.md](restart.md). Messages to a run that goes on are warnings, told at once on stderr.
+kills leave: [restart.md](restart.md). Messages to a run that goes on are warnings, reported at once on stderr.
 
 | fault | exit code | message |
 |---|---|---|"""

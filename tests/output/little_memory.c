@@ -3,7 +3,7 @@
  * counts. LITTLE_MEMORY=BYTES   so much in all LITTLE_MEMORY_AT=N    at the N-th time that anything but HDF5 asks, all
  * is taken but LITTLE_MEMORY_LEFT bytes (none by default) LITTLE_MEMORY_TELL=FILE  written there at the end: how often
  * anything but HDF5 asked, the most that was taken, and the most that HDF5 took on top of what it had when its thread
- * looked last whether there is room (a mapping of 8 MiB or more) */
+ * looked last whether memory is free (a mapping of 8 MiB or more) */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -168,7 +168,7 @@ __attribute__((destructor)) static void tell(void) {
   if (!file) return;
   char text[100];
   const int length = snprintf(text, sizeof text, "%ld %ld %ld\n", (long)asked, (long)most, (long)most_of_hdf5);
-  /* A process that did not use HDF5 does not write over what its child told, which did. */
+  /* A process that did not use HDF5 does not write over what its child reported, which did. */
   const int to = open(file, O_WRONLY | O_CREAT | (most_of_hdf5 > 0 ? O_TRUNC : O_EXCL), 0666);
   if (to >= 0 && write(to, text, (size_t)length) != length) abort();
 }

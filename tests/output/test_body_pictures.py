@@ -140,7 +140,7 @@ class WhatIsDrawn(unittest.TestCase):
             for name, place, travels in (("rolls", rolled, True), ("stays", stretched, False)):
                 path = made_up(os.path.join(folder, f"{name}.h5"), nodes, elements, np.stack([nodes, place]))
                 body = Body("body", Results(path).fields()["body"])
-                body.look_whether_it_travels([0, 1])
+                body.check_whether_it_travels([0, 1])
                 self.assertEqual(body.travels, travels, name)
                 corners = body.corners(1, 100)
                 if travels:
@@ -244,7 +244,7 @@ class Files(unittest.TestCase):
             ["run-block.top-block.lower-displacement-z.png", "run-scene-plastic_strain.png"],
         )
 
-    def test_options_that_do_not_fit_are_told(self):
+    def test_options_that_do_not_fit_are_reported(self):
         for arguments, words in (
             (["--view", "above"], "--view above: give iso, side"),
             (["--view", "1,95"], "--view 1,95"),
@@ -275,7 +275,7 @@ class Files(unittest.TestCase):
         self.assertAlmostEqual(stage.most, 1e9, delta=0.05e9)  # the made-up peak, as the mean of the corners of faces
         self.assertEqual(stage.least, 0)
 
-    def test_damaged_files_are_told(self):
+    def test_damaged_files_are_reported(self):
         damaged = os.path.join(self.out, "damaged.h5")
         for name in ("fields/block/connectivity", "fields/block/coordinates", "fields/block/time", "contact"):
             shutil.copy(self.sample.path, damaged)
@@ -286,7 +286,7 @@ class Files(unittest.TestCase):
             self.assertIn("is damaged", result.stderr, name)
             self.assertNotIn("Traceback", result.stderr)
 
-    def test_what_cannot_be_drawn_is_told(self):
+    def test_what_cannot_be_drawn_is_reported(self):
         for arguments, words in (
             (["--show", "nothing"], "there are scene, block, "),
             (["--by", "temperature"], "holds no 'temperature'; this file has acceleration, displacement"),

@@ -25,10 +25,10 @@ RunState state_at(long step) {
   state.history_rows = 2 * step;
   state.field_outputs = step / 2;
   state.back_end = "abacus";
-  StateTaker taker(state);
-  taker.values("numbers", std::vector<double>{1.5, -0.0, 1e-310, 3});
-  taker.values("none", std::vector<int>{});
-  taker.value("step", step);
+  StateSaver saver(state);
+  saver.values("numbers", std::vector<double>{1.5, -0.0, 1e-310, 3});
+  saver.values("none", std::vector<int>{});
+  saver.value("step", step);
   return state;
 }
 
@@ -70,11 +70,11 @@ TEST_CASE("a state comes back from its file as it was") {
     CHECK(found.state->values[k].name == wanted.values[k].name);
     CHECK(found.state->values[k].bytes == wanted.values[k].bytes);
   }
-  StateLayer layer(*found.state);
+  StateRestorer restorer(*found.state);
   long step = 0;
-  layer.value("step", step);
+  restorer.value("step", step);
   CHECK(step == 6);
-  CHECK_THROWS_WITH(layer.value("unheard of", step), ContainsSubstring("unheard of is missing"));
+  CHECK_THROWS_WITH(restorer.value("unheard of", step), ContainsSubstring("unheard of is missing"));
 }
 
 TEST_CASE("a damaged state is refused and the one before it taken") {

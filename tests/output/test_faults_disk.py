@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A full disk, missing rights, files that vanish or are open elsewhere: each is told, with the exit code, and nothing
-that was there is lost."""
+"""A full disk, missing rights, files that vanish or are open elsewhere: each is reported, with the exit code, and
+nothing that was there is lost."""
 
 import contextlib
 import os
@@ -22,7 +22,7 @@ SOMETIMES = ("--set", "checkpoint.interval=0.05")
 
 class FullDisk(Folder):
     def goes_on(self, wanted):
-        """With room again the run comes to its end, bit for bit."""
+        """With disk space again the run comes to its end, bit for bit."""
         self.run_case("--restart")
         self.assertEqual(self.arrays(), wanted)
 
@@ -57,7 +57,7 @@ class FullDisk(Folder):
                 self.assertIn("--restart goes on from the last checkpoint", complaint)
                 self.goes_on(wanted)
                 resumed += 1
-                self.told("disk full: results", 1, complaint)
+                self.reported("disk full: results", 1, complaint)
         self.assertGreater(resumed, 3)
 
     def test_small_disk(self):
@@ -77,7 +77,7 @@ class FullDisk(Folder):
         complaint, _ = self.run_case(*results, "--set", "time.end=1e3", code=2)
         self.assertRegex(complaint, "histories of .*, but disk/results.h5 has .* free")
         self.assertEqual(list(disk.iterdir()), [])
-        self.told("disk too small for what the run will write", 2, complaint)
+        self.reported("disk too small for what the run will write", 2, complaint)
         run = self.start("run", "case.toml", *results, *SOMETIMES)
         while not (disk / "results.h5").exists():
             self.assertIsNone(run.poll())
@@ -97,10 +97,10 @@ class FullDisk(Folder):
         complaint, said = self.run_case(*EVERY_STEP, faults=dict(fail=60, only="checkpoint"))
         self.assertIn("a checkpoint could not be written, the one before it is the last: ", complaint)
         self.assertIn("No space left on device", complaint)
-        self.assertEqual(complaint.count("railwave:"), 1, "told once")
+        self.assertEqual(complaint.count("railwave:"), 1, "reported once")
         self.assertIn("completed\n", said)
         self.nothing_half_written()
-        self.told("disk full: checkpoint", 0, complaint)
+        self.reported("disk full: checkpoint", 0, complaint)
 
     def test_settled_state(self):
         self.case(more="[settle]\nmethod = \"newton\"\n[gravity]\nacceleration = [0, 0, -9.81]\n")
@@ -115,7 +115,7 @@ class FullDisk(Folder):
         line = next(line for line in said.splitlines() if "could not be kept" in line)
         self.assertIn("No space left on device", line)
         self.nothing_half_written()
-        self.told("disk full: settled state", 0, line)
+        self.reported("disk full: settled state", 0, line)
 
     def test_what_other_commands_write(self):
         self.run_case()
@@ -140,7 +140,7 @@ class FullDisk(Folder):
                     self.assertEqual(after[made.name], before[made.name], "what was there is there")
                     if made.suffix == ".csv":
                         break
-                self.told("disk full: railwave " + name, code, complaint)
+                self.reported("disk full: railwave " + name, code, complaint)
                 for path in self.folder.glob("made*"):
                     path.unlink()
 
@@ -167,14 +167,14 @@ class NoPermission(Folder):
         complaint, _ = self.run_as_user(code=2)
         self.assertIn("may not be written: Permission denied", complaint)
         self.assertEqual(self.everything(), before)
-        self.told("read-only folder: results", 2, complaint)
+        self.reported("read-only folder: results", 2, complaint)
 
     def test_checkpoint_folder_that_can_only_be_read(self):
         there = self.folder / "there"
         there.mkdir(mode=0o555)
         complaint, _ = self.run_as_user("--set", "checkpoint.file=there/a.h5", code=2)
         self.assertIn("checkpoint.file: there/a.h5 goes to", complaint)
-        self.told("read-only folder: checkpoint", 2, complaint)
+        self.reported("read-only folder: checkpoint", 2, complaint)
 
     def test_results_that_can_only_be_read(self):
         """Protected by their mode they are neither replaced nor added to."""
@@ -184,18 +184,18 @@ class NoPermission(Folder):
         complaint, _ = self.run_as_user(code=2)
         self.assertIn("may not be written (its mode protects it)", complaint)
         self.assertEqual(self.everything(), before)
-        self.told("read-only results: a new run", 2, complaint)
+        self.reported("read-only results: a new run", 2, complaint)
         complaint, _ = self.run_as_user("--restart", "--set", "time.end=1e-4", code=1)
         self.assertIn("Permission denied", complaint)
         self.assertIn("you may not write there", complaint)
         self.assertEqual(self.everything(), before)
-        self.told("read-only results: --restart", 1, complaint)
+        self.reported("read-only results: --restart", 1, complaint)
 
     def test_case_that_may_not_be_read(self):
         (self.folder / "case.toml").chmod(0)
         complaint, _ = self.run_as_user(code=2)
         self.assertIn("case.toml", complaint)
-        self.told("case file that may not be read", 2, complaint)
+        self.reported("case file that may not be read", 2, complaint)
 
     def test_rights_taken_away_while_running(self):
         """The results are open, so they go on; the checkpoint can't be made."""
@@ -213,7 +213,7 @@ class NoPermission(Folder):
         self.assertIn("Permission denied", complaint)
         with h5py.File(self.results, "r") as file:
             self.assertIn("interrupted", file.attrs["reason"])
-        self.told("rights taken away while running: checkpoint", 130, complaint)
+        self.reported("rights taken away while running: checkpoint", 130, complaint)
 
 
 class Vanished(Folder):
@@ -243,7 +243,7 @@ class Vanished(Folder):
         complaint = self.whole(run)
         self.assertIn("was removed while the run wrote it; it was written anew", complaint)
         self.assertIn("</Xdmf>", (self.folder / "results.xdmf").read_text())
-        self.told("results removed while running", 130, complaint)
+        self.reported("results removed while running", 130, complaint)
         self.ends(self.start("run", "case.toml", "--restart", "--wall-time", "1"), 4)
 
     def test_results_moved(self):
@@ -251,7 +251,7 @@ class Vanished(Folder):
         self.results.rename(self.folder / "moved.h5")
         complaint = self.whole(run)
         self.assertIn("was moved while the run wrote it; the file now has both names", complaint)
-        self.told("results moved while running", 130, complaint)
+        self.reported("results moved while running", 130, complaint)
 
     def test_name_taken(self):
         run = self.running()
@@ -263,7 +263,7 @@ class Vanished(Folder):
         self.assertEqual(self.results.read_bytes(), b"somebody else's")
         with h5py.File(self.folder / "results.h5.rescued", "r") as file:
             self.assertGreaterEqual(len(file["history/time"]), 1)
-        self.told("results replaced by another file while running", 1, complaint)
+        self.reported("results replaced by another file while running", 1, complaint)
 
     def test_folder_removed(self):
         self.case(end=LONG)
@@ -277,7 +277,7 @@ class Vanished(Folder):
             shutil.rmtree(results.parent, ignore_errors=True)
         complaint, _ = self.ends(run, 1)
         self.assertIn("No such file or directory", complaint)
-        self.told("results' folder removed while running", 1, complaint)
+        self.reported("results' folder removed while running", 1, complaint)
 
     def test_inputs(self):
         text = (self.folder / "case.toml").read_text()
@@ -289,10 +289,10 @@ class Vanished(Folder):
         )
         complaint, _ = self.run_case(code=2)
         self.assertIn("gone.inp", complaint)
-        self.told("mesh file vanished", 2, complaint)
+        self.reported("mesh file vanished", 2, complaint)
         complaint, _ = self.ends(self.start("run", "none.toml"), 2)
         self.assertIn("none.toml", complaint)
-        self.told("case file vanished", 2, complaint)
+        self.reported("case file vanished", 2, complaint)
 
 
 class OpenElsewhere(Folder):
@@ -305,7 +305,7 @@ class OpenElsewhere(Folder):
         for options in ((), ("--restart",)):
             complaint, _ = self.run_case(*options, code=2)
             self.assertIn("another run is writing results.h5 now", complaint)
-        self.told("two runs with one results file: the second", 2, complaint)
+        self.reported("two runs with one results file: the second", 2, complaint)
         first.terminate()
         self.ends(first, 130)
         self.ends(self.start("run", "case.toml", "--restart", "--wall-time", "1"), 4)
@@ -318,14 +318,14 @@ class OpenElsewhere(Folder):
         with h5py.File(self.results, "r") as file:
             complaint, _ = self.run_case("--restart", "--set", "time.end=1e-4", code=1)
             self.assertIn("another program has it open", complaint)
-            self.told("results open in another program: --restart", 1, complaint)
+            self.reported("results open in another program: --restart", 1, complaint)
             self.assertEqual(self.results.read_bytes(), before)
             self.run_case()
             self.assertEqual(file["history/step"][0], 0)  # its own, though they have lost their name
         self.assertEqual(self.arrays(), wanted)
 
     def test_read_while_running(self):
-        """HDF5's readers find the file locked while the run has it open, and can be told to look nevertheless."""
+        """HDF5's readers find the file locked while the run has it open, and can be made to read nevertheless."""
         self.case(end=LONG)
         run = self.start("run", "case.toml")
         while not self.results.exists():

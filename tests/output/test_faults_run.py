@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is told, with the exit code, and nothing
-that was there is lost."""
+"""Too little memory, a damaged checkpoint, a clock that jumps, a kill: each is reported, with the exit code, and
+nothing that was there is lost."""
 
 import concurrent.futures
 import pathlib
@@ -22,7 +22,7 @@ class Memory(Folder):
         before = self.everything()
         text = (self.folder / "case.toml").read_text()
         (self.folder / "large.toml").write_text(text.replace("divisions = [3, 3, 2]", "divisions = [60, 60, 60]"))
-        told = 0
+        reported = 0
         for megabytes in range(100, 3200, 25):
             with self.subTest(megabytes=megabytes):
                 run = self.start("run", "large.toml", before=limited("as", megabytes << 20))
@@ -40,10 +40,10 @@ class Memory(Folder):
                         r"(?m)^railwave: out of memory: .*; this machine has .*, this process may take .*; take a"
                         r" coarser mesh",
                     )
-                    self.told("out of memory", 1, complaint)
-                    told += 1
+                    self.reported("out of memory", 1, complaint)
+                    reported += 1
                 self.assertEqual({**self.everything(), "large.toml": ""}, {**before, "large.toml": ""})
-        self.assertGreater(told, 0, "memory was never short")
+        self.assertGreater(reported, 0, "memory was never short")
 
     hangs = False
 
@@ -118,7 +118,7 @@ class DamagedCheckpoint(Folder):
                 complaint, _ = self.run_case("--restart", "--set", "time.end=1e-4", code=2)
                 self.assertIn(why, complaint)
                 self.assertEqual(self.everything(), before)
-                self.told("checkpoint damaged, no previous one: " + kind, 2, complaint)
+                self.reported("checkpoint damaged, no previous one: " + kind, 2, complaint)
         self.checkpoint.write_bytes(sound)
         self.run_case("--restart", "--set", "time.end=1e-4")
 
@@ -129,7 +129,7 @@ class DamagedCheckpoint(Folder):
         complaint, _ = self.run_case("--restart", "--set", "time.end=1e-4", code=2)
         self.assertIn("the results results.h5 cannot be added to", complaint)
         self.assertEqual(self.everything(), before)
-        self.told("results damaged: --restart", 2, complaint)
+        self.reported("results damaged: --restart", 2, complaint)
 
 
 class Clock(Folder):
@@ -142,7 +142,7 @@ class Clock(Folder):
         self.case(end=LONG)
         complaint, said = self.run_case("--wall-time", "1", code=4, faults=dict(clock=31536000))
         self.assertIn("the wall time is spent", said)
-        self.told(
+        self.reported(
             "clock jumps by a year", 0, "nothing: intervals and wall time are measured by a clock that does not jump"
         )
 
@@ -159,7 +159,7 @@ class Kill(Folder):
         self.assertIn("the wall time was spent while the scene settled; how far it came is kept", said)
         self.assertEqual(len(list(self.folder.glob("settled-*.h5"))), 1)
         self.nothing_half_written()
-        self.told("wall time spent while the scene settles", 4, said)
+        self.reported("wall time spent while the scene settles", 4, said)
 
     def test_interrupted_while_settling(self):
         self.settling_for_long()
@@ -173,7 +173,7 @@ class Kill(Folder):
         self.nothing_half_written()
         complaint, _ = self.run_case("--restart", code=2)
         self.assertIn("run the case without --restart", complaint)
-        self.told("--restart of a run that was interrupted while it settled", 2, complaint)
+        self.reported("--restart of a run that was interrupted while it settled", 2, complaint)
 
 
 if __name__ == "__main__":

@@ -20,8 +20,9 @@ history_sets = ["upper.x_min", "upper.x_max", "upper.y_min", "upper.y_max", "low
 
 
 def margin():
-    """Bytes, of src/output/room.hpp."""
-    shift = re.search(r"memory_margin = std::size_t\{(\d+)\} << 20", (SOURCE / "src/output/room.hpp").read_text())
+    """Bytes, of src/output/free_memory.hpp."""
+    source = (SOURCE / "src/output/free_memory.hpp").read_text()
+    shift = re.search(r"memory_margin = std::size_t\{(\d+)\} << 20", source)
     return int(shift.group(1)) << 20
 
 
@@ -35,8 +36,8 @@ class LittleMemory(Folder):
     def measured(self, *arguments):
         """How often anything but HDF5 asked for memory, the most that was taken, the most that HDF5 took between two
         looks; bytes."""
-        self.ends(self.start_with(*arguments, _TELL=self.folder / "told"), 0)
-        return [int(word) for word in (self.folder / "told").read_text().split()]
+        self.ends(self.start_with(*arguments, _TELL=self.folder / "report"), 0)
+        return [int(word) for word in (self.folder / "report").read_text().split()]
 
     def test_margin(self):
         """The most that HDF5 takes for one call of our wrapper is below a quarter of the margin, in files small and

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Nothing that a user owns is destroyed: every kind of file that may lie where a command is told to write, by every
+"""Nothing that a user owns is destroyed: every kind of file that may lie where a command is asked to write, by every
 option that names a file to write. Whatever happens, everything in the folder is as it was, but for what the rule of
 docs/faults.md ("Who may write where") lets be replaced."""
 

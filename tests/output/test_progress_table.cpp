@@ -95,16 +95,16 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   CHECK_THAT(text, ContainsSubstring("left out, because the scene does not need it\n    gravity\n    connectors\n"));
 }
 
-TEST_CASE("the summary tells the worst that the watch saw and what its looks took") {
+TEST_CASE("the summary tells the worst that the monitor saw and what its checks took") {
   RunSummary summary;
-  summary.watched = "speed 28 (500)";
-  summary.watch_seconds = 0.5;
+  summary.worst_values = "speed 28 (500)";
+  summary.monitor_seconds = 0.5;
   summary.wall_seconds = 100;
   CHECK_THAT(show(1, summary).text,
              ContainsSubstring(
-                 "\n  watch, worst values (limits): speed 28 (500)\n    its looks took 0.5 s, 0.5 % of the run\n"));
-  summary.watched.clear();
-  CHECK_THAT(show(1, summary).text, !ContainsSubstring("watch"));
+                 "\n  monitor, worst values (limits): speed 28 (500)\n    its checks took 0.5 s, 0.5 % of the run\n"));
+  summary.worst_values.clear();
+  CHECK_THAT(show(1, summary).text, !ContainsSubstring("monitor"));
 }
 
 TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {

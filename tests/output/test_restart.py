@@ -177,9 +177,9 @@ KINDS = {
     "float_multiplier": dict(
         more='[solver]\nprecision = "float"\n', of_contact='algorithm = "multiplier"\nnormals = "smooth"'
     ),
-    "watched": dict(
+    "monitored": dict(
         more=(
-            "[watch]\nspeed = 1\npenetration = 1e-4\nchatter = 1\nhourglass_share = 1e-3\n"
+            "[monitor]\nspeed = 1\npenetration = 1e-4\nchatter = 1\nhourglass_share = 1e-3\n"
             "hourglass_distortion = 1e-5\nvolume_ratio = 0.999\nenergy_error = 1e-4\nkinetic_growth = 1e-6\n"
         )
     ),
@@ -208,9 +208,9 @@ def arrays(path):
     return found
 
 
-def watched(said):
-    """What the summary says of the watch, without times by the clock."""
-    return re.findall(r"^  (?:warning: )?watch[:,] .*", said, re.MULTILINE)
+def monitored(said):
+    """What the summary says of the monitor, without times by the clock."""
+    return re.findall(r"^  (?:warning: )?monitor[:,] .*", said, re.MULTILINE)
 
 
 class Folder(unittest.TestCase):
@@ -279,8 +279,8 @@ def add_kind(name, options):
         self.assertIn("restart: goes on from results.checkpoint.h5: step ", said)
         self.assertNotIn(".h5: step 0,", said)
         self.assert_same(whole, self.results)
-        self.assertEqual(watched(said), watched(of_whole))
-        self.assertGreater(len(watched(said)), 5 if name == "watched" else 0)
+        self.assertEqual(monitored(said), monitored(of_whole))
+        self.assertGreater(len(monitored(said)), 5 if name == "monitored" else 0)
         self.assertFalse(self.checkpoint.exists())
         with h5py.File(self.results, "r") as file:
             self.assertEqual(file.attrs["completed"], 1)
@@ -332,7 +332,7 @@ class EndsThatMove(Folder):
                 self.assertFalse(self.checkpoint.exists())
 
     def test_interrupted_run_with_another_end(self):
-        """The same whether it is told before or after another interruption."""
+        """The same whether it is reported before or after another interruption."""
         self.write(case())
         self.stop()
         kept = {path: path.read_bytes() for path in self.folder.iterdir()}
@@ -340,7 +340,7 @@ class EndsThatMove(Folder):
             "--set",
             "time.end=1.5e-3",
             "--set",
-            "watch.active=false",
+            "monitor.active=false",
             "--set",
             "output.progress_interval=9",
             "--set",

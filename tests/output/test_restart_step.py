@@ -46,7 +46,7 @@ class RestartStep(unittest.TestCase):
             again = run(folder, "--restart", "--set", "time.end=2e-3")
             self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
             goes_on = re.search(r"goes on from .*: step (\d+), t = (\S+) s", again.stdout)
-            # The checkpoint is that of the first run's end; the time of the step before it was told once.
+            # The checkpoint is that of the first run's end; the time of the step before it was reported once.
             self.assertEqual(goes_on[1], re.search(r"in (\d+) steps", first.stdout)[1])
             self.assertAlmostEqual(float(goes_on[2]), 1e-3, delta=1e-12)
 

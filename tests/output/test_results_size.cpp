@@ -32,13 +32,13 @@ TEST_CASE("results that no disk holds are refused with what each output takes, a
   size.field_bytes = 3e15;
   size.history_bytes = 1e9;
   CHECK_THROWS_WITH(
-      check_results_room(size, some_scene(), 80e9),
+      check_results_disk_space(size, some_scene(), 80e9),
       ContainsSubstring(
           "a.toml: [output] field_interval makes 1e+06 outputs of fields of 3 GB each: 3 PB before compression, but "
           "results.h5 has 80 GB free; give a longer field_interval"));
   size.field_bytes = 0;
   size.history_bytes = 1e12;
-  CHECK_THROWS_WITH(check_results_room(size, some_scene(), 80e9),
+  CHECK_THROWS_WITH(check_results_disk_space(size, some_scene(), 80e9),
                     ContainsSubstring("[output] history_interval makes 1e+06 samples of histories of 1 MB each"));
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("results that compression may make small enough are not refused") {
   size.field_bytes = 200e9;
   size.samples = 1000;
   size.history_bytes = 1e6;
-  CHECK_NOTHROW(check_results_room(size, some_scene(), 80e9));
+  CHECK_NOTHROW(check_results_disk_space(size, some_scene(), 80e9));
   CHECK(free_bytes_at("results.h5") > 0);
 }
 

@@ -160,7 +160,7 @@ step_scale = 0.6
 struct Recorder : RunObserver {
   std::vector<HistorySample> samples;
   SettleReport report;
-  void settled(const Model&, const SettleReport& told) override { report = told; }
+  void settled(const Model&, const SettleReport& settled_report) override { report = settled_report; }
   void history(const Model&, const HistorySample& sample) override { samples.push_back(sample); }
 };
 
@@ -259,7 +259,7 @@ TEST_CASE("the kept state holds for other times and velocities, for no other loa
   }
 }
 
-TEST_CASE("a damaged state is told and settled anew") {
+TEST_CASE("a damaged state is reported and settled anew") {
   const test::TemporaryCase file(two_blocks("penalty", "newton"));
   const Recorder first = run_case(file);
   const auto kept = kept_file(file);

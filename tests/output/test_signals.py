@@ -99,14 +99,14 @@ class Signals(Folder):
         self.assertTrue(self.checkpoint.exists())
 
     def test_file_size(self):
-        """`ulimit -f`: told as a full disk is; what was written before is there, and the checkpoint."""
+        """`ulimit -f`: reported as a full disk is; what was written before is there, and the checkpoint."""
         self.case(end=LONG, more='[checkpoint]\ninterval = 0.2\n')
         run = self.start("run", "case.toml", before=limited("fsize", 3 << 20))
         complaint, said = self.ends(run, 1)
         self.assertIn("File too large; files there, or of this shell (ulimit -f), may not be so large", complaint)
         self.assertTrue(arrays_of(self.results))
         self.nothing_half_written()
-        self.told("file size limited (ulimit -f)", 1, complaint)
+        self.reported("file size limited (ulimit -f)", 1, complaint)
 
 
 if __name__ == "__main__":

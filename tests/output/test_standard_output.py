@@ -58,7 +58,7 @@ class StandardOutput(Folder):
                     self.assertIn(LOST + reason, complaint)
                     self.assertEqual((self.folder / "said.txt").read_bytes(), b"")
                     if why == errno.ENOSPC and command[0] == "contact":
-                        self.told("disk full: standard output of any command", 1, complaint)
+                        self.reported("disk full: standard output of any command", 1, complaint)
         self.assertTrue((self.folder / "again.h5").exists(), "a run goes on to its end")
 
     def test_nobody_reads(self):

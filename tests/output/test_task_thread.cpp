@@ -1,5 +1,5 @@
-// A thread that does tasks in order: it works beside its owner, holds no more than its room, and loses neither task nor
-// error.
+// A thread that does tasks in order: it works beside its owner, holds no more than its capacity, and loses neither task
+// nor error.
 
 #include <algorithm>
 #include <atomic>
@@ -67,18 +67,18 @@ TEST_CASE("the owner goes on while a task is done") {
   CHECK(seen);
 }
 
-TEST_CASE("no more is kept than the room allows, and what a task held is gone when its room is given away") {
+TEST_CASE("no more is kept than the capacity allows, and what a task held is gone when its share of it is given away") {
   Counted::most = 0;
-  constexpr int room = 3;
+  constexpr int capacity = 3;
   std::atomic<int> added{0}, done{0}, most_at_once{0};
   std::atomic<bool> filled{false};
   {
-    TaskThread thread(2 * room);
+    TaskThread thread(2 * capacity);
     for (int i = 0; i < 60; ++i) {
       thread.add(
           [&, i, held = std::make_shared<Counted>()] {
-            // The first waits until the room is full, so that it is seen full.
-            if (i == 0) filled = comes_true([&] { return added == room; });
+            // The first waits until the capacity is full, so that it is seen full.
+            if (i == 0) filled = comes_true([&] { return added == capacity; });
             dawdle();
             most_at_once = std::max(most_at_once.load(), added - done);
             ++done;
@@ -89,12 +89,12 @@ TEST_CASE("no more is kept than the room allows, and what a task held is gone wh
   }
   CHECK(filled);
   CHECK(done == 60);
-  CHECK(most_at_once == room);
-  CHECK(Counted::most <= room + 1);  // and the one that its owner wants to add
+  CHECK(most_at_once == capacity);
+  CHECK(Counted::most <= capacity + 1);  // and the one that its owner wants to add
   CHECK(Counted::alive == 0);
 }
 
-TEST_CASE("a task larger than the room is done all the same") {
+TEST_CASE("a task larger than the capacity is done all the same") {
   int done = 0;
   TaskThread thread(2);
   for (int i = 0; i < 5; ++i) thread.add([&] { ++done; }, 10);
@@ -118,7 +118,7 @@ TEST_CASE("a task's exception comes to the owner, every time it asks, and nothin
   CHECK(done == 0);
 }
 
-TEST_CASE("an owner that waits for room is told of the exception") {
+TEST_CASE("an owner that waits for capacity gets the exception") {
   TaskThread thread(1);
   std::atomic<bool> added{false};
   thread.add([&] {

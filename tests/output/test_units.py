@@ -234,8 +234,8 @@ history_interval = 5e-6
 
     def test_fault(self):
         self.railwave(
-            "run", "case.toml", "--set", "output.file=broken.h5", "--set", "watch.speed=1", "--set",
-            "watch.fatal_speed=4", code=3,
+            "run", "case.toml", "--set", "output.file=broken.h5", "--set", "monitor.speed=1", "--set",
+            "monitor.fatal_speed=4", code=3,
         )
         units = self.units("broken.fault.h5")
         self.assertEqual(

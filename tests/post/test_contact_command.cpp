@@ -10,7 +10,7 @@
 
 #include "case/error.hpp"
 #include "post/contact_command.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "post/results_reader.hpp"
 #include "tests/output/made_up_run.hpp"
 

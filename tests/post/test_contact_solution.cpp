@@ -4,8 +4,8 @@
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "post/contact_solution.hpp"
-#include "post/patch_area.hpp"
+#include "post/contact_patch.hpp"
+#include "post/patch_shape.hpp"
 #include "tests/post/hertz_contact.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 

@@ -5,7 +5,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "post/contact_tables.hpp"
-#include "post/patch_velocity.hpp"
+#include "post/patch_ways.hpp"
 #include "tests/post/hertz_contact.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 

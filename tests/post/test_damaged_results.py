@@ -67,7 +67,7 @@ class DamagedResults(unittest.TestCase):
             with h5py.File(self.seed(name).path, "r") as file:
                 file.visititems(look)
 
-    def test_a_flipped_bit_in_what_is_read_is_told(self):
+    def test_a_flipped_bit_in_what_is_read_is_reported(self):
         """In each of the arrays that a command reads, and a chunk that was lost and reads as zeros."""
         seed = self.seed("hammer")
         with h5py.File(seed.path, "r") as file:
@@ -101,7 +101,7 @@ class DamagedResults(unittest.TestCase):
         """A text whose length leads HDF5 back to the same place of the heap, for ever."""
         seed = self.seed("hammer")
         outcome = self.commands.judge(seed, "frf", endless(seed.bytes))
-        self.assertIn(outcome.kind, ("endless loop in HDF5, told", "refused with a message"), outcome.text)
+        self.assertIn(outcome.kind, ("endless loop in HDF5, reported", "refused with a message"), outcome.text)
 
     def test_nothing_is_written_before_all_is_read(self):
         """The table was left where HDF5 crashed in the title, which goes into the second file."""
@@ -115,8 +115,8 @@ class DamagedResults(unittest.TestCase):
         self.assertNotEqual(outcome.kind, "as from the sound file")
 
     def test_a_name_that_was_changed(self):
-        """What asked for a set is a text, in which a flipped bit makes another name; and a channel that is gone is told
-        with the file's name."""
+        """What asked for a set is a text, in which a flipped bit makes another name; and a channel that is gone is
+        reported with the file's name."""
         seed = self.seed("hammer")
         for old, new in ((b"probe row", b"probe raw"), (b"hammer blow", b"hammer bloc"), (b"bar.blow", b"bar.row_")):
             old, new = (len(old).to_bytes(8, "little") + text for text in (old, new))  # as the heap has them

@@ -4,7 +4,7 @@
 #include <catch2/generators/catch_generators.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
-#include "post/facet_place.hpp"
+#include "post/facet.hpp"
 
 using namespace railwave;
 using Catch::Matchers::WithinAbs;

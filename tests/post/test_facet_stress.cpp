@@ -4,7 +4,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "output/fields/contact_section.hpp"
-#include "post/facet_stress.hpp"
+#include "post/facet.hpp"
 #include "tests/post/hertz_contact.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 

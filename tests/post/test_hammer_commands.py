@@ -98,7 +98,7 @@ def check_decay(folder):
         check(np.allclose(file["level"][:], -3.0 * file["distance"][:], atol=0.01), "they fall by 3 dB/m")
     check(
         "no third-octave band" in program("decay", results, "--from", 410, "--to", 490).stderr,
-        "a range without a band is told",
+        "a range without a band is reported",
     )
     write(results, 0.1)
     check("(row too short)" in program("decay", results).stdout, "rates that a short row cannot tell are marked")
@@ -126,7 +126,7 @@ def check_coherence(folder):
         "two blows answered once and threefold have a coherence of 0.8",
     )
     alone = program("frf", one, "--response", "row_4", "--csv", folder / "alone.csv", "--from", 200, "--to", 4000)
-    check("coherence is 1 by definition" in alone.stdout, "of one blow the coherence is told to be 1 by definition")
+    check("coherence is 1 by definition" in alone.stdout, "of one blow the coherence is reported to be 1 by definition")
     single = rows(folder / "alone.csv")
     mean = [row for row in found if row["response"] == "rail.row_4"]
     check(

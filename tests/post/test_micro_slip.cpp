@@ -3,7 +3,6 @@
 #include <catch2/catch_test_macros.hpp>
 
 #include "post/micro_slip.hpp"
-#include "post/slip_regions.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 
 using namespace railwave;

@@ -5,7 +5,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "post/centre_cut.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "tests/post/hertz_contact.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 

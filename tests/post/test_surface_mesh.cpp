@@ -2,7 +2,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "tests/post/made_up_surfaces.hpp"
 
 using namespace railwave;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "signal/frequency_response.hpp"
-#include "signal/resonances.hpp"
 
 using namespace railwave;
 using Catch::Matchers::WithinAbs;

@@ -179,7 +179,7 @@ TEST_CASE("the speed along the row, which needs to know where it is") {
   CHECK_THAT(run.complaint(), ContainsSubstring("is not known"));
 }
 
-TEST_CASE("files are not lost, and mistakes are told") {
+TEST_CASE("files are not lost, and mistakes are reported") {
   Run run(SignalKind::psd, {"rail.p_1.velocity.z"});
   run.request.hdf5 = run.request.results;
   CHECK_THAT(run.complaint(), ContainsSubstring("is the results file, which this command reads"));

@@ -192,7 +192,8 @@ TEST_CASE("what hangs on beams that nothing holds is named", "[static]") {
 }
 
 TEST_CASE(
-    "unless told otherwise a scene settles by Newton's method, and by relaxation where a point mass would drift away",
+    "unless otherwise specified a scene settles by Newton's method, and by relaxation where a point mass would drift "
+    "away",
     "[static]") {
   scene::Scene scene = block_between_ends();
   scene.settle.active = true;

@@ -109,14 +109,14 @@ void torture(scene::ContactAlgorithm algorithm, scene::HourglassType hourglass, 
                      ordeal.worst_balance, largest, ordeal.unbalanced() / largest)
               << ordeal.said() << std::endl;
     INFO(torment.what << ", " << name_of(algorithm) << ", friction " << friction << ordeal.said());
-    // Forces on a node beyond those of any sound contact are cut off (extra_force_sum.hpp): a scene that begins so is
-    // stopped.
+    // Forces on a node beyond those of any sound contact are cut off (external_force_sum.hpp): a scene that begins so
+    // is stopped.
     if (torment.warning.empty()) CHECK(ordeal.unbalanced() < 1e-3 * largest);
     // What viscous control takes is not booked right where its modes ring (docs/hourglass.md), as those of a corner
     // that is squeezed to a quarter do: a run may be ended there, but not before it was warned of that.
-    const bool told = hourglass == scene::HourglassType::viscous && !ordeal.warnings.empty() &&
-                      ordeal.warnings[0].kind == FaultKind::hourglass_share;
-    if (torment.warning.empty()) CHECK((ordeal.summary.completed || told));
+    const bool reported = hourglass == scene::HourglassType::viscous && !ordeal.warnings.empty() &&
+                          ordeal.warnings[0].kind == FaultKind::hourglass_share;
+    if (torment.warning.empty()) CHECK((ordeal.summary.completed || reported));
     if (torment.warning.empty()) continue;
     REQUIRE(!ordeal.warnings.empty());
     CHECK(ordeal.warnings[0].causes.at(0).name == torment.warning);

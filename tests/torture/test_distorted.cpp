@@ -116,10 +116,10 @@ TEST_CASE(
         INFO(distortion.name << ", " << name_of(hourglass) << (clamped ? ", clamped" : ", free") << ordeal.said());
         CHECK(ordeal.summary.completed);
         // Bodies one element thick bend in hourglass modes, and what viscous control takes out of the fastest of these
-        // is counted too high: told.
-        const bool told = std::any_of(ordeal.warnings.begin(), ordeal.warnings.end(),
-                                      [](const Fault& fault) { return fault.kind == FaultKind::energy; });
-        CHECK(
-            (ordeal.worst_balance < scene.watch.energy_error || (told && hourglass == scene::HourglassType::viscous)));
+        // is counted too high: warned of.
+        const bool reported = std::any_of(ordeal.warnings.begin(), ordeal.warnings.end(),
+                                          [](const Fault& fault) { return fault.kind == FaultKind::energy; });
+        CHECK((ordeal.worst_balance < scene.monitor.energy_error ||
+               (reported && hourglass == scene::HourglassType::viscous)));
       }
 }

@@ -60,7 +60,7 @@ def rise_of_wheel():
 def run(what, end, options):
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "rolling.h5")
-        told = program(
+        said = program(
             "run",
             {
                 **COARSE,
@@ -96,7 +96,7 @@ def run(what, end, options):
         f" {vertical.max():.0f}, load {weight:.0f} N ({unbalance:.0f} N taken off: the wheel's mesh is not quite"
         " balanced)"
     )
-    for line in told.splitlines():
+    for line in said.splitlines():
         if "warning" in line.lower():
             print("  " + line.strip())
     show(f"{what}: ended early", 1 - completed, 0)

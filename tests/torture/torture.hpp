@@ -7,7 +7,7 @@
 
 #include "tests/verify/two_blocks.hpp"
 
-/// Scenes that are hard on the program, run as a user's case would be: with the watch, at the default settings.
+/// Scenes that are hard on the program, run as a user's case would be: with the monitor, at the default settings.
 namespace railwave::verify {
 
 /// What a run came to.
@@ -45,10 +45,10 @@ struct Ordeal : RunObserver {
     return norm(sum);
   }
   std::string said() const {
-    std::string told;
-    for (const Fault& fault : warnings) told += "\n    " + fault.told();
-    if (!summary.completed) told += "\n    ended: " + summary.reason;
-    return told;
+    std::string reported;
+    for (const Fault& fault : warnings) reported += "\n    " + fault.summary();
+    if (!summary.completed) reported += "\n    ended: " + summary.reason;
+    return reported;
   }
 
  private:

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "case/expand_tracks.hpp"
-#include "mesh/sections/section_properties.hpp"
+#include "case/expand.hpp"
+#include "mesh/sections/section.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 

@@ -3,7 +3,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <sstream>
 
-#include "case/expand_tracks.hpp"
+#include "case/expand.hpp"
 #include "tests/case/temporary_case.hpp"
 #include "tests/verify/march.hpp"
 

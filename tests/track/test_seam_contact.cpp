@@ -81,7 +81,7 @@ TEST_CASE("a crack opens under tension, and carries pressure as whole steel does
   CHECK(std::fabs(pressed.opening) < 0.2 * pulled.opening);
 }
 
-TEST_CASE("a seam that its mesh has no room for is told with the case's line") {
+TEST_CASE("a seam that its mesh has no room for is reported with the case's line") {
   scene::Scene scene = cracked_bar(stress);
   scene.path = "bar.toml";
   scene.seams[0].line = 12;

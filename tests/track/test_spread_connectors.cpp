@@ -157,7 +157,7 @@ TEST_CASE("stiff spread connectors are stable at the step chosen") {
   CHECK(fastest < 0.02);
 }
 
-TEST_CASE("ends that cannot be spread over are told with what is missing") {
+TEST_CASE("ends that cannot be spread over are reported with what is missing") {
   const auto complaint = [](const scene::Scene& scene) {
     Model model;
     try {

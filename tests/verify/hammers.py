@@ -46,7 +46,7 @@ def responses(results, *options):
 
 
 def peaks(printed):
-    """Frequencies and dampings (of critical) of the peaks that the command told."""
+    """Frequencies and dampings (of critical) of the peaks that the command reported."""
     lines = [line.split() for line in printed.splitlines()]
     return [
         (float(words[1]), float(words[4]) / 100 if words[4] != "-" else None)

@@ -9,17 +9,17 @@
 /// Driving a model step by step, and what the tests measure on it.
 namespace railwave::verify {
 
-/// `steps` steps from the model's present instant; `look()` is called at every instant, first and last included, when
-/// the forces are known.
-template <class Look>
-void march(Model& model, long steps, const Look& look) {
+/// `steps` steps from the model's present instant; `observe()` is called at every instant, first and last included,
+/// when the forces are known.
+template <class Observe>
+void march(Model& model, long steps, const Observe& observe) {
   StepPlans plans(model);
   Instant instant;
   instant.step = model.step_size;
   for (long k = 0;; ++k) {
     instant.time = model.time = static_cast<double>(model.step) * model.step_size;
     plans.compute_forces(instant, StepKind::sampled);
-    look();
+    observe();
     if (k == steps) return;
     plans.advance(instant);
     instant.elapsed = model.step_size;

@@ -240,7 +240,7 @@ TEST_CASE("damping grows with the cube of the way to the end, and nodes beyond t
   }());
 }
 
-TEST_CASE("layers that cannot work are refused, and such as work badly are told") {
+TEST_CASE("layers that cannot work are refused, and such as work badly are reported") {
   Bar bar;
   const auto complaint = [&](double length) {
     scene::Scene scene = bar.scene();

@@ -146,15 +146,15 @@ TEST_CASE("a beam that spins like a propeller is stretched by rho omega^2 (L^2 -
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);
   double sum = 0, shear = 0;
-  long looks = 0;
+  long samples = 0;
   march(model, model.step_count, [&] {
     const BeamResultants now = beam_resultants(*model.beams, model.nodes).front();
     sum += (now.force[3 * 7] + now.force[3 * 8]) / 2;
     shear = std::max(shear, std::fabs(now.force[3 * 4 + 1]));
-    ++looks;
+    ++samples;
   });
   const double expected = 7800 * M_PI * radius * radius * turning * turning * length * length / 8;
-  CHECK_THAT(sum / static_cast<double>(looks), WithinRel(expected, 0.01));
+  CHECK_THAT(sum / static_cast<double>(samples), WithinRel(expected, 0.01));
   CHECK(shear < 0.01 * expected);
 }
 

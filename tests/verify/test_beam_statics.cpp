@@ -106,7 +106,7 @@ TEST_CASE("a rectangle bends along its height and across it, each with its own s
 }
 
 TEST_CASE("the torsion constant of a rectangle is Saint-Venant's") {
-  // Timoshenko & Goodier, table of k1: J = k1 h b^3.
+  // Timoshenko and Goodier 1970, table of k1: J = k1 h b^3.
   for (const auto& [ratio, constant] : {std::pair{1.0, 0.1406}, {2.0, 0.229}, {4.0, 0.281}, {10.0, 0.312}}) {
     scene::Beam beam;
     beam.section = scene::BeamSection::rectangle;

@@ -40,7 +40,7 @@ target = track(frequencies, exact)
 failed = 0
 for factors in ([1.4, 0.7, 0.8, 1.3], [0.5, 1.5, 2.0, 0.6], [2.5, 0.4, 0.5, 2.0]):
     found, misfits, runs = calibrate.fit(
-        lambda values: track(frequencies, values), target, exact * factors, 60, told=lambda text: None
+        lambda values: track(frequencies, values), target, exact * factors, 60, report=lambda text: None
     )
     off = np.abs(found / exact - 1).max()
     good = off < 0.01 and misfits[-1] < 0.05 * misfits[0] and runs < 40

@@ -8,7 +8,7 @@ using namespace railwave::verify;
 
 namespace {
 
-/// Positions, velocities and contact forces at the end of a run, with the window laid out at its own pace or every
+/// Positions, velocities and contact forces at the end of a run, with the window laid out when it needs to be or every
 /// step.
 std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& layouts) {
   Model model;
@@ -17,7 +17,7 @@ std::vector<double> outcome(const scene::Scene& scene, bool every_step, long& la
   ContactPair& pair = model.contacts[0];
   march(model, model.step_count, [&] {
     if (!every_step) return;
-    pair.next_look = -1;
+    pair.next_check = -1;
     pair.slaves_at_layout = {};
   });
   layouts = pair.layouts;
@@ -119,7 +119,7 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
   CHECK(nearest > 0.5 * pair.segment_size);
 }
 
-TEST_CASE("a look that comes too late for a body set in motion at once is told") {
+TEST_CASE("a check of the window that comes too late for a body set in motion at once is reported") {
   TwoBlocks blocks = small_on_large();
   blocks.gap = 2e-3;
   scene::Scene scene = blocks.scene(1e-3);
@@ -127,7 +127,7 @@ TEST_CASE("a look that comes too late for a body set in motion at once is told")
   build_model(scene, model);
   march(model, 10, [] {});
   CHECK(late_contacts(model.contacts).empty());
-  // Nobody can foresee that; the next look finds the upper block inside the lower.
+  // Nobody can foresee that; the next check finds the upper block inside the lower.
   set_velocity(model, [&](const Vec3& x, int) { return Vec3{0, 0, x[2] > 1e-3 ? -400.0 : 0}; });
   march(model, 120, [] {});
   const auto lines = late_contacts(model.contacts);

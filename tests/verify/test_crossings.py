@@ -83,7 +83,7 @@ class Crossings(unittest.TestCase):
                 self.assertLess(error, 5e-3)
 
     def test_undamped_springs_that_are_struck(self):
-        """They throw light nodes about, which makes energy (docs/watch.md), but no more than that: what a spring held
+        """They throw light nodes about, which makes energy (docs/monitor.md), but no more than that: what a spring held
         when it parted was booked whole as friction, also what it had given back, 0.5 of the elastic energy."""
         error = self.crossed(
             "roll",

@@ -38,7 +38,7 @@ void start_in_first_mode(Model& model, double speed) {
 struct Decay {
   double ratio;       ///< of critical damping, from the peaks
   double imbalance;   ///< of the energy, over what there was
-  double dissipated;  ///< told by the account, over what is no longer there
+  double dissipated;  ///< by the account, over what is no longer there
 };
 
 Decay decay_of(const scene::Scene& scene) {

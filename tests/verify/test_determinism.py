@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The same case run twice, on one, two and three threads, interrupted and taken up again, with other output intervals,
-with and without watch and checkpoints, gives the same results to the last bit; in double, mixed and single precision,
+with and without monitor and checkpoints, gives the same results to the last bit; in double, mixed and single precision,
 with subcycling, and with contact by multipliers. `--program FILE` takes another build, such as one for a GPU, and
 compares two of its runs instead of numbers of threads."""
 
@@ -120,14 +120,14 @@ def interrupted(case, folder, threads, overrides, settled):
     raise RuntimeError("it does not come to its end")
 
 
-def same_whatever_is_told(case, *overrides):
-    """Whether outputs, watch, checkpoints and interruptions leave the solution as it is."""
+def same_whatever_is_set(case, *overrides):
+    """Whether outputs, monitor, checkpoints and interruptions leave the solution as it is."""
     failed = False
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         once = run(case, folder / "once", 1, overrides)
         kinds = {
-            "no_watch": ("--set", "watch.active=false"),
+            "no_monitor": ("--set", "monitor.active=false"),
             "checkpoints": ("--set", "checkpoint.interval=0.02"),
             "no_checkpoints": ("--set", "checkpoint.interval=0"),
             "three_threads": (),
@@ -201,8 +201,8 @@ def main():
     ]
     for precision in ("double", "mixed"):
         of_precision = ("--set", f"solver.precision={precision}")
-        checks.append(same_whatever_is_told("two_blocks.toml", *of_precision, *DAMPED))
-        checks.append(same_whatever_is_told("graded_rail.toml", *of_precision))
+        checks.append(same_whatever_is_set("two_blocks.toml", *of_precision, *DAMPED))
+        checks.append(same_whatever_is_set("graded_rail.toml", *of_precision))
     return 0 if all(checks) else 1
 
 

@@ -7,7 +7,7 @@
 
 #include "case/read_case.hpp"
 #include "model/elements/element_histories.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "source_folder.hpp"
 #include "tests/verify/march.hpp"
 #include "tests/verify/two_blocks.hpp"

@@ -95,7 +95,7 @@ class Entering(unittest.TestCase):
                 with self.subTest(way=way, master=master):
                     self.assertLess(self.energy_made(way, 10, master, "multiplier")[0], 0.01)
 
-    def test_it_is_told(self):
+    def test_it_is_reported(self):
         self.assertIn("came in beside its surface low.z_max", self.energy_made("beside", 1, TOP, "penalty")[1])
 
 

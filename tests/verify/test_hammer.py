@@ -111,10 +111,10 @@ def check_bar(folder):
         [hammers.run(folder, "bar", BAR)], "--to", "9000", "--response", "blow", "--response", "far"
     )
     speed = math.sqrt(modulus / density)
-    told = hammers.peaks(printed)
-    assert len(told) == 6, printed
+    reported = hammers.peaks(printed)
+    assert len(reported) == 6, printed
     for mode in (1, 2, 3):
-        for frequency, damping in (told[mode - 1], told[mode + 2]):
+        for frequency, damping in (reported[mode - 1], reported[mode + 2]):
             hammers.show(
                 f"free bar, resonance {mode} at {mode * speed / 2:.0f} Hz",
                 abs(frequency / (mode * speed / 2) - 1),

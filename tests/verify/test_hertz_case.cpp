@@ -2,7 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "case/read_case.hpp"
-#include "post/contact_solution.hpp"
+#include "post/contact_patch.hpp"
 #include "source_folder.hpp"
 #include "tests/verify/march.hpp"
 

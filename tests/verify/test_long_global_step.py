@@ -27,10 +27,10 @@ def main():
     options = {"solver.step_estimate": "global"}
     if "RAILWAVE_ZONE_SIZE" in os.environ:
         options.update({f"meshes.{part}.zone_size": os.environ["RAILWAVE_ZONE_SIZE"] for part in ("wheel", "rail")})
-    told = program("check", options, capture_output=True, text=True).stdout
-    by_elements = float(re.search(r"element heights: ([0-9.e+-]+) s", told).group(1))
-    stable = float(re.search(r"highest frequency: ([0-9.e+-]+) s", told).group(1))
-    mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", told).group(1))
+    said = program("check", options, capture_output=True, text=True).stdout
+    by_elements = float(re.search(r"element heights: ([0-9.e+-]+) s", said).group(1))
+    stable = float(re.search(r"highest frequency: ([0-9.e+-]+) s", said).group(1))
+    mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", said).group(1))
     weight = mass * -case["gravity"]["acceleration"][2] - case["connectors"]["primary_suspension"]["preload"][2]
     print(
         f"stable step by element heights {by_elements:.4g} s, by the global estimate {stable:.4g} s: gain"

@@ -17,8 +17,8 @@ from figures import CASE, conclude, program, show
 
 def wheel_weight(case):
     """N: the wheel's own weight and what the suspension presses on it."""
-    told = program("check", capture_output=True, text=True).stdout
-    mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", told).group(1))
+    said = program("check", capture_output=True, text=True).stdout
+    mass = float(re.search(r"wheel: .*?, ([0-9.]+) kg", said).group(1))
     return mass * -case["gravity"]["acceleration"][2] - case["connectors"]["primary_suspension"]["preload"][2]
 
 

@@ -25,8 +25,8 @@ def roll(folder, subcycling, hourglass):
     for part in ("wheel", "rail"):
         options[f"meshes.{part}.zone_size"] = ZONE_SIZE
         options[f"parts.{part}.hourglass"] = hourglass
-    told = program("run", options, capture_output=True, text=True).stdout
-    print("\n".join(line for line in told.splitlines() if re.search("settled after|subcycling:|wall time", line)))
+    said = program("run", options, capture_output=True, text=True).stdout
+    print("\n".join(line for line in said.splitlines() if re.search("settled after|subcycling:|wall time", line)))
     with h5py.File(results, "r") as file:
         assert file.attrs["completed"] == 1, file.attrs["reason"]
         history = file["history"]

@@ -31,13 +31,13 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         results = os.path.join(folder, "taylor_bar.h5")
         options = [f"output.file={results}", *os.environ.get("RAILWAVE_OPTIONS", "").split()]
-        told = subprocess.run(
+        done = subprocess.run(
             [figures.PROGRAM, "run", case, *(word for option in options for word in ("--set", option))],
             capture_output=True, text=True, check=False,
         )
-        if told.returncode != 0:
-            sys.exit(told.stdout[-3000:] + told.stderr[-3000:])
-        print("\n".join(told.stdout.splitlines()[-25:]))
+        if done.returncode != 0:
+            sys.exit(done.stdout[-3000:] + done.stderr[-3000:])
+        print("\n".join(done.stdout.splitlines()[-25:]))
         with h5py.File(results, "r") as file:
             assert file.attrs["completed"] == 1, file.attrs["reason"]
             bar = file["fields/bar"]

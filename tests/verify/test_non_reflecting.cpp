@@ -180,7 +180,7 @@ TEST_CASE("dashpots of a non-reflecting end do not bear on the stable step, and 
   CHECK(waves_energy(model) < 0.02 * first.kinetic);
 }
 
-TEST_CASE("a bar whose coarse half goes at a pace of its own lets the pulse out as well") {
+TEST_CASE("a bar whose coarse half has steps of its own lets the pulse out as well") {
   Bar bar;
   scene::Scene scene = bar.scene();
   scene.solver.subcycling = true;
@@ -190,7 +190,7 @@ TEST_CASE("a bar whose coarse half goes at a pace of its own lets the pulse out 
   Model model;
   build_model(scene, assembly, model);
   REQUIRE(model.subcycling.levels > 1);
-  const auto levels = to_host(model.subcycling.paces.level);
+  const auto levels = to_host(model.subcycling.node_levels.level);
   CHECK(static_cast<int>(levels(model.ends.nodes[0])) > 0);
   bar.start(model);
   double first = -1;

@@ -10,7 +10,7 @@ using namespace railwave::verify;
 
 namespace {
 
-/// MacNeal & Harder 1985, fig. 2: a unit cube of seven hexahedra, the inner one warped; and their displacement field
+/// MacNeal and Harder 1985, fig. 2: a unit cube of seven hexahedra, the inner one warped; and their displacement field
 /// u = 1e-3 (2x + y + z)/2, v = 1e-3 (x + 2y + z)/2, w = 1e-3 (x + y + 2z)/2.
 Assembly seven_hexahedra() {
   Assembly assembly;
@@ -81,7 +81,7 @@ void check_stress(const Model& model) {
   double exact[6], largest = 0, worst = 0;
   exact_stress(model, exact);
   for (double s : exact) largest = std::max(largest, std::fabs(s));
-  // Small-strain theory, as MacNeal & Harder state it: E = 1e6, nu = 1/4 give 2000 and 400; here scaled to steel.
+  // Small-strain theory, as MacNeal and Harder state it: E = 1e6, nu = 1/4 give 2000 and 400; here scaled to steel.
   CHECK_THAT(exact[0],
              Catch::Matchers::WithinRel(3e-3 * constants_of(model).lambda + 2e-3 * constants_of(model).mu, 0.01));
   const auto stress = element_stress(model, model.nodes, all_elements(model));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double tolerance = GlobalEstimate::tolerance;
 
-/// Largest speed at any look of `steps` steps from random velocities of up to 1 mm/s; infinite where not finite.
+/// Largest speed at any sample of `steps` steps from random velocities of up to 1 mm/s; infinite where not finite.
 double largest_speed(Model& model, long steps) {
   std::mt19937 generator(8);
   std::uniform_real_distribution<double> speed(-1e-3, 1e-3);

@@ -105,7 +105,7 @@ TEST_CASE("a block on a spring dragged by a belt sticks and slips with the perio
   CHECK_THAT(farthest, WithinRel(exact.farthest, 0.02));
 }
 
-TEST_CASE("the coefficient told beside the forces is that of the instant, and bounds them to rounding") {
+TEST_CASE("the coefficient written beside the forces is that of the instant, and bounds them to rounding") {
   const Dragged dragged;
   Model model;
   build_model(dragged.scene(2 * dragged.exact().period), model);

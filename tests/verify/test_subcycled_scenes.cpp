@@ -118,7 +118,7 @@ TEST_CASE("contact forces and friction of a sliding block are the same with subc
   CHECK(subcycled.imbalance < 1e-2 * elastic);
 }
 
-TEST_CASE("a scene settles at the finest pace, and rests when its run goes at several") {
+TEST_CASE("a scene settles at the finest step, and rests when its run is subcycled") {
   scene::Scene scene = block_on_coarse_one({0.08, 0.08, 0.06}, {6, 6, 4}, 0);
   // Settling leans on stiffness control; a viscous one would let go of what that holds when the run begins.
   for (scene::Part& part : scene.parts) set_hourglass(part, scene::HourglassType::stiffness, 0.05);
@@ -155,7 +155,7 @@ TEST_CASE("a pulse that yields loses as much in plastic flow with subcycling, an
   CHECK(elastic.plastic == 0);
 }
 
-TEST_CASE("the eigenvalue estimate gives the paces of a graded bar one element thick, and it stays stable") {
+TEST_CASE("the eigenvalue estimate gives the levels of a graded bar one element thick, and it stays stable") {
   GradedBar bar(6, 12, 1, 1);
   bar.scene.solver.step_estimate = scene::StepEstimate::eigenvalue;
   Model model;

@@ -113,7 +113,7 @@ TEST_CASE("a coarse region one element thick, which heights call stable with its
   }
 }
 
-TEST_CASE("looking at every round changes nothing, nor does computing at nodes what blocks could") {
+TEST_CASE("sampling every cycle changes nothing, nor does computing at nodes what blocks could") {
   GradedBar bar(4, 12, 1);
   bar.scene.time.end = 640 * 0.9e-3 / bar.wave_speed();
   Model one, other;
@@ -160,7 +160,7 @@ TEST_CASE("surfaces in contact are of one level, their nodes of the finest") {
   Model model;
   build_model(scene, model);
   REQUIRE(model.subcycling.levels > 1);
-  const auto level = to_host(model.subcycling.paces.level);
+  const auto level = to_host(model.subcycling.node_levels.level);
   for (const auto* nodes : {&model.contacts[0].slave_nodes, &model.contacts[0].master_nodes})
     for (int n : *nodes) CHECK(level(n) == 0);
   std::vector<int> of_element(model.assembly.elements.size());

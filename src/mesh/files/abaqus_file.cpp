@@ -1,5 +1,3 @@
-#include "mesh/files/abaqus_file.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,9 +10,9 @@
 #include "mesh/face_table.hpp"
 #include "mesh/files/abaqus_lines.hpp"
 #include "mesh/files/abaqus_sets.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "mesh/files/numbered_mesh.hpp"
 #include "mesh/files/text_file.hpp"
-#include "mesh/sort_unique.hpp"
 
 namespace railwave {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "case/error.hpp"
+#include "mesh/files/numbered_mesh.hpp"
 #include "mesh/files/text_file.hpp"
-#include "mesh/sort_unique.hpp"
 
 namespace railwave {
 namespace {

@@ -1,5 +1,3 @@
-#include "mesh/files/gmsh_file.hpp"
-
 #include <fmt/format.h>
 
 #include <limits>
@@ -11,6 +9,7 @@
 #include "case/error.hpp"
 #include "mesh/face_table.hpp"
 #include "mesh/files/gmsh_tokens.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "mesh/files/numbered_mesh.hpp"
 #include "mesh/files/text_file.hpp"
 
@@ -170,13 +169,13 @@ class GmshReader {
     std::int64_t counts[4];
     for (auto& count : counts) count = tokens_.size("number of entities");
     for (int dimension = 0; dimension < 4; ++dimension) {
-      tokens_.expect_room(counts[dimension], 5, "entities");
+      tokens_.expect_numbers(counts[dimension], 5, "entities");
       for (std::int64_t i = 0; i < counts[dimension]; ++i) {
         const auto tag = tokens_.integer("entity's tag");
         const int coordinates = dimension == 0 ? 3 : 6;
         for (int c = 0; c < coordinates; ++c) tokens_.real("entity's coordinate");
         const auto groups = tokens_.size("number of physical tags");
-        tokens_.expect_room(groups, 1, "physical tags");
+        tokens_.expect_numbers(groups, 1, "physical tags");
         for (std::int64_t g = 0; g < groups; ++g) {
           // A minus sign only says that the group turns the entity round.
           const auto group = tokens_.integer("physical tag");
@@ -184,7 +183,7 @@ class GmshReader {
         }
         if (dimension == 0) continue;
         const auto boundaries = tokens_.size("number of bounding entities");
-        tokens_.expect_room(boundaries, 1, "bounding entities");
+        tokens_.expect_numbers(boundaries, 1, "bounding entities");
         for (std::int64_t b = 0; b < boundaries; ++b) tokens_.integer("bounding entity's tag");
       }
     }
@@ -200,8 +199,8 @@ class GmshReader {
     const auto blocks = tokens_.size("number of node blocks"), total = tokens_.size("number of nodes");
     tokens_.size("lowest node tag");
     tokens_.size("highest node tag");
-    tokens_.expect_room(blocks, 4, "node blocks");
-    tokens_.expect_room(total, 4, "nodes");
+    tokens_.expect_numbers(blocks, 4, "node blocks");
+    tokens_.expect_numbers(total, 4, "nodes");
     if (total > std::numeric_limits<int>::max()) tokens_.fail("more nodes than can be numbered; split the mesh");
     std::vector<std::pair<std::int64_t, FilePlace>> tags;
     for (std::int64_t block = 0; block < blocks; ++block) {
@@ -211,7 +210,7 @@ class GmshReader {
       if (parametric != 0 && parametric != 1)
         tokens_.fail(fmt::format("the parametric flag is {}; 0 and 1 are known", parametric));
       const auto count = tokens_.size("number of nodes in the block");
-      tokens_.expect_room(count, 4, "nodes in this block");
+      tokens_.expect_numbers(count, 4, "nodes in this block");
       tags.clear();
       for (std::int64_t i = 0; i < count; ++i) {
         const auto tag = tokens_.size("node tag");
@@ -234,15 +233,15 @@ class GmshReader {
     const auto blocks = tokens_.size("number of element blocks"), total = tokens_.size("number of elements");
     tokens_.size("lowest element tag");
     tokens_.size("highest element tag");
-    tokens_.expect_room(blocks, 4, "element blocks");
-    tokens_.expect_room(total, 2, "elements");
+    tokens_.expect_numbers(blocks, 4, "element blocks");
+    tokens_.expect_numbers(total, 2, "elements");
     std::int64_t found = 0;
     for (std::int64_t block = 0; block < blocks; ++block) {
       const int entity_dimension = dimension();
       const auto entity = tokens_.integer("entity's tag");
       const auto type = element_type();
       const auto count = tokens_.size("number of elements in the block");
-      tokens_.expect_room(count, type.nodes + 1, "elements in this block");
+      tokens_.expect_numbers(count, type.nodes + 1, "elements in this block");
       if (type.dimension != entity_dimension)
         tokens_.fail(fmt::format("an entity of dimension {} can't hold {}; the file is damaged, write it again",
                                  entity_dimension, type.name));

@@ -130,7 +130,7 @@ double GmshTokens::real(const char* what) {
   return *value;
 }
 
-void GmshTokens::expect_room(std::int64_t count, std::int64_t numbers, const char* what) const {
+void GmshTokens::expect_numbers(std::int64_t count, std::int64_t numbers, const char* what) const {
   const auto left = static_cast<std::int64_t>(bytes_.size() - offset_);
   // In ASCII a number takes a digit and a blank, but the last needs no blank.
   const std::int64_t smallest = binary_ ? 4 * numbers : 2 * numbers;

@@ -40,7 +40,7 @@ class GmshTokens {
 
   /// Throws InputError unless `count` things of at least `numbers` numbers (of at least 4 bytes in binary) can still
   /// follow: no memory is asked for on a broken header's word.
-  void expect_room(std::int64_t count, std::int64_t numbers, const char* what) const;
+  void expect_numbers(std::int64_t count, std::int64_t numbers, const char* what) const;
 
   [[noreturn]] void fail(const std::string& text) const;
 

@@ -1,3 +1,5 @@
+#include "mesh/files/mesh_file.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -5,9 +7,6 @@
 
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
-#include "mesh/files/abaqus_file.hpp"
-#include "mesh/files/gmsh_file.hpp"
-#include "mesh/files/set_names.hpp"
 #include "mesh/files/text_file.hpp"
 #include "mesh/mesh_checks.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "case/error.hpp"
 #include "mesh/face_table.hpp"
-#include "mesh/sort_unique.hpp"
 
 namespace railwave {
 namespace {
@@ -18,7 +17,7 @@ constexpr int corner_neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2,
                                          {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
 
 // Volume of a corner's three edges over the product of their lengths: 1 at a right angle, 0 when they lie in a plane or
-// their lengths can't be told in a double.
+// their lengths can't be computed in a double.
 double corner_volume(const Mesh& mesh, const std::array<int, 8>& element, int corner) {
   Vec3 edge[3];
   double lengths = 1;
@@ -147,7 +146,7 @@ void NumberedMesh::complete(Mesh& mesh, std::vector<std::string>& notes) const {
 }
 
 void NumberedMesh::check_shapes(const Mesh& mesh) const {
-  // Corners this close to lying in a plane can't be told from inverted ones in rounding.
+  // Corners this close to lying in a plane can't be distinguished from inverted ones in rounding.
   constexpr double flat = 1e-10;
   std::optional<std::size_t> first_mirrored, first_bad;
   std::size_t mirrored = 0, bad = 0;

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -68,5 +70,19 @@ class NumberedMesh {
   std::vector<FilePlace> element_places_;
   std::unordered_map<std::int64_t, int> element_positions_;
 };
+
+/// Members of a set, ascending without repeats.
+inline void sort_unique(std::vector<int>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+inline void sort_unique(std::vector<Face>& faces) {
+  const auto place = [](const Face& face) { return std::make_tuple(face.element, face.side); };
+  std::sort(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return place(a) < place(b); });
+  faces.erase(
+      std::unique(faces.begin(), faces.end(), [&](const Face& a, const Face& b) { return place(a) == place(b); }),
+      faces.end());
+}
 
 }  // namespace railwave

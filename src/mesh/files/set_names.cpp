@@ -1,5 +1,3 @@
-#include "mesh/files/set_names.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "case/error.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "mesh/files/text_file.hpp"
 
 namespace railwave {

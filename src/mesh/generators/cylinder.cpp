@@ -2,8 +2,8 @@
 
 #include "mesh/build_mesh.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/mesh_room.hpp"
-#include "mesh/round_core.hpp"
+#include "mesh/mesh_memory.hpp"
+#include "mesh/o_grid.hpp"
 
 /// A solid round bar along z from z = 0, its axis through the origin: a square-like core of core_divisions x
 /// core_divisions columns of elements, its sides bulged, within four blocks of ring_divisions that reach the skin (an
@@ -83,8 +83,8 @@ Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const double core = source.cylinder.core_divisions, rings = source.cylinder.ring_divisions,
                layers_wanted = source.cylinder.length_divisions;
-  expect_mesh_room((core + 4 * rings) * core * layers_wanted,
-                   ((core + 1) * (core + 1) + 4 * core * rings) * (layers_wanted + 1));
+  expect_mesh_memory((core + 4 * rings) * core * layers_wanted,
+                     ((core + 1) * (core + 1) + 4 * core * rings) * (layers_wanted + 1));
   const Disc section = disc(source.cylinder);
   const auto z = heights(source.cylinder);
   const int nodes = static_cast<int>(section.nodes.size()), cells = static_cast<int>(section.cells.size());

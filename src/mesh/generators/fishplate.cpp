@@ -10,7 +10,7 @@
 #include "mesh/extrusion.hpp"
 #include "mesh/generators/rail.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 /// A fishplate: a bar along x that fills the fishing chamber of a rail's mesh at one side, inclined as the rail is. Its
 /// inner side follows the facets of the rail's mesh, with their nodes: under the head, along the web (`clearance` away

@@ -9,7 +9,7 @@
 #include "mesh/generators/rail.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/mesh_room.hpp"
+#include "mesh/mesh_memory.hpp"
 
 /// A pad under a rail's foot from `start` to `end` along x: as wide as the foot's underside, leaning with it,
 /// `thickness` thick everywhere. Its lines along and across the rail are those of the foot's elements, so that it can

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "mesh/build_mesh.hpp"
-#include "mesh/crown.hpp"
+#include "mesh/curve.hpp"
 #include "mesh/grid.hpp"
 #include "mesh/mesh_checks.hpp"
 

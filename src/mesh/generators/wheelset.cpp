@@ -7,10 +7,10 @@
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/generators/wheel.hpp"
+#include "mesh/mesh.hpp"
 #include "mesh/mesh_checks.hpp"
-#include "mesh/mesh_room.hpp"
-#include "mesh/mirror.hpp"
-#include "mesh/ring_disc.hpp"
+#include "mesh/mesh_memory.hpp"
+#include "mesh/o_grid.hpp"
 #include "mesh/sections/profiles.hpp"
 
 /// Two wheels on a solid axle along y, in one mesh: the axle shares the nodes of the bores. The origin is the axle's

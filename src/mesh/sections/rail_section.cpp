@@ -9,9 +9,8 @@
 
 #include "mesh/grading.hpp"
 #include "mesh/sections/profiles.hpp"
+#include "mesh/sections/section.hpp"
 #include "mesh/sections/section_columns.hpp"
-#include "mesh/sections/section_outline.hpp"
-#include "mesh/sections/section_smoothing.hpp"
 
 namespace railwave {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/curve.hpp"
+#include "mesh/mesh.hpp"
 
 namespace railwave {
 
@@ -91,5 +92,38 @@ void set_ideal_shapes(SectionMesh& section, double smallest);
 inline constexpr double transition_depth = 0.54;
 inline constexpr double transition_inset = 0.1;
 inline constexpr double transition_height = 2.4;
+
+struct SmoothingResult {
+  int sweeps = 0;
+  double worst_corner = 0;  ///< smallest corner Jacobian over that of the ideal corner (1 is ideal, < 0 inverted)
+};
+
+/// Moves the free nodes of a section, and those on curves along their curve, so that each quad comes close to its ideal
+/// shape and size: minimises the sum over quad corners of |T|^2 / (2 det T) - 1 + (det T + 1 / det T - 2) / 2, where T
+/// maps the ideal corner onto the present one (target-matrix optimisation, Knupp 2012). The determinant is regularised
+/// while quads are inverted, so that the start may be tangled. Fixed nodes stay.
+SmoothingResult smooth_section(SectionMesh& section, int max_sweeps = 400);
+
+/// Shifts boundary nodes along their normals so that the section's polygon encloses as much as the outline which its
+/// nodes lie on: each edge's area between chord and outline is shared by its two ends. Chords would otherwise cut area
+/// and bending stiffness off every rounding. `outline` is closed, counter-clockwise and finely sampled;
+/// `kept[n]` tells which nodes have to stay on it.
+void match_outline_area(SectionMesh& section, const std::vector<Point2>& outline, const std::vector<char>& kept);
+
+/// Points on a closed curve, `spacing` apart.
+std::vector<Point2> sample_closed(const Curve& curve, double spacing);
+
+/// Area (m2), centroid (m) and second moments (m4) of plane faces, about the axes y and z through the centroid.
+struct SectionProperties {
+  double area = 0;
+  double centroid_y = 0, centroid_z = 0;
+  double moment_y = 0;                           ///< integral of (z - centroid_z)^2: vertical bending
+  double moment_z = 0;                           ///< integral of (y - centroid_y)^2: lateral bending
+  double product = 0;                            ///< integral of (y - centroid_y) (z - centroid_z)
+  double greatest_moment = 0, least_moment = 0;  ///< principal values
+};
+
+/// Properties of faces that lie in a plane of constant x; each face counts as the polygon of its corners.
+SectionProperties section_properties(const Mesh& mesh, const std::vector<Face>& faces);
 
 }  // namespace railwave

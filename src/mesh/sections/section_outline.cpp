@@ -1,8 +1,8 @@
-#include "mesh/sections/section_outline.hpp"
-
 #include <cmath>
 #include <map>
 #include <utility>
+
+#include "mesh/sections/section.hpp"
 
 namespace railwave {
 

@@ -1,6 +1,6 @@
-#include "mesh/sections/section_properties.hpp"
-
 #include <cmath>
+
+#include "mesh/sections/section.hpp"
 
 namespace railwave {
 

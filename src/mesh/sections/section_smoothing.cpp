@@ -1,7 +1,7 @@
-#include "mesh/sections/section_smoothing.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "mesh/sections/section.hpp"
 
 namespace railwave {
 

@@ -10,8 +10,8 @@
 
 #include "mesh/grading.hpp"
 #include "mesh/sections/profiles.hpp"
+#include "mesh/sections/section.hpp"
 #include "mesh/sections/section_columns.hpp"
-#include "mesh/sections/section_smoothing.hpp"
 
 namespace railwave {
 

@@ -12,7 +12,7 @@ namespace railwave {
 struct NonReflectingEnds {
   NonReflectingArrays arrays;
   std::vector<int> nodes;   ///< ascending
-  std::vector<char> alone;  ///< by node of the model: feels no other extra forces; may have a pace of its own
+  std::vector<char> alone;  ///< by node of the model: feels no other external forces; may have a level of its own
 };
 
 /// Begins the run: forces on the ends' nodes take the place of what held them.

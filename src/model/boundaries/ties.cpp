@@ -227,7 +227,7 @@ void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
   }
 }
 
-/// Rows of the extra forces are known only later.
+/// Rows of the external forces are known only later.
 void build_tie_arrays(Ties& ties) {
   for (const TiedPlace& tied : ties.places) ties.masters.insert(ties.masters.end(), tied.face, tied.face + 4);
   std::sort(ties.masters.begin(), ties.masters.end());

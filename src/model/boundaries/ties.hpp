@@ -10,10 +10,10 @@ namespace railwave {
 /// undeformed; the two meshes need not match. The slaves' mesh is the finer one, and no slave carries another one. What
 /// multipliers press on, what a prescribed motion moves and what is of a non-reflecting end is no slave.
 struct Ties {
-  TieArrays arrays;               ///< their rows of the extra forces are known later than the rest
+  TieArrays arrays;               ///< their rows of the external forces are known later than the rest
   std::vector<TiedPlace> places;  ///< host copy
   std::vector<int> masters;       ///< ascending
-  Array<int*> carrier;            ///< by slave, where nodes are in single precision
+  Array<int*> frame;              ///< by slave, where nodes are in single precision
 };
 
 /// Masses by node, in kg of a run or of a relaxation, as the scheme uses them: those of slaves go to their masters by

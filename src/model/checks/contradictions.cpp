@@ -18,7 +18,7 @@
 #include "model/loads/load_model.hpp"
 
 // Entries of a scene that cannot all hold, as far as it takes the meshes to see it. What the case file alone shows is
-// in case/rules_scene.cpp; what may be meant is told by model/checks/doubts.cpp.
+// in case/rules_scene.cpp; what may be meant is reported by model/checks/doubts.cpp.
 namespace railwave {
 namespace {
 

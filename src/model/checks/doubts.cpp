@@ -147,7 +147,7 @@ void entries_without_effect(const AssembledScene& assembled, Doubts& doubts) {
 void inner_faces(const AssembledScene& assembled, Doubts& doubts) {
   if (assembled.scene.loads.empty() && assembled.scene.ties.empty()) return;
   const OutsideFaces outside(assembled.assembly);
-  const auto look = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name) {
+  const auto check = [&](const char* section, const scene::Place& entry, const char* key, const std::string& name) {
     const auto& surface = find_surface(assembled.scene, assembled.assembly, entry, key, name);
     const auto inside =
         std::count_if(surface.begin(), surface.end(), [&](const Face& face) { return !outside.has(face); });
@@ -159,10 +159,10 @@ void inner_faces(const AssembledScene& assembled, Doubts& doubts) {
   };
   for (const scene::Load& load : assembled.scene.loads)
     if (load.type == scene::LoadType::pressure || load.type == scene::LoadType::traction)
-      look("loads", load, "target", load.target);
+      check("loads", load, "target", load.target);
   for (const scene::Tie& tie : assembled.scene.ties) {
-    look("ties", tie, "slave", tie.slave);
-    look("ties", tie, "master", tie.master);
+    check("ties", tie, "slave", tie.slave);
+    check("ties", tie, "master", tie.master);
   }
 }
 

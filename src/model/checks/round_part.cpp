@@ -73,7 +73,7 @@ NearestFace nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner
   constexpr int grid = 8, halvings = 24;
   double best[2] = {0, 0};
   NearestFace nearest;
-  const auto look = [&](double xi, double eta) {
+  const auto consider = [&](double xi, double eta) {
     const Vec3 x = place_on(corner, xi, eta);
     const double gap = profile.gap(x);
     if (!(gap < nearest.gap)) return false;
@@ -83,14 +83,15 @@ NearestFace nearest_on(const Profile& profile, const std::array<Vec3, 4>& corner
     return true;
   };
   for (int i = 0; i <= grid; ++i)
-    for (int j = 0; j <= grid; ++j) look(2.0 * i / grid - 1, 2.0 * j / grid - 1);
+    for (int j = 0; j <= grid; ++j) consider(2.0 * i / grid - 1, 2.0 * j / grid - 1);
   double step = 1.0 / grid;
   for (int halving = 0; halving < halvings;) {
     bool nearer = false;
     const double from[2] = {best[0], best[1]};
     for (int i = -1; i <= 1; ++i)
       for (int j = -1; j <= 1; ++j)
-        nearer = look(std::clamp(from[0] + i * step, -1.0, 1.0), std::clamp(from[1] + j * step, -1.0, 1.0)) || nearer;
+        nearer =
+            consider(std::clamp(from[0] + i * step, -1.0, 1.0), std::clamp(from[1] + j * step, -1.0, 1.0)) || nearer;
     if (nearer) continue;
     step /= 2;
     ++halving;

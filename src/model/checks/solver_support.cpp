@@ -21,8 +21,8 @@ void refuse_unknown_methods(const scene::Scene& scene) {
   for (const scene::Contact& contact : scene.contacts)
     if (solver.subcycling && contact.algorithm == scene::ContactAlgorithm::multiplier)
       refuse(scene, fmt::format("subcycling = true with [contacts.{}] algorithm = \"multiplier\"", contact.name),
-             "leave one of the two out: multipliers look one step ahead, and nodes at paces of their own have steps of "
-             "their own");
+             "leave one of the two out: multipliers look one step ahead, and subcycled nodes have steps of their "
+             "own");
   if (!scene.beams.empty() && solver.subcycling)
     refuse(scene, "subcycling = true with [beams]", "leave subcycling out");
   if (!scene.prescribed_motions.empty() && solver.precision == scene::Precision::single_precision)

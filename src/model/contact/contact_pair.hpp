@@ -18,18 +18,18 @@ struct ContactPair {
   ContactWindow window;
   MultiplierArrays multipliers;  ///< of the second algorithm, see kernels/contact/contact_multiplier.hpp
   Array<double*[3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
-  long next_look = -1;                                    ///< step at which the window is looked at again
-  long next_near_look = -1;  ///< step at which the nodes that can touch are picked out of it again
-  bool boxed = false;        ///< the master's boxes hold until then
-  long layouts = 0;          ///< how often it was laid out
-  long looks = 0;            ///< how often it was looked at, the host waiting
-  bool loaded = false;       ///< loads or connectors act on its nodes
+  long next_check = -1;                                   ///< step at which the window is checked again
+  long next_near_check = -1;  ///< step at which the nodes that can touch are picked out of it again
+  bool boxed = false;         ///< the master's boxes hold until then
+  long layouts = 0;           ///< how often it was laid out
+  long checks = 0;            ///< how often it was checked, the host waiting
+  bool loaded = false;        ///< loads or connectors act on its nodes
   bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;     ///< no other forces than the pair's on slaves reach the master's nodes
-  bool reversed = false;      ///< the second half of a symmetric contact: surfaces exchanged, told with the first
+  bool reversed = false;      ///< the second half of a symmetric contact: surfaces exchanged, reported with the first
   int partner = -1;           ///< the other half of a symmetric contact, -1: none
   std::vector<char> on_both;  ///< by slave: a node of the master too, at a seam's end, where it can't meet itself
-  Array<int*> missed;         ///< one: see ContactLook
+  Array<int*> missed;         ///< one: see FindNearNodes
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes

@@ -179,13 +179,13 @@ std::vector<Met> follow(const AssembledScene& assembled, const SurfaceEnds& ends
     }
     if (!fine || longest_side(assembled.assembly.nodes, ends.corners[last]) <= wanted) continue;
     met.push_back({time, foremost, false});
-    fine = false;  // told once
+    fine = false;  // reported once
   }
   return met;
 }
 
-std::string told(const scene::Scene& scene, const scene::Contact& contact, const std::string& surface,
-                 const std::string& part, const Met& met) {
+std::string describe(const scene::Scene& scene, const scene::Contact& contact, const std::string& surface,
+                     const std::string& part, const Met& met) {
   const std::string head =
       fmt::format("[contacts.{}] (line {}): if its parts go on as initial and prescribed motions say, its patch ",
                   contact.name, contact.line);
@@ -227,16 +227,16 @@ class PairPath {
         slave_(part_name(pair.slave_nodes)),
         master_(part_name(pair.master_nodes)) {}
 
-  void tell(std::vector<std::string>& doubts) {
+  void report(std::vector<std::string>& doubts) {
     if (slave_.empty() || master_.empty() || slave_ == master_) return;
     if (!moves(slave_) && !moves(master_)) return;
     ends_ = pair_ends(assembled_.assembly, contacts_, pair_);
     for (const bool reversed : {false, true})
       if (const auto round = round_part(assembled_, reversed ? master_ : slave_)) {
-        if (const auto place = where_it_rolls(*round)) return tell_rolling(*round, reversed, *place, doubts);
+        if (const auto place = where_it_rolls(*round)) return report_rolling(*round, reversed, *place, doubts);
         return;  // it hangs in the air
       }
-    tell_sliding(doubts);
+    report_sliding(doubts);
   }
 
  private:
@@ -275,8 +275,8 @@ class PairPath {
     return own > least + near_share * round.nominal_radius ? nearest : place;
   }
 
-  void tell_rolling(const RoundPart& round, bool round_is_master, const Vec3& place,
-                    std::vector<std::string>& doubts) const {
+  void report_rolling(const RoundPart& round, bool round_is_master, const Vec3& place,
+                      std::vector<std::string>& doubts) const {
     // Abreast of the contact.
     const Vec3 on_axis = sum(round.origin, scaled(dot(difference(place, round.origin), round.axis), round.axis));
     const BodyWay carrier(assembled_, round.part->name, on_axis);
@@ -298,14 +298,14 @@ class PairPath {
       for (const Met& met : all) {
         if (first[met.end] && first[met.end]->time <= met.time) continue;
         first[met.end] = met;
-        line[met.end] = told(assembled_.scene, contact_, surface(of_master), own ? round.part->name : other, met);
+        line[met.end] = describe(assembled_.scene, contact_, surface(of_master), own ? round.part->name : other, met);
       }
     }
     for (const int end : {0, 1})
       if (first[end]) doubts.push_back(line[end]);
   }
 
-  void tell_sliding(std::vector<std::string>& doubts) const {
+  void report_sliding(std::vector<std::string>& doubts) const {
     const auto mean = [&](const std::vector<int>& nodes) {
       Vec3 middle{0, 0, 0};
       for (int n : nodes)
@@ -349,7 +349,7 @@ class PairPath {
     const bool over_master = !master_is_short;
     for (const Met& met : follow(assembled_, ends, over_master ? master_ : slave_, 0,
                                  [&](double time) { return under.material(sum(from, carrier.travel(time)), time); }))
-      doubts.push_back(told(assembled_.scene, contact_, surface(over_master), over_master ? master_ : slave_, met));
+      doubts.push_back(describe(assembled_.scene, contact_, surface(over_master), over_master ? master_ : slave_, met));
   }
 
   const AssembledScene& assembled_;
@@ -365,7 +365,7 @@ class PairPath {
 std::vector<std::string> path_doubts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
   std::vector<std::string> doubts;
   for (const ContactPair& pair : contacts)
-    if (!pair.reversed) PairPath(assembled, contacts, pair).tell(doubts);
+    if (!pair.reversed) PairPath(assembled, contacts, pair).report(doubts);
   return doubts;
 }
 

@@ -60,15 +60,15 @@ class NearestFace {
     Found best;
     const auto middle = std::lower_bound(order_.begin(), order_.end(), std::pair<double, int>{place[0], 0});
     for (auto up = middle; up != order_.end() && up->first - place[0] - reach_ < best.distance; ++up)
-      look(place, up->second, best);
+      consider(place, up->second, best);
     for (auto down = middle; down != order_.begin() && place[0] - std::prev(down)->first - reach_ < best.distance;
          --down)
-      look(place, std::prev(down)->second, best);
+      consider(place, std::prev(down)->second, best);
     return best;
   }
 
  private:
-  void look(const Vec3& place, int f, Found& best) const {
+  void consider(const Vec3& place, int f, Found& best) const {
     const auto& corner = faces_[f];
     const auto& x = assembly_.nodes;
     for (int second : {1, 2}) {
@@ -152,7 +152,7 @@ bool is_deep(const scene::Scene& scene, double step_size, const InitialOverlap& 
 
 /// A pair's slave nodes in its master's bodies.
 /// @param sign -1 where the pair is the second half of a symmetric contact: its slave is the contact's master
-void look(const Assembly& assembly, const ContactPair& pair, double sign, InitialOverlap& overlap) {
+void find_overlaps(const Assembly& assembly, const ContactPair& pair, double sign, InitialOverlap& overlap) {
   std::vector<int> inside;
   for (const auto& part : assembly.parts) {
     const auto is_own = [&](int n) { return n >= part.first_node && n < part.first_node + part.node_count; };
@@ -186,8 +186,8 @@ std::vector<InitialOverlap> initial_overlaps(const AssembledScene& assembled, co
     if (pair.reversed) continue;
     InitialOverlap overlap;
     overlap.contact = pair.contact;
-    look(assembled.assembly, pair, 1, overlap);
-    if (pair.partner >= 0) look(assembled.assembly, contacts[pair.partner], -1, overlap);
+    find_overlaps(assembled.assembly, pair, 1, overlap);
+    if (pair.partner >= 0) find_overlaps(assembled.assembly, contacts[pair.partner], -1, overlap);
     if (overlap.nodes == 0) continue;
     overlap.deep = is_deep(assembled.scene, step_size, overlap);
     overlaps.push_back(overlap);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/mesh_size.hpp"
+#include "mesh/build_mesh.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/elements/forces_together.hpp"
-#include "kernels/nodes/carried_blocks.hpp"
+#include "kernels/nodes/relative_blocks.hpp"
 
 namespace railwave {
 
@@ -22,7 +22,7 @@ struct LaunchBoundsOf<ElementState<S, Material, Hourglass>> {
 };
 
 template <>
-struct LaunchBoundsOf<CarriedBlockUpdate> {
+struct LaunchBoundsOf<RelativeBlockUpdate> {
   using type = Kokkos::LaunchBounds<elements_of_block, 1>;
 };
 

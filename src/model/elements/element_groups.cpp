@@ -16,7 +16,7 @@ namespace railwave {
 namespace {
 
 /// Elements whose Jacobian is not positive at the eight Gauss points cannot be integrated; a mere concave corner can
-/// (the inner nodes of MacNeal & Harder's block have one), and `railwave check` reports it.
+/// (the inner nodes of MacNeal and Harder's block have one), and `railwave check` reports it.
 void check_element(const AssembledScene& assembled, const Assembly::PartRange& part, int element,
                    const HexahedronCorners& corners) {
   const double g = 1 / std::sqrt(3.0);

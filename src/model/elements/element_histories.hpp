@@ -25,7 +25,7 @@ struct ElementHistories {
   Array<double*> weight;               ///< of each item
   std::vector<ListedElements> listed;  ///< by group of the model's elements
   Array<int* [8]> corner;              ///< model node numbers, by element of the list
-  Array<double* [6]> stress;           ///< Pa, by element of the list, at the instant looked at last
+  Array<double* [6]> stress;           ///< Pa, by element of the list, at the instant sampled last
   Array<double* [6]> strain;
   Array<double*> plastic_strain;
   bool wants_stress = false, wants_strain = false, wants_plastic_strain = false;

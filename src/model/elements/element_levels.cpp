@@ -14,7 +14,7 @@ namespace {
 /// Margin of the step of a level's elements to their stable one, over time.step_scale. Measured on chains: without it,
 /// and without the buffers, waves of a fine region that a coarse one's impulses meet at every half period grow.
 constexpr double margin = 1.1;
-/// Such waves die out in elements that are fit for the coarser level but keep the finer one's pace: by e^-2 or more in
+/// Such waves die out in elements that are fit for the coarser level but keep the finer one's step: by e^-2 or more in
 /// each layer, by e^-4 in elements with so much larger a step than the coarser level's.
 constexpr int buffer = 2;
 constexpr double deadens_at_once = 2.4;

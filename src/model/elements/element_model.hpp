@@ -11,7 +11,7 @@
 #include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
 #include "model/elements/block_order.hpp"
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 
 namespace railwave {
 
@@ -24,7 +24,7 @@ struct ElementGroup {
   ElementBlocks blocks;
   MaterialArrays material;
   DampingArrays damping;
-  CarriedBlocks carried;
+  RelativeBlocks relative;
   int first_partial = 0;            ///< row of the first block's first node in the partial forces
   std::vector<int> first_element;   ///< of each block, in the assembly's numbering
   std::vector<int> element_count;   ///< of each block
@@ -47,7 +47,7 @@ struct ElementModel {
   std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
 };
 
-/// Lays the frames from which single precision measures a group's displacements where its blocks are now.
+/// Updates the frames from which single precision measures a group's displacements to where its blocks are now.
 void renew_frames(const NodeArrays& nodes, const ElementGroup& group);
 
 /// Calls `work` with a number of the type in which the elements are computed.

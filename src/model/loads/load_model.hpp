@@ -6,7 +6,7 @@
 #include "case/scene.hpp"
 #include "kernels/loads/connector.hpp"
 #include "kernels/loads/torque.hpp"
-#include "kernels/nodes/extra_force.hpp"
+#include "kernels/nodes/external_force.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/loads/connector_cells.hpp"
 

@@ -16,8 +16,8 @@
 namespace railwave {
 namespace {
 
-/// Iterations between looks at the Ritz value.
-constexpr int iterations_between_looks = 10;
+/// Iterations between checks of the Ritz value.
+constexpr int iterations_between_checks = 10;
 /// Iterations before which a low Ritz value is not believed.
 constexpr int least_iterations = 30;
 
@@ -163,7 +163,7 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
     beside.push_back(std::sqrt(inner(space, image_, image_)));
     const int iterations = static_cast<int>(diagonal.size());
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
-    if (exhausted || iterations % iterations_between_looks == 0 || iterations == most_iterations) {
+    if (exhausted || iterations % iterations_between_checks == 0 || iterations == most_iterations) {
       ritz = largest_ritz_value(diagonal, beside);
       const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= enough;
       if (exhausted || low_enough || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;

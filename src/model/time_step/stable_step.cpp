@@ -191,7 +191,7 @@ std::shared_ptr<GlobalEstimate> global_estimate_of(const Model& model) {
 
 /// What heights promise is the limit of waves inside a body: free surfaces, edges and corners, bodies few elements
 /// thick, and contact on top of that go below it. Where the eigenvalues do not vouch for a step, the scene's own
-/// highest frequency is asked. A model without nodes (of which levels are told) can't be.
+/// highest frequency is asked. A model without nodes (of which levels are counted) can't be.
 double stable_together(const Model& model, double by_elements, double by_eigenvalues) {
   if (by_eigenvalues >= by_elements || model.nodes.count == 0) return by_elements;
   return std::fmax(by_eigenvalues, global_estimate_of(model)->of_elements(by_elements).step);

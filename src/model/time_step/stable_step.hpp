@@ -52,7 +52,7 @@ struct ElementStep {
   double control = 0;  ///< s, of the hourglass control alone; infinite where there is none
 };
 /// Largest stable step of one free element, and so of any mesh of such elements: the highest frequency of a mesh is at
-/// most that of its elements alone (Flanagan & Belytschko 1981 on stability; Irons' theorem). The central difference
+/// most that of its elements alone (Flanagan and Belytschko 1981 on stability; Irons' theorem). The central difference
 /// with velocities half a step behind is stable while
 ///   dt^2/4 K + dt/2 C <= M   (in the sense of quadratic forms),
 /// K: mean-gradient stiffness and stiffness hourglass control, C: viscous hourglass control, M: row-summed masses,

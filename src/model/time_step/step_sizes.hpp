@@ -41,10 +41,10 @@ struct StepSizes {
   OutputTimes output_times;
 };
 
-/// Lays a scene's steps (lay_steps) with the stable step there is: sets step_size, step_count and output_times.
-void plan_steps(const scene::Scene& scene, long round, StepSizes& sizes);
+/// Plans a scene's steps (equal_steps) with the stable step there is: sets step_size, step_count and output_times.
+void plan_steps(const scene::Scene& scene, long cycle, StepSizes& sizes);
 
 /// Lines that say how far apart the outputs are.
-std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long round);
+std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long cycle);
 
 }  // namespace railwave

@@ -1,8 +1,8 @@
 #include <stdexcept>
 
+#include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
-#include "output/room.hpp"
 
 namespace railwave::hdf5 {
 namespace {
@@ -26,21 +26,21 @@ Handle Group::new_attribute(const std::string& name, hid_t type, hid_t space) co
 }
 
 void Group::set_attribute(const std::string& name, double value) const {
-  expect_room();
+  expect_free_memory();
   const Handle space = space_of({});
   const Handle attribute = new_attribute(name, H5T_NATIVE_DOUBLE, space.get());
   check(H5Awrite(attribute.get(), H5T_NATIVE_DOUBLE, &value), "writing attribute " + name);
 }
 
 void Group::set_attribute(const std::string& name, long value) const {
-  expect_room();
+  expect_free_memory();
   const Handle space = space_of({});
   const Handle attribute = new_attribute(name, H5T_NATIVE_LONG, space.get());
   check(H5Awrite(attribute.get(), H5T_NATIVE_LONG, &value), "writing attribute " + name);
 }
 
 void Group::set_attribute(const std::string& name, const std::string& value) const {
-  expect_room(copies_of_text * value.size());
+  expect_free_memory(copies_of_text * value.size());
   const Handle space = space_of({}), type = text_type();
   const Handle attribute = new_attribute(name, type.get(), space.get());
   const char* text = value.c_str();
@@ -50,7 +50,7 @@ void Group::set_attribute(const std::string& name, const std::string& value) con
 void Group::set_attribute(const std::string& name, const std::vector<std::string>& values) const {
   std::size_t length = 0;
   for (const std::string& value : values) length += value.size() + sizeof(value);
-  expect_room(copies_of_text * length);
+  expect_free_memory(copies_of_text * length);
   const Handle space = space_of({values.size()}), type = text_type();
   const Handle attribute = new_attribute(name, type.get(), space.get());
   if (values.empty()) return;
@@ -60,13 +60,13 @@ void Group::set_attribute(const std::string& name, const std::vector<std::string
 }
 
 bool Group::has_attribute(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   return check(H5Aexists(id_.get(), name.c_str()), "looking for attribute " + name) > 0;
 }
 
 double Group::number_attribute(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
@@ -78,7 +78,7 @@ double Group::number_attribute(const std::string& name) const {
 }
 
 std::string Group::text_attribute(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   const std::string what = "reading attribute " + name + " of " + name_;
   const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);

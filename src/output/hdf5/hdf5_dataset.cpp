@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "case/memory.hpp"
+#include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
-#include "output/room.hpp"
 
 namespace railwave::hdf5 {
 namespace {
@@ -21,7 +21,7 @@ void expect_claimed_memory(const Shape& shape, std::size_t size, const std::stri
 }  // namespace
 
 Shape Dataset::shape() const {
-  expect_room();
+  expect_free_memory();
   return extent();
 }
 
@@ -36,7 +36,7 @@ Shape Dataset::extent() const {
 template <class T>
 void Dataset::append(const T* rows, hsize_t count) {
   if (count == 0) return;
-  expect_room();
+  expect_free_memory();
   Shape whole = extent(), start(whole.size(), 0), block = whole;
   start[0] = whole[0];
   block[0] = count;
@@ -57,7 +57,7 @@ std::vector<T> Dataset::read() const {
   expect_claimed_memory(extent, sizeof(T), name_);
   std::vector<T> values(count_of(extent));
   if (values.empty()) return values;
-  expect_room();
+  expect_free_memory();
   check(H5Dread(id_.get(), native_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), "reading " + name_);
   return values;
 }
@@ -74,7 +74,7 @@ std::vector<T> Dataset::read_row(hsize_t row) const {
   expect_claimed_memory(block, sizeof(T), name_);
   std::vector<T> values(count_of(block));
   if (values.empty()) return values;
-  expect_room();
+  expect_free_memory();
   const Handle space = file_space(id_.get(), name_);
   check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, block.data(), nullptr),
         "reading " + name_);

@@ -12,11 +12,11 @@
 
 #include "output/atomic_file.hpp"
 #include "output/disk.hpp"
+#include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_journal.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
 #include "output/output_place.hpp"
-#include "output/room.hpp"
 
 namespace railwave::hdf5 {
 namespace {
@@ -93,7 +93,7 @@ std::string reason() {
 }
 
 void be_quiet() {
-  expect_room();  // HDF5 keeps something for each thread
+  expect_free_memory();  // HDF5 keeps something for each thread
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -110,11 +110,11 @@ void Handle::close() noexcept {
   const hid_t id = release();
   // Spaces, types and properties live within a call that has looked, and closing them writes nothing.
   const bool only_frees = closer_ == H5Sclose || closer_ == H5Tclose || closer_ == H5Pclose;
-  if (id < 0 || !(only_frees || room_to_close())) return;
+  if (id < 0 || !(only_frees || enough_to_close())) return;
   // A file that was closed has closed what was open in it; asked again, HDF5 notes an error that a thread never clears.
   if (H5Iis_valid(id) <= 0) return;
   // What can't be closed for want of memory is left as by a kill: as it was flushed last.
-  if (closer_ == H5Fclose && !room_to_close(need_of_flush(id))) return;
+  if (closer_ == H5Fclose && !enough_to_close(need_of_flush(id))) return;
   closer_(id);
 }
 
@@ -144,7 +144,7 @@ void expect_file(const std::string& path) {
 }
 
 void before_a_file() {
-  expect_room();
+  expect_free_memory();
   stay_out_of_exit();
   be_quiet();
 }
@@ -218,13 +218,13 @@ void File::abandon() noexcept {
 }
 
 Group File::root() const {
-  expect_room();
+  expect_free_memory();
   return {Handle(check(H5Gopen2(id_.get(), "/", H5P_DEFAULT), "opening " + path_), H5Gclose), "/", extends_};
 }
 
 void File::flush() const {
-  expect_room();
-  expect_room(need_of_flush(id_.get()));
+  expect_free_memory();
+  expect_free_memory(need_of_flush(id_.get()));
   check(H5Fflush(id_.get(), H5F_SCOPE_GLOBAL), "writing " + path_);
 }
 
@@ -243,7 +243,7 @@ void File::take_name() {
 }
 
 std::string File::keep_name() const {
-  expect_room();
+  expect_free_memory();
   return name_ == Name::own ? hdf5::keep_name(id_.get(), path_) : std::string();
 }
 

@@ -3,9 +3,9 @@
 #include <stdexcept>
 
 #include "case/memory.hpp"
+#include "output/free_memory.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/hdf5/hdf5_parts.hpp"
-#include "output/room.hpp"
 
 namespace railwave::hdf5 {
 namespace {
@@ -44,27 +44,27 @@ void set_unit(hid_t dataset, const std::string& unit, const std::string& what) {
 
 Group Group::create_group(const std::string& name) const {
   if (extends_ && has(name)) return group(name);
-  expect_room();
+  expect_free_memory();
   const hid_t id = H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   return {Handle(check(id, "making group " + name_ + name), H5Gclose), name_ + name + "/", extends_};
 }
 
 Group Group::group(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   return {Handle(check(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening group " + name_ + name), H5Gclose),
           name_ + name + "/", extends_};
 }
 
 Dataset Group::dataset(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   return {Handle(check(H5Dopen2(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Dclose),
           name_ + name};
 }
 
 bool Group::has(const std::string& name) const {
-  expect_room();
+  expect_free_memory();
   const LimitedCall limited;
   return check(H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT), "looking for " + name_ + name) > 0;
 }
@@ -80,7 +80,7 @@ std::vector<std::string> Group::names() const {
     }
     return 0;
   };
-  expect_room();
+  expect_free_memory();
   check(H5Literate(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &result), "listing " + name_);
   return result;
 }
@@ -106,7 +106,7 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
     chunk[1] = std::max<hsize_t>(1, std::min(chunk[1], largest_chunk / values_of_one_entry));
     if (row[0] == 0) limit[1] = 1;  // HDF5 wants room for a chunk
   }
-  expect_room();
+  expect_free_memory();
   const Handle space(check(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), limit.data()), what),
                      H5Sclose);
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
@@ -134,7 +134,7 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
     if (dataset(name).shape() != shape) throw std::runtime_error(what + ": it is there with another shape");
     return;
   }
-  expect_room();
+  expect_free_memory();
   const Handle space = space_of(shape), properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
   if (by == Check::by_chunk && !values.empty() && !shape.empty()) {
     const Shape chunk = chunk_of(shape);
@@ -151,7 +151,7 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
 template <class Do>
 void Group::each_growing(const Do& one) const {
   for (const std::string& name : names()) {
-    expect_room();
+    expect_free_memory();
     const Handle id(check(H5Oopen(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Oclose);
     const H5I_type_t type = H5Iget_type(id.get());
     if (type == H5I_GROUP) group(name).each_growing(one);
@@ -178,7 +178,7 @@ void Group::cut(hsize_t entries) const {
     if (extent[0] == entries) return;
     if (extent[0] < entries) throw std::runtime_error("cutting " + name + ": it has fewer entries");
     extent[0] = entries;
-    expect_room();
+    expect_free_memory();
     check(H5Dset_extent(id, extent.data()), "cutting " + name);
   });
 }

@@ -61,7 +61,7 @@ bool each_piece(const std::vector<char>& pieces, const Take& take) {
   return true;
 }
 
-bool lay(int file, const std::vector<char>& pieces) {
+bool write_pieces(int file, const std::vector<char>& pieces) {
   return each_piece(pieces, [&](const Piece& piece, const char* bytes) {
     return disk::write_at(file, bytes, piece.size, static_cast<off_t>(piece.place));
   });
@@ -122,8 +122,8 @@ herr_t complain(const JournalledFile& file, const char* doing) {
 }
 
 /// Once the system has refused something the file is left as it was flushed last. HDF5, which knows no way back, is
-/// told that all goes well when it writes more and when it closes, so that it closes in peace; every later flush fails
-/// as the first did.
+/// assured that all goes well when it writes more and when it closes, so that it closes in peace; every later flush
+/// fails as the first did.
 herr_t give_up(JournalledFile& file, const char* doing) {
   file.failed = errno;
   const herr_t result = complain(file, doing);
@@ -161,7 +161,7 @@ herr_t flush(JournalledFile& file) {
       return give_up(file, "writing");
     }
     // From here on the journal is to stay until all of it is in place.
-    if (!lay(file.descriptor, in_place)) return give_up(file, "writing");
+    if (!write_pieces(file.descriptor, in_place)) return give_up(file, "writing");
   }
   if (ftruncate(file.descriptor, static_cast<off_t>(file.end)) != 0) return give_up(file, "writing");
   file.flushed_end = file.end;
@@ -343,7 +343,7 @@ void finish_journal(const std::string& path) {
   if (checksum_of(pieces, footer.length) != footer.checksum) return;
   disk::Descriptor written(open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (written.get() < 0) fail("is as a killed run left it, and to finish it it must be writable");
-  if (!lay(written.get(), pieces) || ftruncate(written.get(), static_cast<off_t>(footer.length)) != 0 ||
+  if (!write_pieces(written.get(), pieces) || ftruncate(written.get(), static_cast<off_t>(footer.length)) != 0 ||
       fsync(written.get()) != 0)
     fail("is as a killed run left it, and cannot be finished");
 }

@@ -24,7 +24,7 @@ class HistorySection {
  public:
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m,
   /// undeformed), if that is known; loads; what in the case asked for each set, if known; which
-  /// quantities of nodes are written of each set, all unless told; sets of which quantities of elements are written,
+  /// quantities of nodes are written of each set, all unless given; sets of which quantities of elements are written,
   /// which may have the names of others.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                  const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams = {},

@@ -19,19 +19,19 @@ namespace {
 template <class Archive>
 void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   archive.value(of + "window_count", pair.window.count);
-  archive.value(of + "next_look", pair.next_look);
-  archive.value(of + "next_near_look", pair.next_near_look);
+  archive.value(of + "next_look", pair.next_check);
+  archive.value(of + "next_near_look", pair.next_near_check);
   archive.value(of + "layouts", pair.layouts);
-  archive.value(of + "looks", pair.looks);
+  archive.value(of + "looks", pair.checks);
 }
 
 template <class Archive>
-void archive(Archive& archive, CarriedNodes& carried) {
-  archive.values("carrier_host_motion", carried.host_motion);
-  archive.value("carried_begun", carried.begun);
-  archive.value("carrier_block_step", carried.block_step);
-  archive.value("carrier_block_time", carried.block_time);
-  archive.value("carrier_block_size", carried.block_size);
+void archive(Archive& archive, RelativeNodes& relative) {
+  archive.values("carrier_host_motion", relative.host_motion);
+  archive.value("carried_begun", relative.begun);
+  archive.value("carrier_block_step", relative.block_step);
+  archive.value("carrier_block_time", relative.block_time);
+  archive.value("carrier_block_size", relative.block_size);
 }
 
 template <class Archive>
@@ -53,7 +53,7 @@ void archive(Archive& archive_, Model& model) {
   archive_.value("time", model.time);
   archive_.value("velocity_lag", model.velocity_lag);
   archive(archive_, model.stable_step);
-  if (model.carried.active()) archive(archive_, model.carried);
+  if (model.relative.active()) archive(archive_, model.relative);
   for (std::size_t p = 0; p < model.contacts.size(); ++p)
     archive(archive_, fmt::format("contact_{}_", p), model.contacts[p]);
   StateArrays<Archive> arrays(archive_, model.in_single, false);
@@ -62,18 +62,18 @@ void archive(Archive& archive_, Model& model) {
 
 }  // namespace
 
-void take_model_state(Model& model, RunState& state) {
-  StateTaker taker(state);
-  archive(taker, model);
+void save_model_state(Model& model, RunState& state) {
+  StateSaver saver(state);
+  archive(saver, model);
   state.step = model.step;
   state.time = model.time;
   state.back_end = back_end_name();
 }
 
-void lay_model_state(Model& model, const RunState& state) {
-  StateLayer layer(state);
-  archive(layer, model);
-  if (model.carried.begun) flush_denormals();
+void restore_model_state(Model& model, const RunState& state) {
+  StateRestorer restorer(state);
+  archive(restorer, model);
+  if (model.relative.begun) flush_denormals();
 }
 
 }  // namespace railwave

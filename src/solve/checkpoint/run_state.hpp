@@ -26,14 +26,14 @@ struct RunState {
   std::string back_end;    ///< on which it was computed
 };
 
-/// Throws std::runtime_error with what does not fit where a state is laid into another model than it was taken from.
+/// Throws std::runtime_error with what does not fit where a state is restored to another model than it was saved from.
 [[noreturn]] void refuse_state(const std::string& name, const std::string& what);
 
-/// Takes values into a state, one after the other. Taking and laying go through the same functions `archive`, so that
-/// what is taken is what is laid.
-class StateTaker {
+/// Saves values in a state, one after the other. Saving and restoring go through the same functions `archive`, so that
+/// what is saved is what is restored.
+class StateSaver {
  public:
-  explicit StateTaker(RunState& state) : state_(state) {}
+  explicit StateSaver(RunState& state) : state_(state) {}
 
   template <class T>
   void value(const std::string& name, const T& value) {
@@ -54,10 +54,10 @@ class StateTaker {
   RunState& state_;
 };
 
-/// Lays them where they were.
-class StateLayer {
+/// Restores them to where they were.
+class StateRestorer {
  public:
-  explicit StateLayer(const RunState& state) {
+  explicit StateRestorer(const RunState& state) {
     for (const RunState::Values& one : state.values) by_name_.emplace(one.name, &one.bytes);
   }
 
@@ -91,8 +91,8 @@ class StateLayer {
 };
 
 /// The model's part of a state, at an instant when all levels are in phase and before that instant's forces.
-void take_model_state(Model& model, RunState& state);
-void lay_model_state(Model& model, const RunState& state);
+void save_model_state(Model& model, RunState& state);
+void restore_model_state(Model& model, const RunState& state);
 
 /// Name of what the program computes on.
 std::string back_end_name();
@@ -102,7 +102,7 @@ class Checkpoints {
  public:
   virtual ~Checkpoints() = default;
 
-  /// Takes the state; it may be on the disk later only. Called after the outputs that the state counts.
+  /// Keeps the state; it may be on the disk later only. Called after the outputs that the state counts.
   virtual void keep(RunState state) = 0;
 
   /// Waits until what was given is on the disk.

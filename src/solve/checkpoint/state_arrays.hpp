@@ -28,21 +28,21 @@ void each_value(const View& host, const Do& one) {
 }
 
 template <class View>
-void array(StateTaker& taker, const std::string& name, View& view) {
+void array(StateSaver& saver, const std::string& name, View& view) {
   using Value = typename View::non_const_value_type;
   static_assert(View::rank <= 2);
-  if (view.size() == 0) return taker.bytes(name, nullptr, 0);
+  if (view.size() == 0) return saver.bytes(name, nullptr, 0);
   const auto host = to_host(view);
-  if constexpr (rows_together<View>) return taker.bytes(name, host.data(), view.size() * sizeof(Value));
+  if constexpr (rows_together<View>) return saver.bytes(name, host.data(), view.size() * sizeof(Value));
   std::vector<Value> values(view.size());
   each_value(host, [&](const Value& value, std::size_t at) { values[at] = value; });
-  taker.values(name, values);
+  saver.values(name, values);
 }
 
 template <class View>
-void array(StateLayer& layer, const std::string& name, View& view) {
+void array(StateRestorer& restorer, const std::string& name, View& view) {
   using Value = typename View::non_const_value_type;
-  const auto& bytes = layer.of(name);
+  const auto& bytes = restorer.of(name);
   if (bytes.size() != view.size() * sizeof(Value))
     refuse_state(name, fmt::format("has {} values, not {}", bytes.size() / sizeof(Value), view.size()));
   if (view.size() == 0) return;
@@ -55,17 +55,17 @@ void array(StateLayer& layer, const std::string& name, View& view) {
 
 /// Of arrays whose length the run changes.
 template <class View>
-void growing_array(StateTaker& taker, const std::string& name, View& view) {
-  array(taker, name, view);
+void growing_array(StateSaver& saver, const std::string& name, View& view) {
+  array(saver, name, view);
 }
 
 template <class View>
-void growing_array(StateLayer& layer, const std::string& name, View& view) {
+void growing_array(StateRestorer& restorer, const std::string& name, View& view) {
   std::size_t row = sizeof(typename View::non_const_value_type);
   if constexpr (View::rank == 2) row *= view.static_extent(1);
   view = View(Kokkos::view_alloc(view.label().empty() ? name : view.label(), Kokkos::WithoutInitializing),
-              layer.of(name).size() / row);
-  array(layer, name, view);
+              restorer.of(name).size() / row);
+  array(restorer, name, view);
 }
 
 /// Tiles are as wide as the machine's packs; a state has the values slot after slot.
@@ -76,25 +76,25 @@ void each_tiled(std::size_t size, int values, const Do& one) {
 }
 
 template <class S>
-void tiles(StateTaker& taker, const std::string& name, Array<double*>& view, int values) {
+void tiles(StateSaver& saver, const std::string& name, Array<double*>& view, int values) {
   const auto tiled = to_vector(view);
   std::vector<double> list(tiled.size());
   each_tiled<S>(list.size(), values, [&](std::size_t at, long place) { list[at] = tiled[place]; });
-  taker.values(name, list);
+  saver.values(name, list);
 }
 
 template <class S>
-void tiles(StateLayer& layer, const std::string& name, Array<double*>& view, int values) {
+void tiles(StateRestorer& restorer, const std::string& name, Array<double*>& view, int values) {
   std::vector<double> list;
-  layer.values(name, list);
+  restorer.values(name, list);
   if (list.size() != view.size()) refuse_state(name, fmt::format("has {} values, not {}", list.size(), view.size()));
   const auto host = Kokkos::create_mirror_view(view);
   each_tiled<S>(list.size(), values, [&](std::size_t at, long place) { host(place) = list[at]; });
   Kokkos::deep_copy(view, host);
 }
 
-/// Takes or lays what a checkpoint keeps, or of that only what a settled scene is told by; `single` says whether the
-/// elements are computed in single precision.
+/// Saves or restores what a checkpoint keeps, or of that only what a settled scene is identified by; `single` says
+/// whether the elements are computed in single precision.
 template <class Archive>
 class StateArrays {
  public:

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/monitor/watch_terms.hpp"
+#include "kernels/monitor/monitor_terms.hpp"
 #include "kernels/support/reductions.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/contact/contact_law.hpp"
@@ -21,13 +21,13 @@ namespace {
 /// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2 = m (|v_n|^2 - |step a/2|^2)/2, and minus the work of gravity.
 struct NodalEnergy {
   static constexpr int values = 2;
-  PacedAcceleration acceleration;
+  SubcycledAcceleration acceleration;
   double lag, step;
 
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
-    const double pace = acceleration.paces.pace(n);
-    const Vector3 a = pace * acceleration(n);
+    const double steps = acceleration.levels.steps(n);
+    const Vector3 a = steps * acceleration(n);
     const Vector3 v = row(nodes.velocity, n) + lag * a;
     sum[0] += 0.5 * nodes.mass(n) * (dot(v, v) - 0.25 * step * step * dot(a, a));
     sum[1] += nodes.mass(n) * dot(acceleration.plain.gravity, row(nodes.position, n) - row(nodes.reference, n));
@@ -121,10 +121,10 @@ struct SlaveSums {
 /// Contact forces found on the master's nodes.
 struct MasterSums {
   static constexpr int values = 3;
-  ExtraForceSum extra;
-  Array<const int*> extra_row, nodes;
+  ExternalForceSum external;
+  Array<const int*> external_row, nodes;
   KOKKOS_INLINE_FUNCTION void operator()(int m, double* sum) const {
-    const Vector3 force = extra.contact_force(extra_row(nodes(m)));
+    const Vector3 force = external.contact_force(external_row(nodes(m)));
     for (int i = 0; i < 3; ++i) sum[i] += force[i];
   }
 };
@@ -132,7 +132,7 @@ struct MasterSums {
 /// Weighted displacement, velocity and acceleration at t_n of a set's nodes.
 struct MeanMotionSum {
   static constexpr int values = 9;
-  PacedAcceleration acceleration;
+  SubcycledAcceleration acceleration;
   NodeSets sets;
   int begin;
   double lag;
@@ -141,7 +141,7 @@ struct MeanMotionSum {
     const int n = sets.nodes(begin + k);
     const double w = sets.weight(begin + k);
     const Vector3 a = acceleration.plain(n), moved = row(nodes.position, n) - row(nodes.reference, n);
-    const Vector3 v = row(nodes.velocity, n) + (acceleration.paces.pace(n) * lag) * acceleration(n);
+    const Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
     for (int i = 0; i < 3; ++i) {
       sum[i] += w * moved[i];
       sum[3 + i] += w * v[i];
@@ -254,7 +254,7 @@ void queue_contact_energies(const std::vector<ContactPair>& contacts, EnergyAcco
 /// Everything that account_energies() gives, into `energy`, when the sums are fetched. Parts get theirs by share_out().
 void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, Reductions& sums) {
   const auto external = [&energy](const double* sum) { energy.external_work += *sum; };
-  sums.sum(NodalEnergy{model.paced_acceleration(), model.velocity_lag, step}, model.nodes.count,
+  sums.sum(NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step}, model.nodes.count,
            [&energy](const double* sum) {
              energy.kinetic += sum[0];
              energy.external_work += sum[1];
@@ -263,7 +263,7 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
     queue_element_energies<decltype(number)>(model.elements, model.nodes, energy, by_part, sums);
   });
   queue_contact_energies(model.contacts, energy, sums);
-  if (!model.loads.empty()) sums.sum(ArraySum{model.extra.work}, model.extra.contribution_count, external);
+  if (!model.loads.empty()) sums.sum(ArraySum{model.external.work}, model.external.contribution_count, external);
   for (const PrescribedSet& set : model.prescribed)
     sums.sum(PrescribedWork{prescribed_motion(model, set, 0)}, static_cast<int>(set.nodes.extent(0)), external);
   if (model.ends.arrays.count > 0)
@@ -328,7 +328,7 @@ void queue_pair_totals(const NodalState& nodal, const ContactPair& pair, Contact
     totals.nodes_slipping = static_cast<int>(sum[10]);
   });
   if (!pair.own_master) return;
-  sums.sum(MasterSums{nodal.extra.sum, nodal.nodes.extra, pair.arrays.master_nodes}, pair.arrays.master_count,
+  sums.sum(MasterSums{nodal.external.sum, nodal.nodes.external_row, pair.arrays.master_nodes}, pair.arrays.master_count,
            [&totals](const double* sum) {
              for (int i = 0; i < 3; ++i) totals.master_force[i] = sum[i];
            });
@@ -378,7 +378,7 @@ MeanMotion mean_motion_with_ties(const NodalState& nodal, const Ties& ties, cons
 
 void queue_mean_motion(const NodalState& nodal, const LoadModel& loads, int set, MeanMotion& mean, Reductions& sums) {
   const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
-  sums.sum(MeanMotionSum{nodal.paced_acceleration(), loads.sets, begin, nodal.velocity_lag}, end - begin,
+  sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), loads.sets, begin, nodal.velocity_lag}, end - begin,
            [&mean](const double* sum) {
              for (int i = 0; i < 3; ++i) {
                mean.displacement[i] = sum[i];
@@ -390,7 +390,7 @@ void queue_mean_motion(const NodalState& nodal, const LoadModel& loads, int set,
 
 }  // namespace
 
-HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>* by_part) {
+HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part) {
   HistorySample sample;
   sample.time = model.time;
   sample.step = model.step;
@@ -409,7 +409,7 @@ HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>
   return sample;
 }
 
-void add_what_histories_tell(const Model& model, HistorySample& sample) {
+void add_history_values(const Model& model, HistorySample& sample) {
   const bool tied = model.ties.arrays.active();
   sample.sets.resize(model.history_sets.size());
   Reductions sums(*model.reduction_space);
@@ -426,8 +426,8 @@ void add_what_histories_tell(const Model& model, HistorySample& sample) {
 }
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
-  HistorySample sample = take_look(model, step, by_part);
-  add_what_histories_tell(model, sample);
+  HistorySample sample = sample_for_monitor(model, step, by_part);
+  add_history_values(model, sample);
   return sample;
 }
 

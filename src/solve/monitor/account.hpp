@@ -28,12 +28,12 @@ ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactP
 void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
                        Reductions& sums);  // load_totals.cpp
 
-/// The energies and contacts of a history row at the present instant: what the watch looks at.
+/// The energies and contacts of a history row at the present instant: what the monitor checks.
 /// @param by_part if not null: gets the energies of each part of the assembly
-HistorySample take_look(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
+HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
 
 /// Adds its sets, loads and beams.
-void add_what_histories_tell(const Model& model, HistorySample& sample);
+void add_history_values(const Model& model, HistorySample& sample);
 
 /// Both.
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);

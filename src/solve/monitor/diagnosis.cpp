@@ -43,8 +43,8 @@ void curves(const scene::Scene& scene, std::vector<Cause>& causes) {
 }
 
 /// Speed of what begins or is made to move, m/s; its part's waves bound what a body can take.
-void speeds(const scene::Scene& scene, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  const double limit = scene.watch.speed;
+void speeds(const scene::Scene& scene, const MonitorEvidence& evidence, std::vector<Cause>& causes) {
+  const double limit = scene.monitor.speed;
   if (!(evidence.first.speed.value > limit)) return;
   std::string sources;
   for (const auto& motion : scene.initial_motions) sources += fmt::format(" initial_motion.{}", motion.name);
@@ -102,8 +102,9 @@ void load_causes(const AssembledScene& assembled, const std::vector<LoadArrays>&
 }
 
 /// A body that a load drives and nothing holds: a contact that is apart does not.
-void unheld(const scene::Scene& scene, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
-  if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > scene.watch.speed)) return;
+void unheld(const scene::Scene& scene, const Fault& fault, const MonitorEvidence& evidence,
+            std::vector<Cause>& causes) {
+  if (fault.kind == FaultKind::hourglass_share || !(evidence.last.speed.value > scene.monitor.speed)) return;
   for (const scene::Load& load : scene.loads) {
     const int part = part_of_target(scene, load.target);
     if (part < 0) continue;
@@ -147,12 +148,12 @@ void overlaps(const AssembledScene& assembled, const std::vector<ContactPair>& c
   }
 }
 
-void contact_causes(const scene::Watch& limit, const std::vector<ContactPair>& contacts, const Fault& fault,
-                    const WatchEvidence& evidence, std::vector<Cause>& causes) {
+void contact_causes(const scene::Monitor& limit, const std::vector<ContactPair>& contacts, const Fault& fault,
+                    const MonitorEvidence& evidence, std::vector<Cause>& causes) {
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const scene::Contact& contact = *contacts[c].contact;
-    const auto told = [&](const Cause& cause) { return cause.name == "initial penetration"; };
-    if (std::none_of(causes.begin(), causes.end(), told) && c < evidence.first.penetration.size() &&
+    const auto known = [&](const Cause& cause) { return cause.name == "initial penetration"; };
+    if (std::none_of(causes.begin(), causes.end(), known) && c < evidence.first.penetration.size() &&
         evidence.first.penetration[c].value > 0.5 * limit.penetration)
       causes.push_back(Cause{
           "initial penetration",
@@ -218,14 +219,14 @@ Cause hourglass_share(const scene::Part& part) {
   return {"coarse mesh", coarse, 30};
 }
 
-void hourglass(const AssembledScene& assembled, const Fault& fault, const WatchEvidence& evidence,
+void hourglass(const AssembledScene& assembled, const Fault& fault, const MonitorEvidence& evidence,
                std::vector<Cause>& causes) {
   for (std::size_t p = 0; p < assembled.scene.parts.size(); ++p) {
     const scene::Part& part = assembled.scene.parts[p];
     const auto& range = assembled.assembly.parts[p];
     const int seen = evidence.last.distortion.place;
     const bool here = seen >= range.first_element && seen < range.first_element + range.element_count;
-    const bool distorted = here && evidence.last.distortion.value > 0.5 * assembled.scene.watch.hourglass_distortion;
+    const bool distorted = here && evidence.last.distortion.value > 0.5 * assembled.scene.monitor.hourglass_distortion;
     const double usual = part.hourglass == scene::HourglassType::viscous ? 0.1 : 0.05;
     if (part.hourglass_coefficient < 0.1 * usual &&
         (distorted || fault.kind == FaultKind::hourglass_distortion || fault.kind == FaultKind::inversion))
@@ -238,7 +239,7 @@ void hourglass(const AssembledScene& assembled, const Fault& fault, const WatchE
   }
 }
 
-void shape(const scene::Scene& scene, const Fault& fault, const WatchEvidence& evidence, std::vector<Cause>& causes) {
+void shape(const scene::Scene& scene, const Fault& fault, const MonitorEvidence& evidence, std::vector<Cause>& causes) {
   const Extreme& worst = evidence.worst_shape;
   if (worst.place >= 0 && worst.value < 0.05)
     causes.push_back(Cause{"mesh",
@@ -262,7 +263,7 @@ void shape(const scene::Scene& scene, const Fault& fault, const WatchEvidence& e
 
 std::vector<Cause> likely_causes(const AssembledScene& assembled, const StepSizes& sizes, const LoadModel& loads,
                                  const std::vector<ContactPair>& contacts, const Fault& fault,
-                                 const WatchEvidence& evidence) {
+                                 const MonitorEvidence& evidence) {
   const scene::Scene& scene = assembled.scene;
   std::vector<Cause> causes;
   curves(scene, causes);
@@ -271,7 +272,7 @@ std::vector<Cause> likely_causes(const AssembledScene& assembled, const StepSize
   load_causes(assembled, loads.loads, causes);
   unheld(scene, fault, evidence, causes);
   overlaps(assembled, contacts, sizes.step_size, causes);
-  contact_causes(scene.watch, contacts, fault, evidence, causes);
+  contact_causes(scene.monitor, contacts, fault, evidence, causes);
   hourglass(assembled, fault, evidence, causes);
   shape(scene, fault, evidence, causes);
   for (Cause& cause : steps_too_long(assembled, sizes, loads.connectors.cells, contacts))

@@ -7,13 +7,13 @@
 #include "model/loads/load_model.hpp"
 #include "model/time_step/step_sizes.hpp"
 #include "solve/monitor/fault.hpp"
-#include "solve/monitor/watch_measures.hpp"
+#include "solve/monitor/monitor_measures.hpp"
 
 namespace railwave {
 
-/// What is known when something is found: the first look, the last with finite values, and what was seen between.
-struct WatchEvidence {
-  WatchMeasures first, last;
+/// What is known when something is found: the first check, the last with finite values, and what was seen between.
+struct MonitorEvidence {
+  MonitorMeasures first, last;
   Extreme worst_shape;          ///< smallest Jacobian at a corner over the mean of its element, undeformed
   std::vector<double> deepest;  ///< by contact pair: largest penetration so far, over the face's size
   std::vector<int> touching;    ///< by contact of the scene: nodes in contact now
@@ -22,10 +22,10 @@ struct WatchEvidence {
 
 /// What may have brought a fault about, the likeliest first: from the step against what elements, contact springs,
 /// connectors and beams allow, from what the case asks for (loads, speeds, materials, hourglass control, curves) and
-/// from what the first look saw (penetration, shape).
+/// from what the first check saw (penetration, shape).
 std::vector<Cause> likely_causes(const AssembledScene& assembled, const StepSizes& sizes, const LoadModel& loads,
                                  const std::vector<ContactPair>& contacts, const Fault& fault,
-                                 const WatchEvidence& evidence);
+                                 const MonitorEvidence& evidence);
 
 /// The name of a cause that may be one only where a body is one element thick.
 inline constexpr const char* possible_step_cause = "step beyond elements alone";

@@ -76,7 +76,7 @@ const char* key_of(FaultKind kind) {
   return nullptr;
 }
 
-std::string Fault::told() const {
+std::string Fault::summary() const {
   std::string text = name_of(kind);
   if (kind != FaultKind::not_finite && kind != FaultKind::contact_lost)
     text += fmt::format(": {:.4g}, limit {:.4g}", value, limit);
@@ -85,8 +85,8 @@ std::string Fault::told() const {
   if (!part.empty()) text += fmt::format(", part {}", part);
   if (element_in_part >= 0) text += fmt::format(", element {}", element_in_part);
   if (element >= 0 || node >= 0) text += fmt::format(" near ({:.4g}, {:.4g}, {:.4g}) m", place[0], place[1], place[2]);
-  if (!causes.empty()) text += "; likely cause: " + causes[0].told;
-  if (causes.size() > 1) text += "; or else: " + causes[1].told;
+  if (!causes.empty()) text += "; likely cause: " + causes[0].text;
+  if (causes.size() > 1) text += "; or else: " + causes[1].text;
   return text;
 }
 

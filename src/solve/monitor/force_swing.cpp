@@ -46,7 +46,7 @@ double ForceSwing::quiet_from() const {
   return k < time_.size() ? time_[k] : std::numeric_limits<double>::infinity();
 }
 
-std::string ForceSwing::told(const std::string& contact) const {
+std::string ForceSwing::summary(const std::string& contact) const {
   if (time_.size() < least_samples || !(static_value() > 0)) return {};
   const double from = quiet_from();
   const std::string when =

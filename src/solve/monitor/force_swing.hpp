@@ -16,7 +16,7 @@ class ForceSwing {
 
   void add(double time, const Vec3& normal_force);
 
-  /// See StateTaker.
+  /// See StateSaver.
   template <class Archive>
   void archive(Archive& archive, const std::string& name) {
     archive.values(name + "_time", time_);
@@ -31,7 +31,7 @@ class ForceSwing {
   double static_value() const;  ///< N
 
   /// For people; empty where nothing touched, or too little was seen.
-  std::string told(const std::string& contact) const;
+  std::string summary(const std::string& contact) const;
 
  private:
   std::vector<double> time_, force_;

@@ -54,7 +54,7 @@ std::vector<double> relaxation_masses(const Model& model) {
   }
   const auto& cell = model.connectors.cell;
   const auto& share = model.connectors.share;
-  const auto contribution_node = to_host(model.extra.contribution_node);
+  const auto contribution_node = to_host(model.external.contribution_node);
   for (std::size_t i = 0; i < cell.size(); ++i) {
     const ConnectorCell& own = model.connectors.cells[cell[i]];
     const Vec3& k = model.scene.connectors[own.connector].stiffness;
@@ -89,7 +89,7 @@ struct Unbalance {
     sum[0] += norm(row(update.unbalanced, n));
     Vector3 applied = nodes.mass(n) * (update.acceleration.gravity + row(update.body_acceleration, n));
     sum[1] += norm(applied);
-    sum[1] += norm(update.acceleration.force.extra_force(n));
+    sum[1] += norm(update.acceleration.force.external_force(n));
   }
 };
 
@@ -152,7 +152,7 @@ SettleReport settle_by_relaxation(Model& model, int most_steps, const std::funct
 
 /// Newton's method; where that finds no equilibrium, relaxation from where both began.
 SettleReport settle_automatically(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
-  const StaticState start = take_static_state(model);
+  const StaticState start = save_static_state(model);
   SettleReport newton;
   bool stopped = false;
   try {
@@ -165,7 +165,7 @@ SettleReport settle_automatically(Model& model, const std::function<bool(const S
   } catch (const InputError& error) {
     newton.adrift = error.what();
   }
-  lay_static_state(model, start);
+  restore_static_state(model, start);
   SettleReport report = settle_by_relaxation(model, model.scene.settle.max_steps - newton.steps, go_on);
   report.steps += newton.steps;
   if (!report.settled) report.adrift = newton.adrift;
@@ -236,7 +236,7 @@ SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>
   const auto began = std::chrono::steady_clock::now();
   SettleReport report = settle_by(model.scene.settle.method, model, go_on);
   // The run starts from what a file of the state would hold, and from nothing else.
-  lay_static_state(model, take_static_state(model));
+  restore_static_state(model, save_static_state(model));
   report.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   return report;
 }
@@ -248,7 +248,7 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
   if (states != nullptr) {
     const SettledStates::Found found = states->find(model);
     if (!found.trouble.empty()) remarks.push_back(found.file + ": " + found.trouble + "; the scene settles anew");
-    if (found.state && !lay_static_state(model, *found.state))
+    if (found.state && !restore_static_state(model, *found.state))
       remarks.push_back(found.file + ": is of another model; the scene settles anew");
     else if (found.state)
       begun_from = found.file;
@@ -261,7 +261,7 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
   }
   report = settle(model, go_on);
   if (states != nullptr) {
-    StaticState state = take_static_state(model);
+    StaticState state = save_static_state(model);
     state.settled = report.settled;
     state.unbalance = report.unbalance;
     state.steps = report.steps;

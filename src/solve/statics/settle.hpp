@@ -29,7 +29,7 @@ struct SettleReport {
 /// energy) and a little local damping: the state from which the run starts. Bodies that will rotate (initial_motion)
 /// are loaded by the centrifugal field of that rotation, so that the start of rolling does not ring. In a relaxation
 /// point masses on which no beam ends stay where they are: preload their connectors. Velocities are zero afterwards.
-/// @param go_on told every few steps how far it is; false ends the relaxation early
+/// @param go_on called every few steps with how far it is; false ends the relaxation early
 SettleReport settle(Model& model, const std::function<bool(const SettleReport&)>& go_on);
 
 /// Settles a scene, or takes its settled state from where an earlier run has kept it; goes on from one that was

@@ -134,9 +134,9 @@ StaticContact::StaticContact(const AssembledScene& assembled, const NodalState& 
   }
 }
 
-void StaticContact::look_anew() {
+void StaticContact::search_anew() {
   for (ContactPair& pair : contacts_) {
-    pair.next_look = pair.next_near_look = -1;
+    pair.next_check = pair.next_near_check = -1;
     pair.slaves_at_layout = {};
   }
 }

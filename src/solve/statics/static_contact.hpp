@@ -16,8 +16,8 @@ class StaticContact {
   /// m, the smallest diagonal of a master segment; 1e300 without contact.
   double smallest_segment() const { return smallest_segment_; }
 
-  /// Nodes that can touch are looked for anew: the places are others.
-  void look_anew();
+  /// Nodes that can touch are searched for anew: the places are others.
+  void search_anew();
   /// Forces of the augmented pairs at the present places.
   void press();
 

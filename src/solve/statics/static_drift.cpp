@@ -47,7 +47,7 @@ std::string what_drifts(const AssembledScene& assembled, const NodeVector& unbal
   const auto residual = to_host(unbalanced);
   std::string worst;
   double largest = assembled.scene.settle.tolerance * applied;
-  const auto look = [&](const std::string& what, const std::vector<int>& nodes) {
+  const auto check = [&](const std::string& what, const std::vector<int>& nodes) {
     Vec3 sum{};
     for (int n : nodes)
       for (int i = 0; i < 3; ++i) sum[i] += residual(n, i);
@@ -62,10 +62,10 @@ std::string what_drifts(const AssembledScene& assembled, const NodeVector& unbal
   for (const auto& part : assembled.assembly.parts) {
     std::vector<int> nodes(part.node_count);
     std::iota(nodes.begin(), nodes.end(), part.first_node);
-    look("part '" + part.name + "'", nodes);
+    check("part '" + part.name + "'", nodes);
   }
   for (const Assembly::BeamChain& chain : assembled.assembly.beam_chains)
-    look("a beam of '" + assembled.scene.beams[chain.beam].name + "'", chain.nodes);
+    check("a beam of '" + assembled.scene.beams[chain.beam].name + "'", chain.nodes);
   return worst;
 }
 

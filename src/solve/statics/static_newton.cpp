@@ -18,7 +18,7 @@ namespace {
 /// Conjugate gradients stop at this share of the residual they began with, between these bounds.
 constexpr double loosest = 0.1, tightest = 1e-3;
 constexpr int most_iterations = 600;
-constexpr int iterations_between_looks = 20;
+constexpr int iterations_between_checks = 20;
 /// A step is taken when the force along it has come down to this share of what it was, either way.
 constexpr double taken_share = 0.7;
 constexpr int most_trials = 20;
@@ -116,7 +116,7 @@ class Newton {
 
   void go_back() {
     trial_.restore(model_);
-    contact_.look_anew();
+    contact_.search_anew();
   }
 
   /// Forces at the present places, from the kept contact.
@@ -154,7 +154,7 @@ class Newton {
     return evaluate();
   }
 
-  /// Solves K step = residual. @return false when told to stop
+  /// Solves K step = residual. @return false when asked to stop
   bool find_step(const Measure& now) {
     SpringCollector springs;
     springs.add_connectors(model_.scene, model_.connectors.cells);
@@ -179,7 +179,7 @@ class Newton {
       const double before = square;
       square = inner(left_, z_);
       Kokkos::parallel_for("conjugate_turn", all(), ConjugateTurn{way_, z_, square / before});
-      if (k % iterations_between_looks == 0 && !go_on_(report_)) return false;
+      if (k % iterations_between_checks == 0 && !go_on_(report_)) return false;
     }
     unknowns_.lead_slaves(step_);
     return true;
@@ -191,13 +191,13 @@ class Newton {
     if (!contact_.any() && !model_.beams) return 1;
     const auto step = to_host(step_);
     double farthest = 0, turned = 0;
-    const auto look = [&](int n, double& most) {
+    const auto consider = [&](int n, double& most) {
       most = std::max(most, std::sqrt(step(n, 0) * step(n, 0) + step(n, 1) * step(n, 1) + step(n, 2) * step(n, 2)));
     };
     for (const ContactPair& pair : model_.contacts)
       for (const auto* of_surface : {&pair.slave_nodes, &pair.master_nodes})
-        for (int n : *of_surface) look(n, farthest);
-    for (int r = unknowns_.nodes(); r < unknowns_.rows(); ++r) look(r, turned);
+        for (int n : *of_surface) consider(n, farthest);
+    for (int r = unknowns_.nodes(); r < unknowns_.rows(); ++r) consider(r, turned);
     double share = 1;
     if (farthest > 0) share = std::min(share, contact_.smallest_segment() / farthest);
     if (turned > 0) share = std::min(share, most_turn / turned);

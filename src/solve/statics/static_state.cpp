@@ -20,7 +20,7 @@ class Suits {
   explicit operator bool() const { return suits_ && visited_ == arrays_; }
 
  private:
-  StateLayer state_;
+  StateRestorer state_;
   std::size_t arrays_, visited_ = 0;
   bool suits_ = true;
 };
@@ -53,10 +53,10 @@ class CopyTrial {
 
 /// A file may be damaged in ways that sizes don't show.
 bool tracks_segments(const std::vector<ContactPair>& contacts, const StaticState& state) {
-  const StateLayer layer(state.arrays);
+  const StateRestorer restorer(state.arrays);
   for (std::size_t p = 0; p < contacts.size(); ++p) {
     std::vector<int> tracked;
-    layer.values(fmt::format("contact_{}_tracked", p), tracked);
+    restorer.values(fmt::format("contact_{}_tracked", p), tracked);
     const int segments = static_cast<int>(contacts[p].master_segments.size());
     for (int segment : tracked)
       if (segment < -1 || segment >= segments) return false;
@@ -66,25 +66,25 @@ bool tracks_segments(const std::vector<ContactPair>& contacts, const StaticState
 
 }  // namespace
 
-StaticState take_static_state(Model& model) {
+StaticState save_static_state(Model& model) {
   StaticState state;
-  StateTaker taker(state.arrays);
-  StateArrays<StateTaker> arrays(taker, model.in_single, true);
+  StateSaver saver(state.arrays);
+  StateArrays<StateSaver> arrays(saver, model.in_single, true);
   visit_model_arrays(arrays, model);
   return state;
 }
 
-bool lay_static_state(Model& model, const StaticState& state) {
+bool restore_static_state(Model& model, const StaticState& state) {
   Suits suits(state);
   visit_model_arrays(suits, model);
   if (!suits || !tracks_segments(model.contacts, state)) return false;
   reset_to_start(model);
-  StateLayer layer(state.arrays);
-  StateArrays<StateLayer> arrays(layer, model.in_single, true);
+  StateRestorer restorer(state.arrays);
+  StateArrays<StateRestorer> arrays(restorer, model.in_single, true);
   visit_model_arrays(arrays, model);
   for (const ElementGroup& group : model.elements) renew_frames(model.nodes, group);
   hold_ends(model.ends, model.nodes.position, {});  // from where they are now, by what held them
-  visit_arrays(Named<StateArrays<StateLayer>>{arrays, "ends_"}, model.ends.arrays);
+  visit_arrays(Named<StateArrays<StateRestorer>>{arrays, "ends_"}, model.ends.arrays);
   return true;
 }
 

@@ -16,11 +16,11 @@ struct StaticState {
   RunState arrays;                ///< those for which is_settled_state()
 };
 
-StaticState take_static_state(Model& model);
+StaticState save_static_state(Model& model);
 
 /// Puts a scene at the start of its run from there: whatever the arrays held before.
 /// @return false when the state is not of this model; nothing is changed then
-bool lay_static_state(Model& model, const StaticState& state);
+bool restore_static_state(Model& model, const StaticState& state);
 
 /// The contact and plastic state from which trials of settling start, kept on the device. A force evaluation leaves
 /// what nodes touch, stick to and have flowed plastically in the arrays; a trial that is not taken must not.

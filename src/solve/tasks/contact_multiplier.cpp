@@ -27,9 +27,9 @@ AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, 
                               double elapsed, bool friction) {
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   if (friction)
-    return ContactMultiplier<true, Normals>{search, pair.window,      nodal.extra.sum,
+    return ContactMultiplier<true, Normals>{search, pair.window,      nodal.external.sum,
                                             motion, pair.multipliers, first_touch(nodal, elapsed)};
-  return ContactMultiplier<false, Normals>{search, pair.window,      nodal.extra.sum,
+  return ContactMultiplier<false, Normals>{search, pair.window,      nodal.external.sum,
                                            motion, pair.multipliers, first_touch(nodal, elapsed)};
 }
 

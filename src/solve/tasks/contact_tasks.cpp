@@ -50,7 +50,7 @@ std::vector<Task> contact_tasks(const scene::Scene& scene, const NodalState& nod
   // The node update leaves the sums cleared. Settling does not, nor does who computes an instant's forces twice.
   if (kind != StepKind::advancing)
     tasks.push_back({"clearing of contact forces", "d", [&nodal](const Instant&) {
-                       Kokkos::deep_copy(ExecutionSpace(), nodal.extra.sum.contact, std::uint64_t{0});
+                       Kokkos::deep_copy(ExecutionSpace(), nodal.external.sum.contact, std::uint64_t{0});
                      }});
   for (ContactPair& pair : contacts) {
     if (!pair.has_springs()) continue;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "kernels/contact/contact_look.hpp"
+#include "kernels/contact/near_nodes.hpp"
 #include "model/host_copy.hpp"
 #include "solve/tasks.hpp"
 
@@ -14,11 +14,11 @@ namespace {
 /// The window reaches this many of the largest segment's diagonals beyond a segment.
 constexpr double margin_in_segments = 3;
 /// Most steps between two measurements of how far the surfaces have moved since the window was laid out.
-constexpr long most_steps_between_looks = 512;
-/// A layout is made early rather than followed by another look so soon.
-constexpr long least_steps_between_looks = 16;
+constexpr long most_steps_between_checks = 512;
+/// A layout is made early rather than followed by another check so soon.
+constexpr long least_steps_between_checks = 16;
 /// Steps between two choices of the nodes that can touch.
-constexpr long steps_between_near_looks = 64, steps_between_near_looks_settling = 16;
+constexpr long steps_between_near_checks = 64, steps_between_near_checks_settling = 16;
 
 /// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
 /// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.
@@ -213,19 +213,19 @@ bool renew_window(const NodalState& nodal, ContactPair& pair, double step, doubl
   // A slave outside the window was at least a segment and two margins from every master node when it was laid out, so
   // more than two margins from touching.
   const double margin = margin_in_segments * pair.segment_size;
-  ++pair.looks;
+  ++pair.checks;
   const bool laid_out = pair.slaves_at_layout.extent(0) != 0;
   if (!laid_out) lay_out_window(nodal.nodes, pair, margin);
   Motion motion = measure(nodal.nodes, pair);
   const auto steps_left = [&] { return (2 * margin - motion.moved) / (1.25 * motion.speed * step + sudden); };
   bool anew = !laid_out;
-  if (laid_out && steps_left() < least_steps_between_looks && motion.moved < 1e100) {
+  if (laid_out && steps_left() < least_steps_between_checks && motion.moved < 1e100) {
     lay_out_window(nodal.nodes, pair, margin);
     motion.moved = 0;
     anew = true;
   }
   if (anew) ++pair.layouts;
-  pair.next_look = nodal.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_looks)));
+  pair.next_check = nodal.step + static_cast<long>(std::fmax(1.0, std::fmin(steps_left(), most_steps_between_checks)));
   return anew;
 }
 
@@ -242,24 +242,24 @@ double sudden_motion(const scene::Scene& scene, const ContactPair& pair, double 
 
 void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, double step, StepKind kind) {
   const bool settling = kind == StepKind::settling;
-  const bool look = nodal.step >= pair.next_look;
-  const bool near_look = look || nodal.step >= pair.next_near_look;
-  if (!near_look && pair.boxed) return;
+  const bool check = nodal.step >= pair.next_check;
+  const bool near_check = check || nodal.step >= pair.next_near_check;
+  if (!near_check && pair.boxed) return;
   const double sudden = sudden_motion(scene, pair, step, kind);
-  const long steps = settling ? steps_between_near_looks_settling : steps_between_near_looks;
+  const long steps = settling ? steps_between_near_checks_settling : steps_between_near_checks;
   const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = look && renew_window(nodal, pair, step, sudden);
+  const bool laid_out = check && renew_window(nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
-  lay_boxes(search, nodal.nodes.velocity, interval, sudden_until_then);
+  update_boxes(search, nodal.nodes.velocity, interval, sudden_until_then);
   pair.boxed = true;
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
-  if (!near_look) return;
-  pair.next_near_look = nodal.step + steps;
+  if (!near_check) return;
+  pair.next_near_check = nodal.step + steps;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
-  apart_parallel_for("contact_look", pair.window.count,
-                     ContactLook{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
-                                 first || laid_out, pair.missed});
+  apart_parallel_for("near_nodes", pair.window.count,
+                     FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
+                                   first || laid_out, pair.missed});
 }
 
 std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts) {
@@ -277,7 +277,7 @@ std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts)
       lines.push_back(fmt::format(
           "contact {}: {} nodes met the master faster than was predicted, so that their forces began up to {} "
           "steps late; were they set in motion by a shock, a shorter time.step_scale brings them nearer",
-          pair.contact->name, late, steps_between_near_looks));
+          pair.contact->name, late, steps_between_near_checks));
   }
   return lines;
 }

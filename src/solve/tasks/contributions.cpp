@@ -9,9 +9,9 @@ bool few_sets(const NodeSets& sets) {
   return sets.moving * NodeSets::values <= most_sums;
 }
 
-bool few_rows(const NodeSets& sets, const ExtraForces& extra) {
+bool few_rows(const NodeSets& sets, const ExternalForces& external) {
   constexpr int most_rows = 4096;
-  return few_sets(sets) && extra.loaded_count <= most_rows;
+  return few_sets(sets) && external.loaded_count <= most_rows;
 }
 
 bool contact_goes_along(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
@@ -28,7 +28,7 @@ bool sets_go_along(const NodalState& nodal, const NodeSets& sets) {
 }
 
 RowLoads row_loads(const NodalState& nodal, const LoadModel& loads, double elapsed) {
-  return {nodal.extra, loads.connectors.arrays, loads.torques, nodal.nodes.position, nodal.nodes.velocity, elapsed};
+  return {nodal.external, loads.connectors.arrays, loads.torques, nodal.nodes.position, nodal.nodes.velocity, elapsed};
 }
 
 SetLoads set_loads(const NodalState& nodal, const LoadModel& loads, const Instant& instant, StepKind kind, int rows) {

@@ -9,14 +9,14 @@ namespace railwave {
 /// Whether the sets of connectors and torques are few enough for one team, which spares launches; and with them the
 /// rows that feel these.
 bool few_sets(const NodeSets& sets);
-bool few_rows(const NodeSets& sets, const ExtraForces& extra);
+bool few_rows(const NodeSets& sets, const ExternalForces& external);
 
 /// Contact's springs go in one launch with the first group's elements: on a device, in advancing steps, and where such
 /// elements take every step. Springs of the linear penalty alone.
 bool contact_goes_along(const std::vector<ElementGroup>& groups, const std::vector<ContactPair>& contacts,
                         StepKind kind);
 
-/// The same of the sets, where contact does. Nodes at paces of their own do not work out their own loads.
+/// The same of the sets, where contact does. Subcycled nodes do not work out their own loads.
 bool sets_go_along(const NodalState& nodal, const NodeSets& sets);
 
 /// Gather of the loads' contributions at the nodes.
@@ -40,8 +40,8 @@ ContactForce<Friction, Law, Normals> contact_force(const NodalState& nodal, cons
   if constexpr (at_nodes.has_state) at_nodes.arrays = {state, nodal.nodes.mass};
   return {ContactSearch{{pair.arrays, nodal.nodes.position}},
           pair.window,
-          nodal.extra.sum,
-          nodal.nodes.extra,
+          nodal.external.sum,
+          nodal.nodes.external_row,
           first_touch(nodal, instant.elapsed),
           at_nodes};
 }

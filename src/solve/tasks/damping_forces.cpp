@@ -1,6 +1,6 @@
 #include "kernels/elements/element_damping.hpp"
 #include "model/elements/block_launch.hpp"
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 #include "solve/tasks/element_forces.hpp"
 
 namespace railwave {
@@ -17,14 +17,14 @@ void element_damping(const NodalState& nodal, const ElementGroup& group, bool in
     launch_blocks(group.blocks,
                   BlockDamping<double, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
                                                     elapsed, before, nodal.partial.in_double});
-  else if (!nodal.carried.active())
+  else if (!nodal.relative.active())
     launch_blocks(group.blocks,
                   BlockDamping<float, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
                                                    elapsed, before, nodal.partial.in_single});
   else
-    launch_blocks(group.blocks, BlockDamping<float, CarriedAdvance>{group.damping, group.blocks,
-                                                                    carried_advance(nodal, group.carried, instant.step),
-                                                                    elapsed, before, nodal.partial.in_single});
+    launch_blocks(group.blocks, BlockDamping<float, RelativeAdvance>{
+                                    group.damping, group.blocks, relative_advance(nodal, group.relative, instant.step),
+                                    elapsed, before, nodal.partial.in_single});
 }
 
 void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, double elapsed) {

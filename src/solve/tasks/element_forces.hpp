@@ -1,6 +1,6 @@
 #pragma once
 
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {
@@ -21,7 +21,7 @@ struct ElementLaunch {
 /// source file of its own, which CMake writes from solve/tasks/element_forces_of.cpp.in: their kernels take compilers
 /// long.
 /// @tparam S number type of the elements
-/// @tparam Nodes how nodes are kept and moved: NodeAdvance or CarriedAdvance
+/// @tparam Nodes how nodes are kept and moved: NodeAdvance or RelativeAdvance
 /// @tparam Material that of the group
 template <class S, class Nodes, class Material>
 void element_forces_of(const NodalState& nodal, const ElementGroup& group, const Instant& instant,

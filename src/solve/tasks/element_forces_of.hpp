@@ -42,12 +42,13 @@ const Array<PartialForce<S>*>& partial_forces(const PartialForces& partial) {
 template <class S, class Hourglass, bool Advance, class Nodes, class Material>
 void block_forces(const NodalState& nodal, const ElementGroup& group, const Nodes& nodes, const Instant& instant,
                   const ElementLaunch& launch, const Material& material) {
-  const double pace = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
+  const double steps = static_cast<double>(1L << group.level);  // steps from one evaluation to the next
   const Array<float*>& scale =
       launch.kind == StepKind::settling ? group.blocks.settling_hourglass : group.blocks.hourglass_scale;
   using Force = ElementForce<S, Material, Hourglass, Advance, Nodes>;
   const Force force{
-      material, group.blocks, scale, nodes, pace * instant.step, partial_forces<S>(nodal.partial), group.first_partial};
+      material,           group.blocks, scale, nodes, steps * instant.step, partial_forces<S>(nodal.partial),
+      group.first_partial};
   if constexpr (on_device && Advance) {
     if (launch.contact != nullptr) {
       if (launch.contact->arrays.friction > 0)
@@ -68,9 +69,9 @@ inline NodeAdvance advance_of(const NodalState& nodal, const ElementGroup& group
   return nodes;
 }
 
-inline CarriedAdvance advance_of(const NodalState& nodal, const ElementGroup& group, double step,
-                                 const CarriedAdvance* /*kind*/) {
-  return carried_advance(nodal, group.carried, step);
+inline RelativeAdvance advance_of(const NodalState& nodal, const ElementGroup& group, double step,
+                                  const RelativeAdvance* /*kind*/) {
+  return relative_advance(nodal, group.relative, step);
 }
 
 template <class S, class Nodes, class Material>

@@ -6,18 +6,18 @@ namespace railwave {
 namespace {
 
 /// Single precision's frames may lag so far behind the bodies' motion: at 30 m/s some tenths of a millimetre, which
-/// costs strain a few parts in 1e9. Whole rounds of any levels, so that every block is evaluated when its frame is due.
+/// costs strain a few parts in 1e9. Whole cycles of any levels, so that every block is evaluated when its frame is due.
 constexpr long steps_between_frames = 64;
 static_assert(steps_between_frames % (1L << (most_levels - 1)) == 0);
 
 /// Nodes in single precision need frames only for what the account and the outputs compute from the double ones.
 std::vector<Task> frame_tasks(const NodalState& nodal, const ElementGroup& group, StepKind kind, long every) {
   if (group.blocks.frame.extent(0) == 0) return {};
-  const bool carried = nodal.carried.active() && kind != StepKind::settling;
-  if (carried && kind == StepKind::advancing) return {};
+  const bool relative = nodal.relative.active() && kind != StepKind::settling;
+  if (relative && kind == StepKind::advancing) return {};
   Task task{"reference frames of " + group.parts, "j",
             [&nodal, &group](const Instant&) { renew_frames(nodal.nodes, group); }};
-  task.every = carried ? every : steps_between_frames;
+  task.every = relative ? every : steps_between_frames;
   return {task};
 }
 
@@ -47,26 +47,26 @@ Task force_task(const NodalState& nodal, const ElementGroup& group, bool in_sing
   // While a scene settles its nodes are in double precision whatever the run's own.
   if (!in_single)
     task.run = forces_by_material<double, NodeAdvance>(nodal, group, launch);
-  else if (launch.kind == StepKind::settling || !nodal.carried.active())
+  else if (launch.kind == StepKind::settling || !nodal.relative.active())
     task.run = forces_by_material<float, NodeAdvance>(nodal, group, launch);
   else
-    task.run = forces_by_material<float, CarriedAdvance>(nodal, group, launch);
+    task.run = forces_by_material<float, RelativeAdvance>(nodal, group, launch);
   return task;
 }
 
 std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& group, bool in_single) {
   std::vector<Task> tasks;
-  const long pace = 1L << group.level;
-  if (pace > 1)
+  const long steps = 1L << group.level;
+  if (steps > 1)
     tasks.push_back({"account of damping of " + group.parts, "b",
                      [&nodal, &group, in_single](const Instant& instant) {
                        book_damping(nodal, group, in_single, instant.elapsed);
                      },
-                     pace, 1});
+                     steps, 1});
   tasks.push_back(
       {"damping of " + group.parts, "b",
        [&nodal, &group, in_single](const Instant& instant) { element_damping(nodal, group, in_single, instant); },
-       pace});
+       steps});
   return tasks;
 }
 
@@ -78,13 +78,13 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
   std::vector<Task> tasks;
   const bool settling = kind == StepKind::settling;
   for (const ElementGroup& group : elements.elements) {
-    const long pace = settling ? 1 : 1L << group.level;
-    append(tasks, frame_tasks(nodal, group, kind, pace));
+    const long steps = settling ? 1 : 1L << group.level;
+    append(tasks, frame_tasks(nodal, group, kind, steps));
     ElementLaunch launch{kind, nullptr, nullptr};
     if (&group == &elements.elements.front() && along.contact) launch.contact = &contacts.front();
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;
     tasks.push_back(force_task(nodal, group, elements.in_single, launch));
-    tasks.back().every = pace;
+    tasks.back().every = steps;
   }
   // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.
   for (const ElementGroup& group : elements.elements)

@@ -9,11 +9,11 @@ void apply_load(const NodalState& nodal, const LoadArrays& load, const Instant& 
   const NodeArrays& nodes = nodal.nodes;
   if (load.load->type == scene::LoadType::pressure) {
     Kokkos::parallel_for("pressure", Range(0, load.count),
-                         PressureLoad{nodal.extra, nodes.position, nodes.velocity, load.first, load.facets,
+                         PressureLoad{nodal.external, nodes.position, nodes.velocity, load.first, load.facets,
                                       factor * load.load->pressure, instant.elapsed});
   } else {
     Kokkos::parallel_for("dead_load", Range(0, load.count),
-                         DeadLoad{nodal.extra, nodes.velocity, load.first, load.amplitude, factor, instant.elapsed});
+                         DeadLoad{nodal.external, nodes.velocity, load.first, load.amplitude, factor, instant.elapsed});
   }
 }
 
@@ -29,11 +29,11 @@ void launch_set_loads(const SetLoads& all) {
 
 /// Connectors, torques, and the gather of all loads: one launch where they are few.
 Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kind) {
-  const bool sets = loads.sets.moving > 0, rows_go_along = sets && few_rows(loads.sets, nodal.extra);
-  std::string name = nodal.extra.contribution_count > 0 ? "gather of loads" : "clearing of loads";
+  const bool sets = loads.sets.moving > 0, rows_go_along = sets && few_rows(loads.sets, nodal.external);
+  std::string name = nodal.external.contribution_count > 0 ? "gather of loads" : "clearing of loads";
   if (loads.torques.count > 0) name = "torques, " + name;
   if (loads.connectors.arrays.count > 0) name = "connectors, " + name;
-  const int rows = nodal.extra.loaded_count;
+  const int rows = nodal.external.loaded_count;
   return {name, "a", [&nodal, &loads, kind, sets, rows_go_along, rows](const Instant& instant) {
             if (sets) launch_set_loads(set_loads(nodal, loads, instant, kind, rows_go_along ? rows : 0));
             if (!rows_go_along)
@@ -51,14 +51,14 @@ std::vector<Task> load_tasks(const NodalState& nodal, const LoadModel& loads, co
       tasks.push_back({"load " + load.load->name, "a",
                        [&nodal, &load](const Instant& instant) { apply_load(nodal, load, instant); }});
   if (beams) tasks.push_back(beam_task(nodal, *beams, kind));
-  if (nodal.extra.loaded_count > 0 && !along.sets) tasks.push_back(set_load_task(nodal, loads, kind));
+  if (nodal.external.loaded_count > 0 && !along.sets) tasks.push_back(set_load_task(nodal, loads, kind));
   return tasks;
 }
 
 std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflectingEnds& ends, StepKind kind) {
   if (ends.arrays.count == 0 || kind == StepKind::settling) return {};
   return {{"non-reflecting ends", "a", [&nodal, &ends](const Instant& instant) {
-             NonReflectingForce force{ends.arrays, nodal.paced_acceleration(), nodal.velocity_lag, instant.elapsed};
+             NonReflectingForce force{ends.arrays, nodal.subcycled_acceleration(), nodal.velocity_lag, instant.elapsed};
              force.acceleration.phase = nodal.subcycling.phase(nodal.step);
              Kokkos::parallel_for("non_reflecting", SpreadRange(0, ends.arrays.count), force);
            }}};
@@ -71,7 +71,7 @@ std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties) {
              Kokkos::parallel_for("tie_force", SpreadRange(0, arrays.slave_count),
                                   TieForce{arrays, nodal.acceleration().force});
              Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
-                                  TieGather{arrays, arrays.master_rows, nodal.extra.sum.load});
+                                  TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
            }}};
 }
 

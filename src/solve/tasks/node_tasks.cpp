@@ -1,7 +1,7 @@
 #include "kernels/nodes/shared_nodes.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/block_launch.hpp"
-#include "model/elements/carriers.hpp"
+#include "model/elements/relative_coordinates.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
@@ -15,34 +15,34 @@ NodeAdvance node_advance(const NodalState& nodal, double step) {
 namespace {
 
 /// With subcycling: the nodes whose own step begins now.
-Task paced_task(const NodalState& nodal, bool shared_alone) {
+Task subcycled_task(const NodalState& nodal, bool shared_alone) {
   return {"nodes in phase", "f to j", [&nodal, shared_alone](const Instant& instant) {
             const int phase = nodal.subcycling.phase(nodal.step);
-            PacedNodeUpdate update{nodal.paced_acceleration(), node_advance(nodal, instant.step), {}};
+            SubcycledNodeUpdate update{nodal.subcycled_acceleration(), node_advance(nodal, instant.step), {}};
             update.acceleration.phase = phase;
             if (shared_alone) update.shared = nodal.shared_nodes;
             const int count = shared_alone ? nodal.subcycling.shared_end[phase] : nodal.nodes.count;
-            if (count > 0) Kokkos::parallel_for("paced_nodes", Range(0, count), update);
+            if (count > 0) Kokkos::parallel_for("subcycled_nodes", Range(0, count), update);
           }};
 }
 
 /// Nodes in single precision that belong to one block alone.
-Task carried_blocks_task(const NodalState& nodal, const std::vector<ElementGroup>& groups) {
+Task relative_blocks_task(const NodalState& nodal, const std::vector<ElementGroup>& groups) {
   return {"inner nodes of the elements' blocks", "f to j", [&nodal, &groups](const Instant& instant) {
             for (const ElementGroup& group : groups)
               launch_blocks(group.blocks,
-                            CarriedBlockUpdate{group.blocks, carried_advance(nodal, group.carried, instant.step),
-                                               nodal.partial.in_single, group.first_partial});
+                            RelativeBlockUpdate{group.blocks, relative_advance(nodal, group.relative, instant.step),
+                                                nodal.partial.in_single, group.first_partial});
           }};
 }
 
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
-Task carried_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
+Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
   return {"nodes that element blocks share", "f to j", [&nodal, &loads, rows_are_due](const Instant& instant) {
-            Kokkos::parallel_for(
-                "shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
-                CarriedSharedUpdate{nodal.acceleration(), carried_advance(nodal, {}, instant.step), nodal.shared_nodes,
-                                    nodal.carried.shared_arm, row_loads(nodal, loads, instant.elapsed), rows_are_due});
+            Kokkos::parallel_for("shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
+                                 RelativeSharedUpdate{nodal.acceleration(), relative_advance(nodal, {}, instant.step),
+                                                      nodal.shared_nodes, nodal.relative.shared_arm,
+                                                      row_loads(nodal, loads, instant.elapsed), rows_are_due});
           }};
 }
 
@@ -71,26 +71,27 @@ Task prescribed_task(const NodalState& nodal, const PrescribedSet& set) {
 
 }  // namespace
 
-Task carrier_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
-                  StepKind kind) {
-  return {"carriers of nodes in single precision", "j", [&assembled, &groups, &nodal, kind](const Instant& instant) {
-            if (!nodal.carried.begun)
-              take_nodes_over(assembled, groups, nodal);
+Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
+                            StepKind kind) {
+  return {"co-rotating frames of nodes in single precision", "j",
+          [&assembled, &groups, &nodal, kind](const Instant& instant) {
+            if (!nodal.relative.begun)
+              begin_relative_nodes(assembled, groups, nodal);
             else if (kind == StepKind::sampled)
-              give_nodes_back(nodal);
-            lay_carrier_steps(nodal, instant.step);
+              update_absolute_nodes(nodal);
+            compute_frame_steps(nodal, instant.step);
           }};
 }
 
 Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind) {
-  const bool carried = nodal.carried.active() && kind != StepKind::settling;
-  return {"tied nodes", "g", [&nodal, &ties, carried](const Instant& instant) {
+  const bool relative = nodal.relative.active() && kind != StepKind::settling;
+  return {"tied nodes", "g", [&nodal, &ties, relative](const Instant& instant) {
             const TieFollow follow{ties.arrays, nodal.nodes, instant.step};
             const SpreadRange slaves(0, ties.arrays.slave_count);
-            if (carried)
+            if (relative)
               Kokkos::parallel_for(
                   "ties", slaves,
-                  CarriedTieFollow{follow, carried_advance(nodal, {}, instant.step).nodes, ties.carrier});
+                  RelativeTieFollow{follow, relative_advance(nodal, {}, instant.step).nodes, ties.frame});
             else
               Kokkos::parallel_for("ties", slaves, follow);
           }};
@@ -105,11 +106,11 @@ std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<Pr
 std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
                              StepKind kind, GoingAlong along) {
   const bool inner_have_moved = kind == StepKind::advancing;
-  if (nodal.subcycling.levels > 1) return {paced_task(nodal, inner_have_moved)};
+  if (nodal.subcycling.levels > 1) return {subcycled_task(nodal, inner_have_moved)};
   std::vector<Task> tasks;
-  if (nodal.carried.active()) {
-    if (!inner_have_moved) tasks.push_back(carried_blocks_task(nodal, groups));
-    tasks.push_back(carried_shared_task(nodal, loads, along.sets));
+  if (nodal.relative.active()) {
+    if (!inner_have_moved) tasks.push_back(relative_blocks_task(nodal, groups));
+    tasks.push_back(relative_shared_task(nodal, loads, along.sets));
   } else {
     tasks.push_back(inner_have_moved ? shared_task(nodal, loads, along.sets) : node_task(nodal));
   }

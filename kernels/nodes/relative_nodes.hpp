@@ -1,0 +1,155 @@
+#pragma once
+
+#include "kernels/loads/set_loads.hpp"
+#include "kernels/nodes/corotating_frame.hpp"
+#include "kernels/support/lanes.hpp"
+#include "kernels/support/team.hpp"
+
+namespace railwave {
+
+/// Row i of a matrix times a vector given by its components.
+KOKKOS_FORCEINLINE_FUNCTION float product(const Matrix3<float>& m, int i, float x, float y, float z) {
+  return multiply_add(m(i, 0), x, multiply_add(m(i, 1), y, m(i, 2) * z));
+}
+
+/// State of a node relative to its co-rotating frame: 32 bytes, what memory delivers at once.
+struct alignas(16) RelativeNode {
+  float displacement[3];  ///< m, d at t_n
+  float inverse_mass;     ///< 1/kg
+  float velocity[3];      ///< m/s, w half a step before t_n
+  float unused;
+};
+
+/// X - c_0 of a node or of a block's own point, m, and whose arm it is.
+struct alignas(16) FrameArm {
+  float x[3];
+  int frame;
+};
+
+/// What a group's blocks need of nodes in single precision.
+struct RelativeArrays {
+  Array<RelativeNode*> node;
+  Array<const float*> local;   ///< m, X - the block's point: by block and component, `node_stride` values each
+  Array<const FrameArm*> arm;  ///< by block, of its point
+  Array<const FrameStep*> steps;
+  int first = 0;  ///< of the present step's frames
+
+  KOKKOS_FORCEINLINE_FUNCTION const FrameStep& frame(int c) const { return steps(first + c); }
+};
+
+/// NodeAdvance for nodes in single precision.
+struct RelativeAdvance {
+  RelativeArrays nodes;
+  float gravity[3];     ///< m/s2
+  float velocity_step;  ///< s
+  float step;           ///< s
+
+  KOKKOS_FORCEINLINE_FUNCTION void acceleration(float inverse_mass, const Vector3& force, float (&a)[3]) const {
+    for (int i = 0; i < 3; ++i) a[i] = multiply_add(inverse_mass, static_cast<float>(force[i]), gravity[i]);
+  }
+
+  /// @param frame_change by what the frame's velocity changes for each arm, 1/s
+  /// @param arm m
+  KOKKOS_FORCEINLINE_FUNCTION RelativeNode move(int n, const float (&a)[3], const Matrix3<float>& frame_change,
+                                                const float (&arm)[3]) const {
+    RelativeNode node = nodes.node(n);
+    for (int i = 0; i < 3; ++i) {
+      // The small changes first, so that one rounding is left to the large velocity.
+      const float change = multiply_add(velocity_step, a[i], -product(frame_change, i, arm[0], arm[1], arm[2]));
+      node.velocity[i] += change;
+      node.displacement[i] = multiply_add(step, node.velocity[i], node.displacement[i]);
+    }
+    if constexpr (on_device) {
+      nodes.node(n) = node;
+    } else {
+      // A host had better not put the numbers together first.
+      RelativeNode& own = nodes.node(n);
+      for (int i = 0; i < 3; ++i) {
+        own.displacement[i] = node.displacement[i];
+        own.velocity[i] = node.velocity[i];
+      }
+    }
+    return node;
+  }
+};
+
+/// SharedNodeUpdate for nodes in single precision. Those that external forces or constraints concern get their
+/// positions and velocities in double precision too: contact, loads and connectors know no other.
+struct RelativeSharedUpdate {
+  NodalAcceleration acceleration;
+  RelativeAdvance advance;
+  Array<const SharedNode*> shared;
+  Array<const FrameArm*> arm;  ///< of each shared node
+  RowLoads rows;
+  bool rows_here;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const SharedNode node = shared(i);
+    const FrameArm own = arm(i);
+    const NodeArrays& in_double = acceleration.force.nodes;
+    const int n = node.node & ~special_bit;
+    const bool special = node.node < 0;
+    const FrameStep& frame = advance.nodes.frame(own.frame);
+    const int r = special ? in_double.external_row(n) : -1;
+    if (rows_here && r >= 0 && rows.external.loaded_of_row(r) >= 0) rows.gather<1>(rows.external.loaded_of_row(r));
+    float a[3];
+    advance.acceleration(advance.nodes.node(n).inverse_mass, acceleration.force(node), a);
+    if (special) {
+      const Vector3 free = acceleration.constrain(n, {{a[0], a[1], a[2]}});
+      for (int k = 0; k < 3; ++k) a[k] = static_cast<float>(free[k]);
+    }
+    const RelativeNode after = advance.move(n, a, frame.change_at_start, own.x);
+    if (special) {
+      const Vector3 X = row(in_double.reference, n), x = frame.next.position(X), v = frame.next.velocity_of(X);
+      for (int k = 0; k < 3; ++k) {
+        in_double.position(n, k) = x[k] + static_cast<double>(after.displacement[k]);
+        in_double.velocity(n, k) = v[k] + static_cast<double>(after.velocity[k]);
+      }
+    }
+    if (r >= 0) acceleration.force.external.clear_contact(r);
+  }
+};
+
+/// Makes the relative coordinates of nodes first, first + 1, ... from those in double precision.
+struct MakeRelative {
+  NodeArrays in_double;
+  Array<RelativeNode*> node;
+  FrameInstant frame;
+  int first;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    const int n = first + k;
+    const Vector3 X = row(in_double.reference, n);
+    const Vector3 d = row(in_double.position, n) - frame.position(X),
+                  w = row(in_double.velocity, n) - frame.velocity_of(X);
+    RelativeNode made;
+    for (int i = 0; i < 3; ++i) {
+      made.displacement[i] = static_cast<float>(d[i]);
+      made.velocity[i] = static_cast<float>(w[i]);
+    }
+    made.inverse_mass = static_cast<float>(1.0 / in_double.mass(n));
+    made.unused = 0;
+    node(n) = made;
+  }
+};
+
+/// The other way round, but for nodes that each step keeps in double precision anyway.
+struct MakeAbsolute {
+  NodeArrays in_double;
+  Array<const RelativeNode*> node;
+  FrameInstant frame;
+  int first;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    const int n = first + k;
+    if (in_double.external_row(n) >= 0 || in_double.constraint(n) >= 0) return;
+    const RelativeNode own = node(n);
+    const Vector3 X = row(in_double.reference, n), x = frame.position(X), v = frame.velocity_of(X);
+    for (int i = 0; i < 3; ++i) {
+      in_double.position(n, i) = x[i] + static_cast<double>(own.displacement[i]);
+      in_double.velocity(n, i) = v[i] + static_cast<double>(own.velocity[i]);
+    }
+  }
+};
+
+}  // namespace railwave

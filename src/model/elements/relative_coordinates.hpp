@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/nodes/relative_nodes.hpp"
+
+/// The host's side of nodes in single precision (kernels/nodes/corotating_frame.hpp has the formulas).
+namespace railwave {
+
+struct AssembledScene;
+struct ElementGroup;
+struct NodalState;
+
+/// Nodes in single precision and their co-rotating frames, one for each part and point mass: the rigid motion that
+/// suits its velocities best when the run begins. From then on these nodes are the state, and the double ones follow:
+/// those that external forces or constraints concern at every step, the others for samples and outputs. Empty unless
+/// the case asks for precision = "float".
+struct RelativeNodes {
+  struct Range {
+    int first, count;  ///< nodes of a frame
+  };
+
+  Array<RelativeNode*> node;
+  Array<FrameArm*> shared_arm;  ///< of each shared node
+  Array<FrameMotion*> motion;   ///< by frame
+  Array<FrameStep*> steps;      ///< of a block of steps, see ComputeFrameSteps
+  std::vector<Range> range;     ///< by frame
+  std::vector<FrameMotion> host_motion;
+  bool begun = false;     ///< the relative coordinates have been made
+  long block_step = 0;    ///< the block's first step
+  double block_time = 0;  ///< s, its time since then
+  double block_size = 0;  ///< s, of its steps; 0: none is computed yet
+
+  bool active() const { return !range.empty(); }
+  double time_of(long step) const { return block_time + static_cast<double>(step - block_step) * block_size; }
+};
+
+/// What blocks have besides where nodes are in single precision; see RelativeArrays. Empty otherwise.
+struct RelativeBlocks {
+  Array<float*> local;
+  Array<FrameArm*> arm;
+};
+
+/// Makes the relative coordinates from the nodes as they stand in double precision. Whoever writes to those later calls
+/// this again.
+void begin_relative_nodes(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal);
+
+/// Has the frames' values on the device for the step from the present instant to the next, of size `step`
+/// (s).
+void compute_frame_steps(NodalState& nodal, double step);
+
+/// Brings the nodes in double precision to the present instant.
+void update_absolute_nodes(const NodalState& nodal);
+
+/// What moves a group's nodes over a step of size `step` (s).
+RelativeAdvance relative_advance(const NodalState& nodal, const RelativeBlocks& blocks, double step);
+
+}  // namespace railwave

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "kernels/monitor/monitor_terms.hpp"
+#include "model/assembly.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/nodal_state.hpp"
+#include "solve/checkpoint/run_state.hpp"
+
+namespace railwave {
+
+/// An extreme value and the item that has it; -1: none.
+struct Extreme {
+  double value = 0;
+  int place = -1;
+};
+
+/// What one check of the whole model found.
+struct MonitorMeasures {
+  Extreme jacobian;                  ///< smallest over the undeformed one, 1 in the beginning; element
+  Extreme distortion;                ///< largest hourglass mode over the size; element
+  Extreme speed;                     ///< m/s; node
+  Extreme acceleration;              ///< m/s2; node
+  std::vector<Extreme> penetration;  ///< by contact pair: over the face's size; node of the model
+  std::vector<Extreme> chatter;      ///< by contact pair: times opened and closed; node of the model
+};
+
+/// The device arrays of the monitor, and the reductions over them: a few launches a check, none in a step.
+class MonitorArrays {
+ public:
+  MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts);
+  MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const;
+
+  /// Smallest Jacobian at a corner over the mean of its element, undeformed; element.
+  Extreme worst_shape() const { return worst_shape_; }
+
+  /// What was seen of contact nodes up to now.
+  void archive(StateSaver& state);
+  void archive(StateRestorer& state);
+
+ private:
+  ElementShapes shapes_;
+  Extreme worst_shape_;
+  std::vector<Array<int*>> changes_;  ///< by contact pair
+};
+
+}  // namespace railwave

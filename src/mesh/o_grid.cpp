@@ -63,7 +63,7 @@ std::vector<std::array<int, 2>> core_outline(int along, int up) {
   return outline;
 }
 
-RingDisc ring_disc(const std::vector<double>& angles) {
+RingDisc ring_disc(const std::vector<double>& angles, const std::vector<double>& radii) {
   const int rim = static_cast<int>(angles.size()), along = rim / 4, up = rim / 2 - along;
   const auto outline = core_outline(along, up);
   // Angles on the core's outline, rising as those of the rim do, and how far the core is turned to lie under them.
@@ -87,7 +87,8 @@ RingDisc ring_disc(const std::vector<double>& angles) {
   for (int ring = 0; ring < rings; ++ring)
     for (int k = 0; k < rim; ++k) {
       const double share = static_cast<double>(ring) / rings;
-      const double angle = (1 - share) * angles[k] + share * (own[k] + turn), radius = 1 - share + share * size[k];
+      const double angle = (1 - share) * angles[k] + share * (own[k] + turn),
+                   radius = (1 - share) * radii[k] + share * size[k];
       disc.nodes.push_back({radius * std::cos(angle), radius * std::sin(angle)});
     }
   const int first = static_cast<int>(disc.nodes.size());

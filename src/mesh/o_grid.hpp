@@ -28,9 +28,10 @@ struct RingDisc {
   int rim = 0;  ///< nodes of the rim, and cells along it
 };
 
-/// @param angles of the rim's nodes, rad, rising by a turn in all; an even number of them, 8 or more. Rings of cells
-/// lead to evenly spread angles inside, so that a crowd of nodes at one place of the rim does not make thin cells in
-/// the middle.
-RingDisc ring_disc(const std::vector<double>& angles);
+/// Rings of cells lead to evenly spread angles inside, so that a crowd of nodes at one place of the rim does not make
+/// thin cells in the middle.
+/// @param angles of the rim's nodes, rad, rising by a turn in all; an even number of them, 8 or more
+/// @param radii of the rim's nodes, about 1
+RingDisc ring_disc(const std::vector<double>& angles, const std::vector<double>& radii);
 
 }  // namespace railwave

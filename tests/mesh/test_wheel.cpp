@@ -27,6 +27,10 @@ scene::MeshSource wheel_source() {
   return source;
 }
 
+/// How far out nodes of inner circles lie at most, a fraction of the radius: between cells of core_size = 90 mm on a
+/// radius of 0.46 m, a = 0.196, so that their sectors have their area, a^2 / 12.
+constexpr double widest_growth = 0.0033;
+
 double radius_of(const Vec3& p) { return std::hypot(p[0], p[2]); }
 
 void check_sound(const Mesh& mesh, double zone_size, double least_step, double largest_ratio) {
@@ -77,13 +81,13 @@ TEST_CASE("The wheel of the main case is a sound mesh within its budget") {
 
 TEST_CASE("The wheel has the volume of its section turned round the axle") {
   const scene::MeshSource source = wheel_source();
-  // Away from the zone a cell below the tread spans 0.2 rad; its chords are up to 0.2^2 / 12 of the radius short.
-  CHECK_THAT(mesh_quality(wheel_mesh(source), 1).volume, WithinRel(exact_volume(source.wheel), 0.004));
+  // Its outline is a polygon: cells of 8 mm, then 4 mm, cut chords off the flange's roundings.
+  CHECK_THAT(mesh_quality(wheel_mesh(source), 1).volume, WithinRel(exact_volume(source.wheel), 8e-4));
   scene::MeshSource fine = source;
   fine.wheel.coarse_size = 0.01;
   fine.wheel.core_size = 0.01;
   fine.wheel.section_size = 0.004;
-  CHECK_THAT(mesh_quality(wheel_mesh(fine), 1).volume, WithinRel(exact_volume(fine.wheel), 0.0005));
+  CHECK_THAT(mesh_quality(wheel_mesh(fine), 1).volume, WithinRel(exact_volume(fine.wheel), 4e-4));
 }
 
 TEST_CASE("Every node of the running surface lies on the S1002 profile") {
@@ -121,7 +125,7 @@ TEST_CASE("The wheel's zone lies about the lowest point, rolled towards +x, in t
 
 TEST_CASE("Sets of a wheel lie where their names say") {
   const Mesh mesh = wheel_mesh(wheel_source());
-  for (int n : mesh.node_sets.at("bore")) CHECK_THAT(radius_of(mesh.nodes[n]), WithinAbs(0.0925, 1e-9));
+  for (int n : mesh.node_sets.at("bore")) CHECK_THAT(radius_of(mesh.nodes[n]), WithinRel(0.0925, widest_growth));
   CHECK(mesh.node_sets.at("centre_section").size() > 300);
   for (int n : mesh.node_sets.at("centre_section")) {
     CHECK_THAT(mesh.nodes[n][0], WithinAbs(0, 1e-9));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/balanced_circle.hpp"
+#include "mesh/body_balance.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/curve.hpp"
 #include "mesh/grid.hpp"
@@ -10,7 +12,8 @@
 
 /// A roller, a whole ring or a sector of one, exact at every node of its tread, which may be crowned. The axle lies
 /// along y through the origin; arcs are measured at the tread from the lowest point, positive towards +x. Cells have
-/// zone_size in the zone under the tread and grow away from it round the roller, along the axle and inwards. Node sets
+/// zone_size in the zone under the tread and grow away from it round the roller, along the axle and inwards. A ring has
+/// its centre of mass on the axle; for that its bore lies a little off its circle where cells are wide. Node sets
 /// and surfaces: tread, bore, y_min, y_max; of a sector also arc_min, arc_max; surface zone, the tread over the
 /// solution zone: in a contact the small facets only, for large thin ones cost step. Throws InputError if the
 /// parameters don't fit.
@@ -74,6 +77,25 @@ GridLines lines_of(const scene::RollerMesh& r) {
           GradedLine{0, r.radius - r.bore_radius, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size}};
 }
 
+/// Moves the nodes of a ring below its tread, the more the nearer to the bore, so that its centre of mass lies on the
+/// axle and its volume is that of its section turned: wide cells cut chords off the tread, and off the hole.
+void balance(Mesh& mesh, const std::vector<double>& arc, const std::vector<double>& depth, const scene::RollerMesh& r) {
+  std::vector<double> angles;
+  double sines = 0;  // a cell's volume over that of its sector is sin(a) / a
+  for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
+    angles.push_back(arc[i] / r.radius);
+    sines += std::sin((arc[i + 1] - arc[i]) / r.radius);
+  }
+  const auto radii = balanced_radii(angles);
+  const std::size_t around = angles.size(), sheet = mesh.nodes.size() / depth.size();
+  RadialMotion motion;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    motion.share.push_back(depth[n / sheet] / depth.back());
+    motion.shape.push_back(radii[n % around] - 1);
+  }
+  balance_body(mesh, motion, mesh_volume(mesh) * 2 * pi / sines);
+}
+
 Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   check(source);
   const scene::RollerMesh& r = source.roller;
@@ -90,6 +112,7 @@ Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
     const double angle = arc[i] / r.radius;
     return Vec3{radius * std::sin(angle), y[j], -radius * std::cos(angle)};
   });
+  if (r.ring) balance(mesh, arc, depth, r);
   mesh.surfaces["zone"] = zone_faces(mesh.surfaces["tread"], lines[0], lines[1]);
   return mesh;
 }

@@ -9,6 +9,7 @@
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/extrusion.hpp"
+#include "mesh/generators/wheel_balance.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/sections/wheel_section.hpp"
@@ -94,6 +95,7 @@ WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& w)
     return Vec3{p.z * std::sin(arc / radius), p.y, -p.z * std::cos(arc / radius)};
   };
   Extrusion extrusion = extrude(section, stations, place, true);
+  balance_wheel(extrusion, section, stations, w);
   Mesh& mesh = extrusion.mesh;
   const int count = static_cast<int>(stations.position.size());
   mesh.surfaces["running_surface"] = faces_on_edges(extrusion, section.edges["running_surface"], 0, count);

@@ -12,7 +12,9 @@ namespace railwave {
 /// A wheel in hexahedra: its section turned about the axle, which lies along y through the origin; the tape circle is
 /// in the plane y = 0, the flange towards -y. Angle 0 is the lowest point, arcs are positive towards +x. Node sets bore
 /// and centre_section (the lower half's plane x = 0, when a layer lies there); surfaces tread (contact band over the
-/// zone and a margin) and running_surface; element set zone. Throws InputError if the parameters don't fit.
+/// zone and a margin) and running_surface; element set zone. Its centre of mass lies on the axle (see
+/// wheel_balance.hpp): nodes of the running surface are exact, those of the bore up to a^2 / 12 of its radius outside
+/// it, a the angle of a cell there. Throws InputError if the parameters don't fit.
 Mesh wheel_mesh(const scene::MeshSource& source);
 
 /// A wheel with what an axle needs to go on from its bore.

@@ -100,8 +100,10 @@ void add_axle(const scene::WheelsetMesh& w, const WheelBody& body, Mesh& mesh) {
   constexpr double quarter = 1.57079632679489661923;
   std::vector<double> angles = body.bore_angles;
   for (double& angle : angles) angle -= quarter;
-  const RingDisc disc = ring_disc(angles);
   const auto bore = bore_nodes(body);
+  std::vector<double> radii;
+  for (int n : bore[0]) radii.push_back(std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]) / w.bore_radius);
+  const RingDisc disc = ring_disc(angles, radii);
   std::vector<double> bore_y;
   for (const auto& line : bore) bore_y.push_back(mesh.nodes[line[0]][1]);
   const auto layers = layers_of(w, bore_y);

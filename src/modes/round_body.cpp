@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -11,10 +12,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double same_place = 1e-5;  ///< of the largest radius: nodes of one ring
-constexpr int fewest_nodes = 12;     ///< of a ring
-constexpr double widest_gap = 0.15;  ///< of the way round, between nodes of a ring
-constexpr double least_share = 0.5;  ///< of the part's mass that lies in rings
+constexpr double same_place = 1e-5;   ///< of the largest radius: nodes of one ring
+constexpr double most_slope = 0.1;    ///< radial over length of an edge along a ring
+constexpr double most_spread = 0.05;  ///< of radii in a ring, of its mean
+constexpr int fewest_nodes = 12;      ///< of a ring
+constexpr double widest_gap = 0.15;   ///< of the way round, between nodes of a ring
+constexpr double least_share = 0.5;   ///< of the part's mass that lies in rings
 constexpr int highest_order = 40;
 constexpr int radius_steps = 24;      ///< in which the displacement along the radius is looked at
 constexpr double least_swing = 0.03;  ///< of its largest value: what lies below has no sign
@@ -39,6 +42,43 @@ void sort_ring(std::vector<int>& nodes, std::vector<double>& angle) {
   }
 }
 
+/// Along the radius and the axis.
+struct Place {
+  double radius, along;
+};
+
+/// The first of the nodes that are in one ring, by union and find.
+int first_of(std::vector<int>& parent, int node) {
+  while (parent[node] != node) node = parent[node] = parent[parent[node]];
+  return node;
+}
+
+/// Nodes of rings: those in one place, and those that edges round the axis lead to, for a wheel's nodes lie the farther
+/// outside their circle the wider its cells are there (mesh/balanced_circle.hpp).
+std::vector<std::vector<int>> nodes_of_rings(const std::vector<Eigen::Vector3d>& local, const std::vector<Place>& place,
+                                             double unit, const std::vector<std::array<int, 2>>& edges) {
+  std::vector<int> parent(local.size());
+  for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = static_cast<int>(k);
+  const auto unite = [&](int a, int b) { parent[first_of(parent, a)] = first_of(parent, b); };
+  std::map<std::pair<long, long>, int> found;
+  for (std::size_t k = 0; k < local.size(); ++k) {
+    // A corner of the lattice of places might part a ring: the lattice's origin lies off all round numbers.
+    const auto cell =
+        std::make_pair(std::lround(place[k].radius / unit + 0.31), std::lround(place[k].along / unit + 0.37));
+    unite(static_cast<int>(k), found.try_emplace(cell, static_cast<int>(k)).first->second);
+  }
+  for (const auto& [a, b] : edges)
+    if (std::fabs(place[a].along - place[b].along) <= unit &&
+        std::fabs(place[a].radius - place[b].radius) <= most_slope * (local[a] - local[b]).norm())
+      unite(a, b);
+  std::map<int, std::vector<int>> rings;
+  for (std::size_t k = 0; k < parent.size(); ++k)
+    rings[first_of(parent, static_cast<int>(k))].push_back(static_cast<int>(k));
+  std::vector<std::vector<int>> nodes;
+  for (auto& [first, ring] : rings) nodes.push_back(std::move(ring));
+  return nodes;
+}
+
 }  // namespace
 
 const char* text_of(RoundName::Kind kind) {
@@ -61,20 +101,29 @@ std::optional<RoundBody> RoundBody::of_part(const AssembledScene& assembled, int
     reach = std::max(reach, local.back().head<2>().norm());
     total += assembled.mass[n];
   }
-  std::map<std::pair<long, long>, Ring> rings;
-  for (int k = 0; k < range.node_count; ++k) {
-    const double radius = local[k].head<2>().norm(), unit = same_place * reach;
-    // A corner of the lattice of places might part a ring: the lattice's origin lies off all round numbers.
-    Ring& ring = rings[{std::lround(radius / unit + 0.31), std::lround(local[k][2] / unit + 0.37)}];
-    ring.radius = radius;
-    ring.nodes.push_back(range.first_node + k);
-    ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
-    ring.mass += assembled.mass[range.first_node + k];
-  }
+  std::vector<Place> place;
+  for (const Eigen::Vector3d& x : local) place.push_back({x.head<2>().norm(), x[2]});
+  std::vector<std::array<int, 2>> edges;
+  for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
+    for (const auto& side : hexahedron_face_corners)
+      for (int i = 0; i < 4; ++i)
+        edges.push_back({assembled.assembly.elements[e][side[i]] - range.first_node,
+                         assembled.assembly.elements[e][side[(i + 1) % 4]] - range.first_node});
   double in_rings = 0;
-  for (auto& [place, ring] : rings) {
-    const int count = static_cast<int>(ring.nodes.size());
+  for (const auto& nodes : nodes_of_rings(local, place, same_place * reach, edges)) {
+    const int count = static_cast<int>(nodes.size());
     if (count < fewest_nodes) continue;
+    Ring ring;
+    double least = reach, most = 0;
+    for (int k : nodes) {
+      ring.nodes.push_back(range.first_node + k);
+      ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
+      ring.mass += assembled.mass[range.first_node + k];
+      ring.radius += place[k].radius / count;
+      least = std::min(least, place[k].radius);
+      most = std::max(most, place[k].radius);
+    }
+    if (most - least > most_spread * ring.radius) continue;
     sort_ring(ring.nodes, ring.angle);
     double widest = 0;
     for (int k = 0; k < count; ++k) {

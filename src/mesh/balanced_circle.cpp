@@ -1,4 +1,4 @@
-#include "mesh/balanced_circle.hpp"
+#include "mesh/body_balance.hpp"
 
 #include <array>
 #include <cmath>

@@ -54,7 +54,7 @@ int first_of(std::vector<int>& parent, int node) {
 }
 
 /// Nodes of rings: those in one place, and those that edges round the axis lead to, for a wheel's nodes lie the farther
-/// outside their circle the wider its cells are there (mesh/balanced_circle.hpp).
+/// outside their circle the wider its cells are there (mesh/body_balance.hpp).
 std::vector<std::vector<int>> nodes_of_rings(const std::vector<Eigen::Vector3d>& local, const std::vector<Place>& place,
                                              double unit, const std::vector<std::array<int, 2>>& edges) {
   std::vector<int> parent(local.size());

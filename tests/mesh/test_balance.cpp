@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "mesh/balanced_circle.hpp"
+#include "mesh/body_balance.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/generators/wheel.hpp"
 #include "mesh/hexahedron.hpp"

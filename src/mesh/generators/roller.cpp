@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/balanced_circle.hpp"
 #include "mesh/body_balance.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/curve.hpp"

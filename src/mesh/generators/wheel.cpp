@@ -9,7 +9,6 @@
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/extrusion.hpp"
-#include "mesh/generators/wheel_balance.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/mesh_checks.hpp"
 #include "mesh/sections/wheel_section.hpp"

@@ -6,6 +6,7 @@
 #include "mesh/extrusion.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/mesh.hpp"
+#include "mesh/sections/section.hpp"
 
 namespace railwave {
 
@@ -13,7 +14,7 @@ namespace railwave {
 /// in the plane y = 0, the flange towards -y. Angle 0 is the lowest point, arcs are positive towards +x. Node sets bore
 /// and centre_section (the lower half's plane x = 0, when a layer lies there); surfaces tread (contact band over the
 /// zone and a margin) and running_surface; element set zone. Its centre of mass lies on the axle (see
-/// wheel_balance.hpp): nodes of the running surface are exact, those of the bore up to a^2 / 12 of its radius outside
+/// balance_wheel): nodes of the running surface are exact, those of the bore up to a^2 / 12 of its radius outside
 /// it, a the angle of a cell there. Throws InputError if the parameters don't fit.
 Mesh wheel_mesh(const scene::MeshSource& source);
 
@@ -40,5 +41,11 @@ double wheel_fine_size(const scene::WheelMesh& wheel);
 
 /// Layers round a wheel; those of the last level reach the bore.
 Stations wheel_stations(const scene::WheelMesh& wheel);
+
+/// Moves a turned wheel's nodes from and towards the axle so that the mesh has its centre of mass on the axle and the
+/// volume of its section turned about it, whatever the widths of its cells. The running surface and all else down to
+/// the first change of level stay where they are: there the wheel is true.
+void balance_wheel(Extrusion& extrusion, const SectionMesh& section, const Stations& stations,
+                   const scene::WheelMesh& wheel);
 
 }  // namespace railwave

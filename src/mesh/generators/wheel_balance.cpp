@@ -1,9 +1,8 @@
-#include "mesh/generators/wheel_balance.hpp"
+#include "mesh/generators/wheel.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/balanced_circle.hpp"
 #include "mesh/body_balance.hpp"
 
 namespace railwave {

@@ -25,10 +25,11 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const
       pair.has_springs()
           ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
+  SetLoads sets{};  // CUDA 13.0's compiler crashes on a conditional expression inside the functor's braces
+  if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind, 0);
   launch_teams(set_teams + contact_teams + blocks.count, Block::scratch_size(blocks),
-               Together{launch.sets != nullptr ? set_loads(nodal, *launch.sets, instant, launch.kind, 0) : SetLoads{},
-                        contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}), functor,
-                        set_teams, contact_teams});
+               Together{sets, contact_force<Friction>(nodal, pair, instant, LinearPenalty{pair.arrays.friction}, {}),
+                        functor, set_teams, contact_teams});
 }
 
 template <class S>

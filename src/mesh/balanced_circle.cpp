@@ -1,23 +1,21 @@
 #include "mesh/body_balance.hpp"
 
-#include <array>
+#include <Eigen/LU>
 #include <cmath>
 
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
-using Point = std::array<double, 2>;
-
+/// From one node to the next, rad.
 double angle_after(const std::vector<double>& angles, std::size_t i) {
-  return i + 1 < angles.size() ? angles[i + 1] - angles[i] : angles.front() + 2 * pi - angles.back();
+  return i + 1 < angles.size() ? angles[i + 1] - angles[i] : angles.front() + 2 * M_PI - angles.back();
 }
 
-/// First moment of the polygon's area, and how it grows when the radii r grow by r cos(angle), r sin(angle).
+/// First moment of the polygon's area, and its derivatives by the amplitudes A and B where each radius is multiplied by
+/// 1 + A cos(angle) + B sin(angle).
 struct Moment {
-  Point value{0, 0};
-  std::array<Point, 2> slope{};
+  Eigen::Vector2d value = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d jacobian = Eigen::Matrix2d::Zero();
 };
 
 Moment moment_of(const std::vector<double>& angles, const std::vector<double>& radii) {
@@ -25,17 +23,15 @@ Moment moment_of(const std::vector<double>& angles, const std::vector<double>& r
   Moment moment;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t ends[2] = {i, (i + 1) % count};
-    const double r[2] = {radii[ends[0]], radii[ends[1]]};
-    Point end[2];
-    for (int k = 0; k < 2; ++k) end[k] = {std::cos(angles[ends[k]]), std::sin(angles[ends[k]])};
-    // The triangle's area is sin(a) r0 r1 / 2, its centre a third of its corners' sum.
-    const double weight = std::sin(angle_after(angles, i)) / 6 * r[0] * r[1];
-    for (int x = 0; x < 2; ++x) {
-      moment.value[x] += weight * (r[0] * end[0][x] + r[1] * end[1][x]);
-      for (int k = 0; k < 2; ++k)
-        for (int way = 0; way < 2; ++way)
-          moment.slope[way][x] += weight * (2 * r[k] * end[k][x] + r[1 - k] * end[1 - k][x]) * end[k][way];
+    Eigen::Vector2d direction[2], corner[2];
+    for (int k = 0; k < 2; ++k) {
+      direction[k] = Eigen::Vector2d(std::cos(angles[ends[k]]), std::sin(angles[ends[k]]));
+      corner[k] = radii[ends[k]] * direction[k];
     }
+    // The triangle's area is sin(a) r0 r1 / 2, its centroid a third of the sum of its corners.
+    const double weight = std::sin(angle_after(angles, i)) / 6 * radii[ends[0]] * radii[ends[1]];
+    moment.value += weight * (corner[0] + corner[1]);
+    for (int k = 0; k < 2; ++k) moment.jacobian += weight * (2 * corner[k] + corner[1 - k]) * direction[k].transpose();
   }
   return moment;
 }
@@ -54,12 +50,11 @@ std::vector<double> balanced_radii(const std::vector<double>& angles) {
     }
   }
   for (std::size_t i = 0; i < count; ++i) radii.push_back(std::exp(lacking[i] / width[i]));
-  for (int iteration = 0; iteration < 4; ++iteration) {
-    const Moment m = moment_of(angles, radii);
-    const double det = m.slope[0][0] * m.slope[1][1] - m.slope[1][0] * m.slope[0][1];
-    const double along = -(m.value[0] * m.slope[1][1] - m.value[1] * m.slope[1][0]) / det;
-    const double across = -(m.slope[0][0] * m.value[1] - m.slope[0][1] * m.value[0]) / det;
-    for (std::size_t i = 0; i < count; ++i) radii[i] *= 1 + along * std::cos(angles[i]) + across * std::sin(angles[i]);
+  for (int iteration = 0; iteration < 4; ++iteration) {  // Newton's method
+    const Moment moment = moment_of(angles, radii);
+    const Eigen::Vector2d change = moment.jacobian.partialPivLu().solve(-moment.value);
+    for (std::size_t i = 0; i < count; ++i)
+      radii[i] *= 1 + change[0] * std::cos(angles[i]) + change[1] * std::sin(angles[i]);
   }
   return radii;
 }

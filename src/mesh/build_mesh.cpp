@@ -7,12 +7,6 @@
 #include "mesh/mesh_memory.hpp"
 
 namespace railwave {
-namespace {
-
-/// Only where its parameters fit each other may a mesh be counted; where they don't, its maker says so.
-bool counts(double number) { return number >= 0 && std::isfinite(number); }
-
-}  // namespace
 
 MeshGenerator generator_of(const scene::MeshSource& source) {
 #define RAILWAVE_GENERATOR(type, Parameters) type##_generator,
@@ -31,8 +25,9 @@ Mesh build_mesh(const scene::MeshSource& source, MeshNotes* notes) {
 
 double expected_elements(const scene::MeshSource& source) {
   try {
-    const double found = generator_of(source).elements(source);
-    return counts(found) ? found : 0;
+    const double estimate = generator_of(source).elements(source);
+    // Parameters that don't fit each other may give any number; build() reports them.
+    return estimate >= 0 && std::isfinite(estimate) ? estimate : 0;
   } catch (const MeshTooLarge& problem) {
     throw InputError(place_of(source) + problem.what());
   }

@@ -7,7 +7,7 @@
 namespace railwave {
 namespace {
 
-/// The first of the elements that hold together with one, by union and find.
+/// Root of an element's tree in a disjoint-set forest (union-find): the lowest element of its body so far.
 int first_of(std::vector<int>& parent, int element) {
   while (parent[element] != element) element = parent[element] = parent[parent[element]];
   return element;

@@ -33,8 +33,7 @@ class FaceTable {
   std::vector<Entry> entries_;         // ascending by nodes, then element and side
 };
 
-/// Into how many bodies a mesh falls whose elements hold together by common faces: an edge or a node in common is a
-/// hinge.
+/// Number of separate bodies in a mesh. Elements are connected by common faces only: a common edge or node is a hinge.
 int connected_bodies(const Mesh& mesh);
 
 }  // namespace railwave

@@ -20,6 +20,18 @@ inline HexahedronCorners corners_of(const std::vector<Vec3>& nodes, const std::a
 inline constexpr int hexahedron_corner_signs[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                                       {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
+/// Neighbours of each corner along its three edges, which are right-handed in this order.
+inline constexpr int hexahedron_corner_neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
+                                                           {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
+
+/// Mean of the corners, m.
+inline Vec3 hexahedron_centre(const HexahedronCorners& x) {
+  Vec3 centre{0, 0, 0};
+  for (const Vec3& corner : x)
+    for (int i = 0; i < 3; ++i) centre[i] += corner[i] / 8;
+  return centre;
+}
+
 /// Jacobian determinant of the trilinear map at (xi, eta, zeta) in [-1, 1]^3.
 inline double hexahedron_jacobian(const HexahedronCorners& x, double xi, double eta, double zeta) {
   double J[3][3] = {};

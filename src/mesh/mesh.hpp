@@ -39,7 +39,7 @@ struct Mesh {
   }
 };
 
-/// Mirrors a mesh at the plane y = 0. Elements stay right-handed and faces look outwards: an element's first four
+/// Mirrors a mesh in the plane y = 0. Elements stay right-handed and faces look outwards: an element's first four
 /// corners become its last. Sets keep their names.
 inline void mirror(Mesh& mesh) {
   for (Vec3& x : mesh.nodes) x[1] = -x[1];

@@ -45,10 +45,10 @@ void expect_memory_for_parts(const scene::Scene& scene, double available) {
     total += own;
     if (own > most) most = own, largest = &part;
   }
-  // What is known beforehand is somewhat uncertain: what might just fit is tried.
-  constexpr double certainly = 0.7;
+  // The estimate may be too high, so a scene is refused only if this share of it does not fit.
+  constexpr double certain = 0.7;
   const double bytes = (bytes_of_mesh_element + bytes_of_model_element) * total;
-  if (!largest || certainly * bytes <= available) return;
+  if (!largest || certain * bytes <= available) return;
   throw InputError(
       fmt::format("{}: the meshes of all parts have about {:.2g} elements, which need about {} of memory, but this "
                   "machine has {} left; most of them "

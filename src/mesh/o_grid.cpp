@@ -8,7 +8,6 @@
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 /// How far the core's sides are bulged from straight (0) towards the circle through its corners (1): between, no corner
 /// is as flat as it would be at either.
 constexpr double bulge = 0.4;
@@ -17,7 +16,7 @@ constexpr double core_share = 0.5;  // half diagonal of the core over the radius
 
 double place(int i, int count) { return 2.0 * i / count - 1; }
 
-/// Where the rim's nodes crowd, cells lean over far; smoothing spreads that over the disc.
+/// Cells are strongly sheared where the rim's nodes are close together; smoothing spreads the shear over the disc.
 void smooth(RingDisc& disc) {
   SectionMesh section;
   for (std::size_t n = 0; n < disc.nodes.size(); ++n) {
@@ -44,7 +43,7 @@ RoundPoint on_disc(double u, double v, double radius) {
   const bool along_x = std::fabs(u) >= std::fabs(v);
   const double far = along_x ? u : v, near = along_x ? v : u;
   if (far == 0) return {0, 0};
-  const double angle = pi / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
+  const double angle = M_PI / 4 * near / far, a = radius * far * std::cos(angle), b = radius * far * std::sin(angle);
   return along_x ? RoundPoint{a, b} : RoundPoint{b, a};
 }
 
@@ -66,7 +65,8 @@ std::vector<std::array<int, 2>> core_outline(int along, int up) {
 RingDisc ring_disc(const std::vector<double>& angles, const std::vector<double>& radii) {
   const int rim = static_cast<int>(angles.size()), along = rim / 4, up = rim / 2 - along;
   const auto outline = core_outline(along, up);
-  // Angles on the core's outline, rising as those of the rim do, and how far the core is turned to lie under them.
+  // Angles of the nodes on the core's outline, ascending as those of the rim, and the core's rotation, by which the two
+  // agree on average.
   std::vector<double> own(rim), size(rim);
   double turn = 0;
   for (int k = 0; k < rim; ++k) {
@@ -74,12 +74,12 @@ RingDisc ring_disc(const std::vector<double>& angles, const std::vector<double>&
     own[k] = std::atan2(p[1], p[0]);
     size[k] = std::hypot(p[0], p[1]);
     if (k > 0)
-      while (own[k] < own[k - 1]) own[k] += 2 * pi;
+      while (own[k] < own[k - 1]) own[k] += 2 * M_PI;
     turn += (angles[k] - own[k]) / rim;
   }
-  // About as long as they are wide, half way in.
+  // So many rings that half way in their cells are about as long as wide.
   const double mean = 0.5 * (1 + core_share);
-  const int rings = std::max(2, static_cast<int>(std::lround((1 - 0.9 * core_share) * rim / (2 * pi * mean))));
+  const int rings = std::max(2, static_cast<int>(std::lround((1 - 0.9 * core_share) * rim / (2 * M_PI * mean))));
 
   RingDisc disc;
   disc.rim = rim;

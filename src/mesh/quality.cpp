@@ -17,16 +17,6 @@ double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross
 
 constexpr int edges[12][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
                               {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-// Neighbours of each corner, ordered so that their triple product is positive.
-constexpr int neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                  {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-
-Vec3 centroid(const Mesh& mesh, int element) {
-  Vec3 sum{0, 0, 0};
-  for (int node : mesh.elements[element])
-    for (int i = 0; i < 3; ++i) sum[i] += mesh.nodes[node][i] / 8;
-  return sum;
-}
 
 }  // namespace
 
@@ -37,21 +27,21 @@ MeshQuality mesh_quality(const Mesh& mesh, double dilatational_wave_speed) {
   quality.aspect_ratio.value = 0;
   quality.jacobian_ratio.value = quality.step.value = std::numeric_limits<double>::infinity();
   const auto note = [&](QualityExtreme& extreme, bool worse, double value, int element) {
-    if (worse) extreme = {value, element, centroid(mesh, element)};
+    if (worse) extreme = {value, element, hexahedron_centre(corners_of(mesh.nodes, mesh.elements[element]))};
   };
   for (int e = 0; e < quality.elements; ++e) {
     const HexahedronCorners x = corners_of(mesh.nodes, mesh.elements[e]);
-    const auto at = [&](int corner) { return x[corner]; };
     double shortest = std::numeric_limits<double>::infinity(), longest = 0;
     for (const auto& edge : edges) {
-      const double size = length(difference(at(edge[1]), at(edge[0])));
+      const double size = length(difference(x[edge[1]], x[edge[0]]));
       shortest = std::min(shortest, size);
       longest = std::max(longest, size);
     }
     double least = std::numeric_limits<double>::infinity(), greatest = -least;
     for (int c = 0; c < 8; ++c) {
-      const double jacobian = triple(difference(at(neighbours[c][0]), at(c)), difference(at(neighbours[c][1]), at(c)),
-                                     difference(at(neighbours[c][2]), at(c)));
+      const auto& next = hexahedron_corner_neighbours[c];
+      const double jacobian =
+          triple(difference(x[next[0]], x[c]), difference(x[next[1]], x[c]), difference(x[next[2]], x[c]));
       least = std::min(least, jacobian);
       greatest = std::max(greatest, jacobian);
     }

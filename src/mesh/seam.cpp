@@ -26,15 +26,12 @@ struct LayerFace {
   double area = 0;
 };
 
-/// Over how many times the largest move nodes beside the plane move too: none comes nearer to the next one by more than
-/// a third.
+/// Nodes within this many times the largest displacement of the plane move with it, by linearly less with the distance:
+/// so the distance between two nodes along x shrinks by a third at most.
 constexpr double reach = 3;
 
 Vec3 centre_of(const Mesh& mesh, int element) {
-  Vec3 sum{0, 0, 0};
-  for (int n : mesh.elements[element])
-    for (int i = 0; i < 3; ++i) sum[i] += mesh.nodes[n][i] / 8;
-  return sum;
+  return hexahedron_centre(corners_of(mesh.nodes, mesh.elements[element]));
 }
 
 /// A seam of a case, and z of the mesh's upper surface over its place: its depth is measured from there.
@@ -82,8 +79,7 @@ std::map<long, std::vector<LayerFace>> layers_within(const Crack& crack, const M
       if (!std::all_of(nodes.begin(), nodes.end(), [&](int n) { return std::fabs(mesh.nodes[n][0] - x) < tolerance; }))
         continue;
       LayerFace face;
-      for (int n : nodes)
-        for (int i = 0; i < 3; ++i) face.centre[i] += mesh.nodes[n][i] / 4;
+      face.centre = facet_centre(mesh.nodes, nodes);
       if (!crack.has(face)) continue;
       face.area = 0.5 * length(doubled_area(mesh.nodes, nodes));
       std::sort(nodes.begin(), nodes.end());
@@ -173,7 +169,7 @@ void incline(const scene::Seam& seam, const std::string& place, const std::vecto
   }
 }
 
-/// Nodes of the seam that both sides keep in common: its front within the mesh.
+/// Nodes of the seam that both sides keep in common: the crack front inside the mesh.
 std::set<int> front_of(const Mesh& mesh, const std::vector<LayerFace>& faces) {
   std::map<std::array<int, 2>, int> edges;
   const auto edges_of = [&](const std::array<int, 4>& corner, const auto& visit) {
@@ -182,26 +178,16 @@ std::set<int> front_of(const Mesh& mesh, const std::vector<LayerFace>& faces) {
   };
   for (const LayerFace& face : faces) edges_of(mesh.face_nodes(face.before), [&](auto edge) { ++edges[edge]; });
   // The seam may end on the mesh's outside: there it is open.
-  std::map<std::array<int, 4>, std::pair<int, std::array<int, 4>>> uses;
-  for (int e = 0; e < static_cast<int>(mesh.elements.size()); ++e)
-    for (int side = 0; side < 6; ++side) {
-      const auto corner = mesh.face_nodes({e, side});
-      auto key = corner;
-      std::sort(key.begin(), key.end());
-      auto& use = uses[key];
-      ++use.first;
-      use.second = corner;
-    }
   std::set<std::array<int, 2>> outside;
-  for (const auto& [key, use] : uses)
-    if (use.first == 1) edges_of(use.second, [&](auto edge) { outside.insert(edge); });
+  for (const Face& face : FaceTable(mesh).exterior())
+    edges_of(mesh.face_nodes(face), [&](auto edge) { outside.insert(edge); });
   std::set<int> front;
   for (const auto& [edge, count] : edges)
     if (count == 1 && outside.count(edge) == 0) front.insert(edge.begin(), edge.end());
   return front;
 }
 
-/// Nodes of these faces that the seam opens, each with room for the number of its twin.
+/// Nodes of these faces that the seam opens, as keys; the values become the numbers of their duplicates.
 std::map<int, int> opened_by(const Crack& crack, const std::vector<LayerFace>& faces, const Mesh& mesh) {
   const std::set<int> front = front_of(mesh, faces);
   std::map<int, int> twin;
@@ -216,7 +202,7 @@ std::map<int, int> opened_by(const Crack& crack, const std::vector<LayerFace>& f
   return twin;
 }
 
-/// Gives the elements behind the seam nodes of their own.
+/// Duplicates the opened nodes: the elements behind the seam get the duplicates.
 void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, std::map<int, int> twin, Mesh& mesh) {
   for (auto& [n, own] : twin) {
     own = static_cast<int>(mesh.nodes.size());

@@ -27,13 +27,6 @@ bool shares_at(const Vec3& a, const Vec3& b, const Vec3& c, double x, double y, 
   return share[0] >= -on_the_edge && share[1] >= -on_the_edge && share[2] >= -on_the_edge;
 }
 
-Vec3 centre_of(const Mesh& mesh, const std::array<int, 4>& corners) {
-  Vec3 sum{0, 0, 0};
-  for (int n : corners)
-    for (int i = 0; i < 3; ++i) sum[i] += 0.25 * mesh.nodes[n][i];
-  return sum;
-}
-
 }  // namespace
 
 SurfaceAbove::SurfaceAbove(const Mesh& mesh) : mesh_(mesh) {
@@ -56,10 +49,9 @@ std::optional<SurfaceAbove::Point> SurfaceAbove::over(double x, double y) const 
       constexpr int opposite[6] = {1, 0, 4, 5, 2, 3};
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (int n : corner) low = std::fmin(low, mesh_.nodes[n][1]), high = std::fmax(high, mesh_.nodes[n][1]);
-      top = Point{z,
-                  length(difference(centre_of(mesh_, corner),
-                                    centre_of(mesh_, mesh_.face_nodes({face.element, opposite[face.side]})))),
-                  high - low};
+      const auto beneath = mesh_.face_nodes({face.element, opposite[face.side]});
+      const double height = length(difference(facet_centre(mesh_.nodes, corner), facet_centre(mesh_.nodes, beneath)));
+      top = Point{z, height, high - low};
     }
   }
   return top;

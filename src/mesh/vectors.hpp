@@ -4,7 +4,7 @@
 
 #include "mesh/mesh.hpp"
 
-/// Vectors on the host. For .cpp files: tests have the same as operators.
+/// Vectors on the host. Include it in .cpp files only: tests define the same operations as operators.
 namespace railwave {
 
 inline Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -14,6 +14,14 @@ inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[
 inline double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Mean of a facet's corners, m.
+inline Vec3 facet_centre(const std::vector<Vec3>& nodes, const std::array<int, 4>& corners) {
+  Vec3 centre{0, 0, 0};
+  for (int n : corners)
+    for (int i = 0; i < 3; ++i) centre[i] += nodes[n][i] / 4;
+  return centre;
 }
 
 /// Normal of a facet, twice its area long, m2: the cross product of its diagonals.

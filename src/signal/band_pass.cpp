@@ -40,7 +40,7 @@ std::vector<double> band_passed(const std::vector<double>& values, double interv
   std::vector<double> longer(length);
   std::copy(values.begin(), values.end(), longer.begin() + static_cast<std::ptrdiff_t>(margin));
   for (std::size_t n = 1; n <= margin; ++n) {
-    const double fade = 0.5 * (1 + std::cos(pi * static_cast<double>(n) / static_cast<double>(margin + 1)));
+    const double fade = 0.5 * (1 + std::cos(M_PI * static_cast<double>(n) / static_cast<double>(margin + 1)));
     longer[margin - n] = fade * (2 * values.front() - values[n]);
     longer[margin + count - 1 + n] = fade * (2 * values.back() - values[count - 1 - n]);
   }

@@ -32,7 +32,7 @@ std::vector<Complex> by_convolution(const std::vector<Complex>& values) {
   const std::size_t n = values.size(), length = quick_length(2 * n - 1);
   std::vector<Complex> turn(n), chirped(length), kernel(length);
   for (std::size_t k = 0; k < n; ++k)
-    turn[k] = std::polar(1.0, -pi * static_cast<double>(k * k % (2 * n)) / static_cast<double>(n));
+    turn[k] = std::polar(1.0, -M_PI * static_cast<double>(k * k % (2 * n)) / static_cast<double>(n));
   for (std::size_t k = 0; k < n; ++k) chirped[k] = values[k] * turn[k];
   for (std::size_t k = 0; k < n; ++k) kernel[k] = kernel[(length - k) % length] = std::conj(turn[k]);
   chirped = mixed_radix(chirped, false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <vector>
@@ -8,8 +9,6 @@
 /// inverse has the factor 1/N. A length with a large prime factor takes about six times as long as one of small
 /// factors.
 namespace railwave {
-
-inline constexpr double pi = 3.14159265358979323846;
 
 using Complex = std::complex<double>;
 

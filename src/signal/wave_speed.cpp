@@ -129,7 +129,7 @@ FrequencyWavenumber frequency_wavenumber(const std::vector<std::vector<double>>&
       const double along =
           ((distance[p] - *nearest) / reach * static_cast<double>(probes - 1) + 1) / static_cast<double>(probes + 1);
       turn[i][p] =
-          std::polar(std::pow(std::sin(pi * along), 2), 2 * pi * result.wavenumber[i] * (distance[p] - *nearest));
+          std::polar(std::pow(std::sin(M_PI * along), 2), 2 * M_PI * result.wavenumber[i] * (distance[p] - *nearest));
     }
 
   double largest = 0;

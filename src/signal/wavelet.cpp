@@ -12,7 +12,7 @@
 namespace railwave {
 namespace {
 
-const double norm = std::pow(pi, -0.25);  // of Morlet's wavelet
+const double norm = std::pow(M_PI, -0.25);  // of Morlet's wavelet
 
 /// Integral over u > 0 of exp(-(u - w0)^2 width) / u, but for the few that lie below w0/20, where it is no wavelet any
 /// more.
@@ -30,11 +30,11 @@ double mean_inverse(double w0, double width) {
 
 }  // namespace
 
-double wavelet_period_of_scale(double w0) { return 4 * pi / (w0 + std::sqrt(2 + w0 * w0)); }
+double wavelet_period_of_scale(double w0) { return 4 * M_PI / (w0 + std::sqrt(2 + w0 * w0)); }
 
-double wavelet_reconstruction_factor(double w0) { return std::sqrt(pi / 2) / std::log(2.0) * mean_inverse(w0, 0.5); }
+double wavelet_reconstruction_factor(double w0) { return std::sqrt(M_PI / 2) / std::log(2.0) * mean_inverse(w0, 0.5); }
 
-double wavelet_power_factor(double w0) { return std::sqrt(pi) / std::log(2.0) * mean_inverse(w0, 1); }
+double wavelet_power_factor(double w0) { return std::sqrt(M_PI) / std::log(2.0) * mean_inverse(w0, 1); }
 
 Wavelet wavelet_transform(const std::vector<double>& values, double interval, const WaveletOptions& options) {
   const std::size_t count = values.size();
@@ -67,13 +67,13 @@ Wavelet wavelet_transform(const std::vector<double>& values, double interval, co
   std::vector<Complex> product(length);
   for (int j = 0; j <= octaves; ++j) {
     const double period = std::exp2(j * options.spacing) / highest, scale = period / factor;
-    const double size = std::sqrt(2 * pi * scale / interval) * norm;
+    const double size = std::sqrt(2 * M_PI * scale / interval) * norm;
     for (std::size_t k = 0; k < length; ++k) {
       if (k == 0 || k > length / 2) {
         product[k] = 0;
         continue;
       }
-      const double w = 2 * pi * static_cast<double>(k) / (static_cast<double>(length) * interval),
+      const double w = 2 * M_PI * static_cast<double>(k) / (static_cast<double>(length) * interval),
                    off = scale * w - options.w0;
       product[k] = spectrum[k] * (size * std::exp(-off * off / 2));
     }
@@ -145,7 +145,7 @@ std::vector<double> red_noise_power(const Wavelet& wavelet, double variance, dou
   constexpr double chi_square = 5.991464547107979;  // of 2 degrees of freedom, exceeded with a probability of 5 %
   std::vector<double> level(wavelet.scale.size());
   for (std::size_t j = 0; j < level.size(); ++j) {
-    const double cosine = std::cos(2 * pi * wavelet.interval * wavelet.frequency[j]);
+    const double cosine = std::cos(2 * M_PI * wavelet.interval * wavelet.frequency[j]);
     level[j] = variance * (1 - correlation * correlation) / (1 + correlation * correlation - 2 * correlation * cosine) *
                chi_square / 2;
   }

@@ -16,7 +16,7 @@ namespace {
 double cosines(double share, std::initializer_list<double> factors) {
   double sum = 0, sign = 1, j = 0;
   for (const double a : factors) {
-    sum += sign * a * std::cos(2 * pi * j * share);
+    sum += sign * a * std::cos(2 * M_PI * j * share);
     sign = -sign;
     ++j;
   }
@@ -36,7 +36,7 @@ double value(WindowType type, double share, double parameter) {
       return cosines(share, {0.21557895, 0.41663158, 0.277263158, 0.083578947, 0.006947368});
     case WindowType::tukey: {
       const double from_end = std::min(share, 1 - share);
-      return from_end >= parameter / 2 ? 1 : 0.5 * (1 - std::cos(2 * pi * from_end / parameter));
+      return from_end >= parameter / 2 ? 1 : 0.5 * (1 - std::cos(2 * M_PI * from_end / parameter));
     }
     case WindowType::exponential:
       return std::pow(parameter, share);

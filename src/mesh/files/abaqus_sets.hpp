@@ -28,8 +28,6 @@ class AbaqusSets {
   /// All of another set of the same kind.
   void add_set(const std::string& name, const std::string& other, const FilePlace& place);
 
-  bool has(const std::string& name) const { return sets_.count(name) > 0; }
-
   /// Positions in the set, ascending, without repeats. Throws InputError for what the file doesn't define, and for sets
   /// that contain themselves.
   const std::vector<int>& positions(const std::string& name, const FilePlace& place);

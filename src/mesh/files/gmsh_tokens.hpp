@@ -39,7 +39,7 @@ class GmshTokens {
   std::int32_t raw_integer(const char* what);  ///< 4 bytes, whatever the mode
 
   /// Throws InputError unless `count` things of at least `numbers` numbers (of at least 4 bytes in binary) can still
-  /// follow: no memory is asked for on a broken header's word.
+  /// follow, so that no memory is allocated for the counts of a broken header.
   void expect_numbers(std::int64_t count, std::int64_t numbers, const char* what) const;
 
   [[noreturn]] void fail(const std::string& text) const;

@@ -5,7 +5,7 @@
 
 #include "mesh/mesh.hpp"
 
-/// Readers of mesh files, by format, and the names that sets of theirs may have.
+/// Readers of mesh files, by format, and the names that their sets may have.
 namespace railwave {
 
 /// Reads the mesh of an Abaqus or CalculiX input file, in the file's own unit of length: *NODE; *ELEMENT of type C3D8,
@@ -28,15 +28,14 @@ Mesh read_abaqus_file(const std::string& path, std::vector<std::string>* notes =
 /// Throws InputError "file:line: what, how to mend" ("file: byte N: ..." inside binary data).
 Mesh read_gmsh_file(const std::string& path, std::vector<std::string>* notes = nullptr);
 
-/// A set's name as a case and its results can have it. In place of what separates paths, columns, channels or
-/// attributes there
-/// ('/', '\\', ':', ',', ';', '*', '?', quotes, '<', '>', '&', control characters, bytes that are no UTF-8) stands '_';
-/// blanks at the ends are dropped, a name of nothing or dots alone becomes 'unnamed', and no name has more than 100
-/// bytes.
+/// A set's name in the form that a case and its results allow. Characters that separate paths, columns, channels or
+/// attributes there ('/', '\\', ':', ',', ';', '*', '?', quotes, '<', '>', '&'), control characters and bytes that are
+/// no UTF-8 are replaced by '_'; blanks at the ends are dropped, an empty name or one of dots alone becomes 'unnamed',
+/// and the name is cut to 100 bytes.
 std::string fit_set_name(const std::string& name);
 
-/// Gives all sets of a mesh read from a file such names; `notes`, when given, receives a line for each that was
-/// changed. Throws InputError where two sets would have one name.
+/// Renames all sets of a mesh read from a file by fit_set_name(); `notes`, when given, receives a line for each that
+/// was changed. Throws InputError where two sets would have one name.
 void fit_set_names(Mesh& mesh, const std::string& path, std::vector<std::string>* notes);
 
 }  // namespace railwave

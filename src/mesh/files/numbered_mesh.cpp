@@ -8,30 +8,22 @@
 
 #include "case/error.hpp"
 #include "mesh/face_table.hpp"
+#include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 
 namespace railwave {
 namespace {
 
-// At each corner of a hexahedron the three neighbours, such that their edges make a right-handed triple.
-constexpr int corner_neighbours[8][3] = {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7},
-                                         {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}};
-
-// Volume of a corner's three edges over the product of their lengths: 1 at a right angle, 0 when they lie in a plane or
-// their lengths can't be computed in a double.
-double corner_volume(const Mesh& mesh, const std::array<int, 8>& element, int corner) {
+// Triple product of a corner's edges over the product of their lengths: 1 at a right angle, 0 when they lie in a plane
+// or their lengths can't be computed in a double.
+double corner_volume(const HexahedronCorners& x, int corner) {
   Vec3 edge[3];
   double lengths = 1;
   for (int e = 0; e < 3; ++e) {
-    double square = 0;
-    for (int i = 0; i < 3; ++i) {
-      edge[e][i] = mesh.nodes[element[corner_neighbours[corner][e]]][i] - mesh.nodes[element[corner]][i];
-      square += edge[e][i] * edge[e][i];
-    }
-    lengths *= std::sqrt(square);
+    edge[e] = difference(x[hexahedron_corner_neighbours[corner][e]], x[corner]);
+    lengths *= length(edge[e]);
   }
-  const double volume = edge[0][0] * (edge[1][1] * edge[2][2] - edge[1][2] * edge[2][1]) +
-                        edge[0][1] * (edge[1][2] * edge[2][0] - edge[1][0] * edge[2][2]) +
-                        edge[0][2] * (edge[1][0] * edge[2][1] - edge[1][1] * edge[2][0]);
+  const double volume = dot(edge[0], cross(edge[1], edge[2]));
   return lengths > 0 && std::isfinite(volume / lengths) ? volume / lengths : 0;
 }
 
@@ -152,10 +144,11 @@ void NumberedMesh::check_shapes(const Mesh& mesh) const {
   std::size_t mirrored = 0, bad = 0;
   int bad_corner = 0;
   for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const HexahedronCorners x = corners_of(mesh.nodes, mesh.elements[e]);
     int negative = 0, worst_corner = 0;
     double worst = 2;
     for (int corner = 0; corner < 8; ++corner) {
-      const double volume = corner_volume(mesh, mesh.elements[e], corner);
+      const double volume = corner_volume(x, corner);
       if (volume < -flat) ++negative;
       if (volume < worst) {
         worst = volume;

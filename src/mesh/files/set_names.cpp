@@ -71,7 +71,7 @@ std::string fit_set_name(const std::string& name) {
 }
 
 void fit_set_names(Mesh& mesh, const std::string& path, std::vector<std::string>* notes) {
-  // A surface is a set of its nodes too: what is said of one name is said once.
+  // A surface has a node set of the same name: each note is given once.
   std::vector<std::string> all;
   fit(mesh.node_sets, "set", path, &all);
   fit(mesh.element_sets, "set", path, &all);

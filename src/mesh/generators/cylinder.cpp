@@ -25,8 +25,8 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-/// Nodes and quadrilaterals of the cross-section, counter-clockwise; those of the skin have it between their second and
-/// third corner.
+/// Nodes and quadrilaterals of the cross-section, counter-clockwise; the second and third corners of those at the skin
+/// lie on it.
 struct Disc {
   std::vector<RoundPoint> nodes;
   std::vector<std::array<int, 4>> cells;

@@ -41,7 +41,7 @@ void check(const scene::MeshSource& source) {
   checks.report();
 }
 
-/// Where a line that leads outwards is `y` away from the rail's middle.
+/// Point at the lateral position `y` on a line that leads outwards.
 Point2 on(const Points& line, double y) {
   std::size_t i = 1;
   while (i + 1 < line.size() && line[i].y < y) ++i;
@@ -61,7 +61,7 @@ Points up_to(const Points& line, double outer) {
   return kept;
 }
 
-/// Parts the longest cells until there are `cells`, by points on the line.
+/// Splits the longest cells by points on the line until there are `cells`.
 Points refined(Points kept, const Points& line, std::size_t cells) {
   while (kept.size() < cells + 1) {
     std::size_t longest = 1;

@@ -13,8 +13,6 @@
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 void check(const scene::MeshSource& source) {
   const scene::RingMesh& r = source.ring;
   MeshChecks checks(source);
@@ -35,7 +33,7 @@ Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
   const Grid grid{
       {r.round_divisions, r.width_divisions, r.wall_divisions}, true, {"", "y_min", "outer"}, {"", "y_max", "inner"}};
   return grid_mesh(grid, [&](int i, int j, int k) {
-    const double angle = 2 * pi * i / r.round_divisions, depth = static_cast<double>(k) / r.wall_divisions;
+    const double angle = 2 * M_PI * i / r.round_divisions, depth = static_cast<double>(k) / r.wall_divisions;
     const double radius = (1 - depth) * r.outer_radius + depth * r.inner_radius;
     const double y = r.width * (static_cast<double>(j) / r.width_divisions - 0.5);
     return Vec3{radius * std::sin(angle), y, -radius * std::cos(angle)};

@@ -11,20 +11,18 @@
 
 /// A roller, a whole ring or a sector of one, exact at every node of its tread, which may be crowned. The axle lies
 /// along y through the origin; arcs are measured at the tread from the lowest point, positive towards +x. Cells have
-/// zone_size in the zone under the tread and grow away from it round the roller, along the axle and inwards. A ring has
-/// its centre of mass on the axle; for that its bore lies a little off its circle where cells are wide. Node sets
-/// and surfaces: tread, bore, y_min, y_max; of a sector also arc_min, arc_max; surface zone, the tread over the
-/// solution zone: in a contact the small facets only, for large thin ones cost step. Throws InputError if the
-/// parameters don't fit.
+/// zone_size in the zone under the tread and grow away from it round the roller, along the axle and inwards. The centre
+/// of mass of a ring lies on the axle; to achieve that, nodes of the bore are moved a little off its circle where cells
+/// are wide. Node sets and surfaces: tread, bore, y_min, y_max; of a sector also arc_min, arc_max; surface zone, the
+/// tread over the solution zone, for contacts: it has small facets only, and large thin ones would reduce the stable
+/// time step. Throws InputError if the parameters don't fit.
 namespace railwave {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 void check(const scene::MeshSource& source) {
   const scene::RollerMesh& r = source.roller;
   MeshChecks checks(source);
-  const double around = 2 * pi * r.radius;
+  const double around = 2 * M_PI * r.radius;
   checks.expect(r.radius > 0, "radius", r.radius, "above 0");
   checks.expect(r.bore_radius > 0 && r.bore_radius < r.radius, "bore_radius", r.bore_radius,
                 fmt::format("above 0 and below radius = {:g} m", r.radius));
@@ -62,7 +60,7 @@ void check(const scene::MeshSource& source) {
 /// Round a ring the zone lies between two stretches of equal length.
 GradedLine line_around(const scene::RollerMesh& r) {
   if (!r.ring) return {r.arc_start, r.arc_end, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
-  const double rest = 2 * pi * r.radius - (r.zone_end - r.zone_start);
+  const double rest = 2 * M_PI * r.radius - (r.zone_end - r.zone_start);
   return {
       r.zone_start - rest / 2, r.zone_end + rest / 2, r.zone_start, r.zone_end, r.zone_size, r.growth, r.coarse_size};
 }
@@ -76,11 +74,12 @@ GridLines lines_of(const scene::RollerMesh& r) {
           GradedLine{0, r.radius - r.bore_radius, 0, r.zone_layers * layer, layer, r.growth, r.coarse_size}};
 }
 
-/// Moves the nodes of a ring below its tread, the more the nearer to the bore, so that its centre of mass lies on the
-/// axle and its volume is that of its section turned: wide cells cut chords off the tread, and off the hole.
+/// Moves the nodes of a ring radially, by a share that grows linearly from 0 at the tread to 1 at the bore, so that its
+/// centre of mass lies on the axle and its volume is that of the body of revolution: the chords of wide cells cut
+/// volume off at the tread and add volume at the bore.
 void balance(Mesh& mesh, const std::vector<double>& arc, const std::vector<double>& depth, const scene::RollerMesh& r) {
   std::vector<double> angles;
-  double sines = 0;  // a cell's volume over that of its sector is sin(a) / a
+  double sines = 0;  // volume of a cell of angle a over that of its sector: sin(a) / a
   for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
     angles.push_back(arc[i] / r.radius);
     sines += std::sin((arc[i + 1] - arc[i]) / r.radius);
@@ -92,7 +91,7 @@ void balance(Mesh& mesh, const std::vector<double>& arc, const std::vector<doubl
     motion.share.push_back(depth[n / sheet] / depth.back());
     motion.shape.push_back(radii[n % around] - 1);
   }
-  balance_body(mesh, motion, mesh_volume(mesh) * 2 * pi / sines);
+  balance_body(mesh, motion, mesh_volume(mesh) * 2 * M_PI / sines);
 }
 
 Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {

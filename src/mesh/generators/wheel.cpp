@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
@@ -16,8 +17,6 @@
 namespace railwave {
 
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Levels of coarsening towards the bore.
 int wheel_levels(const scene::WheelMesh& w) { return 9 * w.zone_size <= w.core_size ? 3 : 2; }
@@ -50,16 +49,16 @@ void check_wheel_mesh(const scene::MeshSource& source, const scene::WheelMesh& w
       std::abs(w.web_centre + 0.070 - w.rim_width / 2) <= 0.25 * w.rim_width, "web_centre", w.web_centre,
       fmt::format("the rim's middle {:g} m, give or take {:g} m", w.rim_width / 2 - 0.070, 0.25 * w.rim_width));
   checks.expect(w.hub_width > 0.01 && w.hub_width <= 0.4, "hub_width", w.hub_width, "0.01 to 0.4 m");
-  checks.expect(w.zone_length >= w.zone_size && w.zone_length <= 2 * pi * w.radius, "zone_length", w.zone_length,
-                fmt::format("zone_size to the circumference, {:.4f} m", 2 * pi * w.radius));
-  checks.expect(std::abs(w.zone_start) <= pi * w.radius, "zone_start", w.zone_start,
-                fmt::format("half the circumference, {:.4f} m, to either side", pi * w.radius));
+  checks.expect(w.zone_length >= w.zone_size && w.zone_length <= 2 * M_PI * w.radius, "zone_length", w.zone_length,
+                fmt::format("zone_size to the circumference, {:.4f} m", 2 * M_PI * w.radius));
+  checks.expect(std::abs(w.zone_start) <= M_PI * w.radius, "zone_start", w.zone_start,
+                fmt::format("half the circumference, {:.4f} m, to either side", M_PI * w.radius));
   checks.expect(w.zone_width >= w.zone_size && w.zone_width <= w.rim_width, "zone_width", w.zone_width,
                 "zone_size to rim_width");
   if (w.path_start) {
     const double middle = w.zone_start + w.zone_length / 2;
     checks.path(*w.path_start, *w.path_start + w.path_length, w.zone_start, w.zone_start + w.zone_length,
-                middle - pi * w.radius, middle + pi * w.radius, w.path_size, w.zone_size, w.coarse_size);
+                middle - M_PI * w.radius, middle + M_PI * w.radius, w.path_size, w.zone_size, w.coarse_size);
   }
   checks.grading(w.zone_size, w.growth, w.coarse_size, w.core_size, w.section_size, w.zone_layers, w.web_columns);
   checks.report();
@@ -76,7 +75,7 @@ Stations wheel_stations(const scene::WheelMesh& w) {
                            w.path_start.value_or(w.zone_start),
                            w.path_start ? *w.path_start + w.path_length : w.zone_start,
                            w.path_size};
-  return periodic_stations(around, 2 * pi * w.radius);
+  return periodic_stations(around, 2 * M_PI * w.radius);
 }
 
 WheelBody wheel_body(const scene::MeshSource& source, const scene::WheelMesh& w) {

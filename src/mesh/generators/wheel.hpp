@@ -14,8 +14,8 @@ namespace railwave {
 /// in the plane y = 0, the flange towards -y. Angle 0 is the lowest point, arcs are positive towards +x. Node sets bore
 /// and centre_section (the lower half's plane x = 0, when a layer lies there); surfaces tread (contact band over the
 /// zone and a margin) and running_surface; element set zone. Its centre of mass lies on the axle (see
-/// balance_wheel): nodes of the running surface are exact, those of the bore up to a^2 / 12 of its radius outside
-/// it, a the angle of a cell there. Throws InputError if the parameters don't fit.
+/// balance_wheel): nodes of the running surface are exact, nodes of the bore lie outside its circle by up to a^2 / 12
+/// of its radius, where a is the angle of a cell. Throws InputError if the parameters don't fit.
 Mesh wheel_mesh(const scene::MeshSource& source);
 
 /// A wheel with what an axle needs to go on from its bore.
@@ -42,9 +42,9 @@ double wheel_fine_size(const scene::WheelMesh& wheel);
 /// Layers round a wheel; those of the last level reach the bore.
 Stations wheel_stations(const scene::WheelMesh& wheel);
 
-/// Moves a turned wheel's nodes from and towards the axle so that the mesh has its centre of mass on the axle and the
-/// volume of its section turned about it, whatever the widths of its cells. The running surface and all else down to
-/// the first change of level stay where they are: there the wheel is true.
+/// Moves the nodes of an extruded wheel radially so that the mesh has its centre of mass on the axle and the volume of
+/// its section turned about the axle, whatever the widths of its cells. The running surface stays exact, because all
+/// nodes down to the first transition to coarser cells keep their places.
 void balance_wheel(Extrusion& extrusion, const SectionMesh& section, const Stations& stations,
                    const scene::WheelMesh& wheel);
 

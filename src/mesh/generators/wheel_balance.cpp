@@ -8,16 +8,14 @@
 namespace railwave {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 double from_axle(const Vec3& x) { return std::hypot(x[0], x[2]); }
 
-/// How far a radius is on its way inwards from `begin` to `end`, 0 to 1.
-double way_inwards(double radius, double begin, double end) {
+/// Linear ramp inwards along the radius: 0 at `begin` and outside of it, 1 at `end` and inside of it.
+double inward_ramp(double radius, double begin, double end) {
   return std::clamp((begin - radius) / (begin - std::min(end, 0.999 * begin)), 0.0, 1.0);
 }
 
-/// Balanced radii of a level's circle by station, less 1; 0 at stations that the level lacks.
+/// Radii, less 1, that balance the circles of a coarsening level, by station; 0 at stations without nodes of the level.
 std::vector<double> level_growth(const Stations& stations, int level, double radius) {
   const auto& kept = stations.levels[level];
   std::vector<double> angles, growth(stations.position.size(), 0);
@@ -27,7 +25,7 @@ std::vector<double> level_growth(const Stations& stations, int level, double rad
   return growth;
 }
 
-/// Where a level's own circles may begin, m: inside of all nodes of finer ones.
+/// Radius inside of which no node belongs to a finer level than this one, m.
 double begin_of_level(const Extrusion& extrusion, const SectionMesh& section, const Stations& stations, int level) {
   const auto& kept = stations.levels[level];
   double least = 1e300;
@@ -49,15 +47,16 @@ double turned_volume(const SectionMesh& section) {
                    c = section.position(quad.nodes[i + 1]);
       moment += cross(b - a, c - a) / 2 * (a.z + b.z + c.z) / 3;
     }
-  return 2 * pi * std::fabs(moment);
+  return 2 * M_PI * std::fabs(moment);
 }
 
 }  // namespace
 
 void balance_wheel(Extrusion& extrusion, const SectionMesh& section, const Stations& stations,
                    const scene::WheelMesh& wheel) {
-  // Each level's circles are balanced for themselves; rim and web have nearly plane sides, so that there the radii may
-  // go over gradually from those of one level to the next: that keeps the cells' shape.
+  // The circles of each level get the radii that balance them alone. Within rim and web the radii change linearly from
+  // those of one level to those of the next, which keeps the shape of the cells; it keeps the shape of the wheel too,
+  // because rim and web have nearly plane sides.
   const double ends[] = {0, wheel.rim_inner_radius, wheel.web_inner_radius};
   const auto tread_lacks = level_growth(stations, 0, wheel.radius);
   const double rim_begin = begin_of_level(extrusion, section, stations, 1);
@@ -69,17 +68,18 @@ void balance_wheel(Extrusion& extrusion, const SectionMesh& section, const Stati
     const auto own = level_growth(stations, level, wheel.radius);
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const int station = extrusion.station[n];
-      const double way = way_inwards(from_axle(nodes[n]), begin, ends[level]);
-      if (way > 0) growth[n] += way * (own[station] - outer[station]);
+      const double ramp = inward_ramp(from_axle(nodes[n]), begin, ends[level]);
+      if (ramp > 0) growth[n] += ramp * (own[station] - outer[station]);
     }
     outer = own;
   }
-  // The tread's chords stay; what they lack is put on the rim's inner side, at the same places.
+  // Nodes of the tread stay on their circles. The volume that its chords cut off is added at the inner side of the rim,
+  // at the same angles.
   RadialMotion motion;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const double radius = from_axle(nodes[n]);
-    motion.share.push_back(way_inwards(radius, rim_begin, wheel.rim_inner_radius) *
-                           (1 - way_inwards(radius, wheel.web_outer_radius, wheel.web_inner_radius)));
+    motion.share.push_back(inward_ramp(radius, rim_begin, wheel.rim_inner_radius) *
+                           (1 - inward_ramp(radius, wheel.web_outer_radius, wheel.web_inner_radius)));
     motion.shape.push_back(tread_lacks[extrusion.station[n]]);
   }
   for (std::size_t n = 0; n < nodes.size(); ++n) {

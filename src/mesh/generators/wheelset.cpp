@@ -97,9 +97,8 @@ std::vector<std::vector<int>> bore_nodes(const WheelBody& body) {
 void add_axle(const scene::WheelsetMesh& w, const WheelBody& body, Mesh& mesh) {
   // Angles of the wheel rise from the lowest point towards +x; in the plane of x and z that is counter-clockwise from
   // -90 degrees.
-  constexpr double quarter = 1.57079632679489661923;
   std::vector<double> angles = body.bore_angles;
-  for (double& angle : angles) angle -= quarter;
+  for (double& angle : angles) angle -= M_PI / 2;
   const auto bore = bore_nodes(body);
   std::vector<double> radii;
   for (int n : bore[0]) radii.push_back(std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]) / w.bore_radius);

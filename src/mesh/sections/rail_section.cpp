@@ -142,16 +142,14 @@ class RailSectionBuilder {
       const int outside = side == 0 ? top.front() : top.back(), inside = side == 0 ? inner.front() : inner.back();
       diagonal[side] = straight_line(section_, outside, inside, row_fractions(rows_));
       // Side columns, from the diagonal downwards.
-      std::vector<int> outer{outside}, core{inside};
+      std::vector<int> outer{outside};
       for (int i = 1; i < side_columns; ++i) {
         const double f = static_cast<double>(i) / side_columns, corner = core_corner_arc_[side];
         const double arc = side == 0 ? corner * (1 - f) : corner + (head_.length - corner) * f;
         outer.push_back(section_.add_fixed_node(head_.at(arc)));
       }
       outer.push_back(ring_end_[side].front());
-      auto fractions = row_fractions(core_rows_);
-      core = straight_line(section_, inside, ring_end_[side].back(), fractions);
-      core_side_[side] = core;
+      core_side_[side] = straight_line(section_, inside, ring_end_[side].back(), row_fractions(core_rows_));
       outer_[side] = outer;
     }
     std::reverse(outer_[0].begin(), outer_[0].end());

@@ -20,11 +20,11 @@ struct RailSectionPlan {
   bool lower_transition = false;  ///< a second longitudinal transition, in the web
 };
 
-/// Quads of a rail's section before inclination: a ring of layers follows the running surface from one lower corner of
-/// the head to the other (zone layers, then the longitudinal transition), round a core; then web and foot.
 /// The three sides of a fishing chamber, from the head to the foot: each a line NAME_left (towards -y) and NAME_right.
 inline constexpr const char* fishing_lines[3] = {"underside", "web", "foot_top"};
 
+/// Quads of a rail's section before inclination: a ring of layers follows the running surface from one lower corner of
+/// the head to the other (zone layers, then the longitudinal transition), round a core; then web and foot.
 /// Edges head (contact band and a margin of two columns) and running_surface; node set foot; lines of `fishing_lines`.
 /// Levels 0 to 1, or 2 with the lower transition. Throws std::invalid_argument with a sentence when the plan does not
 /// fit the section.

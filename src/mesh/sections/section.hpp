@@ -93,20 +93,15 @@ inline constexpr double transition_depth = 0.54;
 inline constexpr double transition_inset = 0.1;
 inline constexpr double transition_height = 2.4;
 
-struct SmoothingResult {
-  int sweeps = 0;
-  double worst_corner = 0;  ///< smallest corner Jacobian over that of the ideal corner (1 is ideal, < 0 inverted)
-};
-
 /// Moves the free nodes of a section, and those on curves along their curve, so that each quad comes close to its ideal
 /// shape and size: minimises the sum over quad corners of |T|^2 / (2 det T) - 1 + (det T + 1 / det T - 2) / 2, where T
 /// maps the ideal corner onto the present one (target-matrix optimisation, Knupp 2012). The determinant is regularised
 /// while quads are inverted, so that the start may be tangled. Fixed nodes stay.
-SmoothingResult smooth_section(SectionMesh& section, int max_sweeps = 400);
+void smooth_section(SectionMesh& section);
 
-/// Shifts boundary nodes along their normals so that the section's polygon encloses as much as the outline which its
-/// nodes lie on: each edge's area between chord and outline is shared by its two ends. Chords would otherwise cut area
-/// and bending stiffness off every rounding. `outline` is closed, counter-clockwise and finely sampled;
+/// Shifts boundary nodes along their normals so that the section's polygon has the area of the outline on which its
+/// nodes lie: each edge's area between chord and outline is shared by its two ends. Otherwise chords would reduce area
+/// and bending stiffness at every rounding. `outline` is closed, counter-clockwise and finely sampled;
 /// `kept[n]` tells which nodes have to stay on it.
 void match_outline_area(SectionMesh& section, const std::vector<Point2>& outline, const std::vector<char>& kept);
 

@@ -5,7 +5,7 @@
 namespace railwave {
 
 SectionProperties section_properties(const Mesh& mesh, const std::vector<Face>& faces) {
-  // Green's theorem edge by edge; the sign of a face's turn drops out by using the whole's.
+  // Green's theorem, edge by edge. All faces run the same way round; the sign of the total area tells which.
   double area = 0, first_y = 0, first_z = 0, yy = 0, zz = 0, yz = 0;
   for (const Face& face : faces) {
     const auto nodes = mesh.face_nodes(face);

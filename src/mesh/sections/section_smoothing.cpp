@@ -35,6 +35,7 @@ class Smoother {
     }
   }
 
+  /// Smallest corner Jacobian over that of the ideal corner: 1 is ideal, below 0 inverted.
   double worst() const {
     double least = 1e300;
     for (const Corner& corner : corners_) least = std::min(least, determinant(map(corner)));
@@ -145,17 +146,15 @@ class Smoother {
 
 }  // namespace
 
-SmoothingResult smooth_section(SectionMesh& section, int max_sweeps) {
+void smooth_section(SectionMesh& section) {
+  constexpr int most_sweeps = 400;
   Smoother smoother(section);
-  SmoothingResult result;
-  for (; result.sweeps < max_sweeps; ++result.sweeps) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     const double worst = smoother.worst();
     smoother.regularise(worst > 0.02 ? 0 : std::max(0.02, 0.1 * std::abs(worst)));
     const double moved = smoother.sweep();
     if (moved < 1e-3 && worst > 0.02) break;
   }
-  result.worst_corner = smoother.worst();
-  return result;
 }
 
 }  // namespace railwave

@@ -48,13 +48,9 @@ class WheelSectionBuilder {
   double layer_depth() const { return size() * (wheel_.zone_layers + transition_height); }
 
   void plan_columns() {
-    double low = 0, high = surface_.length;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = (low + high) / 2;
-      (surface_.at(middle).y < wheel_.zone_centre ? low : high) = middle;
-    }
+    const double centre = arc_at(wheel_.zone_centre);
     const int zone = zone_columns(wheel_.zone_width, size());
-    const double first = low - zone * size() / 2, last = low + zone * size() / 2;
+    const double first = centre - zone * size() / 2, last = centre + zone * size() / 2;
     if (first < -1e-9 || last > surface_.length + 1e-9)
       throw std::invalid_argument(
           fmt::format("the contact band of zone_width = {:g} m about zone_centre = {:g} m does not lie on the running "
@@ -131,6 +127,7 @@ class WheelSectionBuilder {
     return chamfer_ + std::max(level - chamfer_ / std::sqrt(2.0), size());
   }
 
+  /// Arc length on the running surface at a lateral position.
   double arc_at(double y) const {
     double low = 0, high = surface_.length;
     for (int i = 0; i < 60; ++i) {
@@ -186,8 +183,7 @@ class WheelSectionBuilder {
 
   /// How many of the rim's columns lie inside of the web, so that the web's columns start nearest below their own.
   int wing_columns(const std::vector<double>& widths, int web) const {
-    std::vector<int> lines{0};  // surface column boundaries that all merges keep
-    std::vector<int> kept(columns_.boundaries.size());
+    std::vector<int> kept(columns_.boundaries.size());  // surface column boundaries that all merges keep
     for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = static_cast<int>(i);
     for (const auto& groups : merges_) {
       std::vector<int> next{kept[0]};

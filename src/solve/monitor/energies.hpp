@@ -1,0 +1,30 @@
+#pragma once
+
+#include "kernels/support/reductions.hpp"
+#include "model/assembly.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/elements/element_model.hpp"
+#include "solve/observer.hpp"
+
+/// What each module gives to the account at the present instant: all of it is added when the sums are fetched.
+namespace railwave {
+
+/// Elastic energy and plastic work of the elements, what their hourglass control stores or dissipates, and what their
+/// damping has dissipated.
+/// @param by_part whether share_out_energies() follows
+void queue_element_energies(const ElementModel& model, const NodeArrays& nodes, EnergyAccount& energy, bool by_part,
+                            Reductions& sums);
+
+/// Shares out the groups' energies, fetched, among the parts of the assembly.
+void share_out_energies(const Assembly& assembly, const std::vector<ElementGroup>& groups,
+                        std::vector<PartEnergy>& by_part);  // element_energies.cpp
+
+void queue_contact_energies(const std::vector<ContactPair>& contacts, EnergyAccount& energy, Reductions& sums);
+
+/// Forces of a pair and its nodes in contact; of a symmetric contact, those of one of its halves.
+void queue_pair_totals(const NodalState& nodal, const ContactPair& pair, ContactTotals& totals, Reductions& sums);
+
+/// Adds the other half of a symmetric contact, which has the surfaces exchanged.
+void add_other_half(ContactTotals& totals, const ContactTotals& other);  // contact_energies.cpp
+
+}  // namespace railwave

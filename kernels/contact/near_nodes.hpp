@@ -4,19 +4,20 @@
 
 namespace railwave {
 
-/// Finds which slave nodes of the window can touch before the next check, at times many steps apart; and brings the
-/// gaps and tracked segments of those near, and at times of all, up to date. A node is far when its distance from the
-/// master is larger than what both can move until then: their present speeds and a quarter more, and `sudden` for what
-/// waves and loads can add.
+/// Sorts the slave nodes of the window into near and far; the next check may be many steps later. Each step until then
+/// projects the near nodes only. A node is far when its distance from the master is larger than the distance that both
+/// can move until the next check: 1.25 times their present speeds times the interval, plus `sudden` for what waves and
+/// loads can add. Of nodes that do not touch, those near a segment's box, or all if `thorough`, are projected here;
+/// that renews their tracked segment and, outside the body, their gap.
 struct FindNearNodes {
   ContactSearch search;
   ContactWindow window;
   Array<const double* [3]> velocity;
   double interval;     ///< s until the next check
   double sudden;       ///< m
-  bool first;          ///< no check was before: all that penetrates does so from the beginning
-  bool thorough;       ///< far nodes are located too
-  Array<int*> missed;  ///< one: nodes found penetrating that the check before had called far
+  bool first;          ///< no earlier check counts: nodes that penetrate do so from the start, and keep their gap
+  bool thorough;       ///< nodes far from all boxes are projected too
+  Array<int*> missed;  ///< one value: nodes that came through the surface although the check before found them far
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const ContactArrays& contact = search.contact;
@@ -43,14 +44,15 @@ struct FindNearNodes {
       } else if (first) {
         contact.gap(s) = found.gap;
       } else if (!was_near) {
-        // Nothing has been checked for as long as an interval. Nodes that were near are judged when they touch.
+        // The node was far, so no step has projected it since the last check: its depth must show whether it came
+        // through the surface. FirstTouch judges nodes that were near, in the step in which they touch.
         const bool through = -found.gap <= far;
         contact.gap(s) = through ? found.gap : turned_away;
         if (through) Kokkos::atomic_add(&missed(0), 1);
       }
       const double tolerance =
           ContactSearch::outside_tolerance * norm(search.diagonal(search.contact.surface(found.segment)));
-      // A NaN is near.
+      // The comparison is false for NaN, so such a node stays near.
       if (!penetrating && norm(found.offset) > far + tolerance)
         entry.near = 0;
       else if (search.several_sheets(slave, found, norm(found.offset) + 2 * far))
@@ -60,7 +62,7 @@ struct FindNearNodes {
     if (entry.near != 0) window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
   }
 
-  /// How far slave and segment can move until the next check, m.
+  /// Distance that slave node and segment together can move until the next check, m.
   KOKKOS_INLINE_FUNCTION double reach(int node, int segment) const {
     const Segment master = search.contact.surface(segment);
     double speed = 0;

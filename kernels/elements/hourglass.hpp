@@ -2,11 +2,11 @@
 
 #include "kernels/elements/element_modes.hpp"
 
-/// Orthogonal hourglass control of Flanagan and Belytschko 1981 (thesis 2.5, eqs. 2.22, with 2.22b as TARGETS mends
-/// it). The hourglass shape vectors gamma_M^N = Gamma_M^N - (1/V) B_j^N (sum_K x_j^K Gamma_M^K) are taken in the
-/// present configuration, so the forces have no resultant, no moment, and do nothing under linear velocity fields. A
-/// nodal field's hourglass content along gamma_M is its hourglass mode less what its mean gradient makes of the
-/// coordinates': u_M - L_j x_jM.
+/// Orthogonal hourglass control of Flanagan and Belytschko 1981 (thesis 2.5, eqs. 2.22; 2.22b prints velocities where
+/// the coordinates x belong). The hourglass shape vectors gamma_M^N = Gamma_M^N - (1/V) B_j^N (sum_K x_j^K Gamma_M^K)
+/// are taken in the present configuration, so the forces have no resultant, no moment, and do nothing under linear
+/// velocity fields. A nodal field's hourglass content along gamma_M is its hourglass mode less what its mean gradient
+/// makes of the coordinates': u_M - L_j x_jM.
 namespace railwave {
 
 template <class T>

@@ -27,6 +27,13 @@ std::string rounded_count(double count) {
   return count >= 1e4 ? fmt::format("{:.3g} thousand", 1e-3 * count) : fmt::format("{:.0f}", count);
 }
 
+template <class Map>
+std::vector<std::string> names_of(const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  return names;
+}
+
 /// The part of a mesh that one element set covers, with a numbering of its own.
 Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
   Mesh result;
@@ -56,8 +63,7 @@ Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
 }
 
 Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std::string>& notes) {
-  const auto source = std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                                   [&](const auto& candidate) { return candidate.name == part.mesh; });
+  const scene::MeshSource* source = find_entry(scene.meshes, part.mesh);
   const Activity making(fmt::format("{} the mesh of part {}, about {} elements",
                                     source->type == scene::MeshType::file ? "reading" : "making", part.name,
                                     rounded_count(expected_elements(*source))));
@@ -71,11 +77,8 @@ Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
   if (part.element_set.empty()) return mesh;
   const auto set = mesh.element_sets.find(part.element_set);
-  if (set == mesh.element_sets.end()) {
-    std::vector<std::string> names;
-    for (const auto& entry : mesh.element_sets) names.push_back(entry.first);
-    throw InputError(unknown_set(scene, part, "element_set", part.element_set, names));
-  }
+  if (set == mesh.element_sets.end())
+    throw InputError(unknown_set(scene, part, "element_set", part.element_set, names_of(mesh.element_sets)));
   return submesh(mesh, set->second);
 }
 
@@ -100,11 +103,7 @@ void append(Assembly& assembly, const Mesh& mesh, const std::string& part) {
     for (const Face& face : faces) surface.push_back({first_element + face.element, face.side});
     // A surface's nodes are a node set too, unless the mesh has one of that name.
     auto& nodes = assembly.node_sets[part + "." + name];
-    if (!nodes.empty()) continue;
-    for (const Face& face : surface)
-      for (int n : assembly.face_nodes(face)) nodes.push_back(n);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (nodes.empty()) nodes = surface_nodes(assembly, surface);
   }
 }
 
@@ -142,7 +141,7 @@ void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembl
                     "turn the direction, or place the part so that the surfaces face each other",
                     scene.path, contact.line, contact.name, direction[0], direction[1], direction[2], contact.slave,
                     contact.master.text()));
-  const std::string part = contact.slave.substr(0, contact.slave.find('.'));
+  const std::string part = part_of_name(contact.slave);
   for (int n : assembly.node_sets.at(part))
     for (int i = 0; i < 3; ++i) assembly.nodes[n][i] += nearest * direction[i];
   for (Assembly::PartRange& range : assembly.parts)
@@ -162,13 +161,6 @@ void turn_parts(const scene::Scene& scene, Assembly& assembly) {
   }
 }
 
-template <class Map>
-std::vector<std::string> names_of(const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return names;
-}
-
 }  // namespace
 
 Vec3 turned_with(const scene::Part& part, const Vec3& v) {
@@ -177,7 +169,7 @@ Vec3 turned_with(const scene::Part& part, const Vec3& v) {
 }
 
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v) {
-  const std::string own = name.substr(0, name.find('.'));
+  const std::string own = part_of_name(name);
   for (const scene::Part& part : scene.parts)
     if (part.name == own) return turned_with(part, v);
   return v;
@@ -238,6 +230,8 @@ int part_of_node(const Assembly& assembly, int node) {
   return -1;
 }
 
+std::string part_of_name(const std::string& name) { return name.substr(0, name.find('.')); }
+
 std::string place_text(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", x[0], x[1], x[2]); }
 
 std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>& surface) {
@@ -276,10 +270,7 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
     range.node_count = static_cast<int>(mesh.nodes.size());
     range.first_element = static_cast<int>(assembly.elements.size());
     range.element_count = static_cast<int>(mesh.elements.size());
-    range.material =
-        static_cast<int>(std::find_if(scene.materials.begin(), scene.materials.end(),
-                                      [&](const auto& material) { return material.name == part.material; }) -
-                         scene.materials.begin());
+    range.material = static_cast<int>(find_entry(scene.materials, part.material) - scene.materials.data());
     assembly.parts.push_back(range);
     append(assembly, mesh, part.name);
   }

@@ -65,6 +65,9 @@ std::vector<Face> master_faces(const scene::Scene& scene, const Assembly& assemb
 Vec3 turned_with(const scene::Part& part, const Vec3& v);
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v);
 
+/// The part of a name `part` or `part.set`.
+std::string part_of_name(const std::string& name);
+
 /// "(x, y, z) m".
 std::string place_text(const Vec3& x);
 
@@ -75,7 +78,7 @@ std::vector<int> surface_nodes(const Assembly& assembly, const std::vector<Face>
 int part_of_element(const Assembly& assembly, int element);
 int part_of_node(const Assembly& assembly, int node);
 
-/// The complaint about a set that does not exist.
+/// Message that a set does not exist, with the nearest of the known names.
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,
                         const std::string& name, const std::vector<std::string>& known);
 

@@ -1,11 +1,25 @@
 #pragma once
 
-#include "model/model.hpp"
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "model/assembled_scene.hpp"
+#include "model/boundaries/absorbing_boundaries.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
+#include "model/boundaries/ties.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/elements/element_model.hpp"
+#include "model/loads/load_model.hpp"
+#include "model/nodal_state.hpp"
 
 /// The steps of build_model, each in a file of its own.
 namespace railwave {
 
-/// solver_support.cpp: InputError for [solver] wishes that no code honours
+struct BeamModel;
+struct Model;
+
+/// solver_support.cpp: InputError for [solver] settings that the time loop does not support
 void refuse_unknown_methods(const scene::Scene& scene);
 /// model_memory.cpp: InputError when the arrays of a model of these parts can't fit where the steps are computed, on
 /// the host or a GPU
@@ -25,7 +39,7 @@ void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGr
 void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);
 /// loads.cpp: loads, connectors, moments on beams, node sets
 Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads);
-/// external_forces.cpp: the nodes that feel other forces than elements', and whose these are
+/// external_forces.cpp: rows of the nodes on which other forces than elements' act, and the contributions to each
 void build_external_forces(const Assembly& assembly, const Contributions& contributions,
                            std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);
 /// prescribed_nodes.cpp: sets of nodes that move as rigid motions say
@@ -39,11 +53,12 @@ void build_non_reflecting(const AssembledScene& assembled, const std::vector<Con
 void build_element_histories(const AssembledScene& assembled, ElementModel& elements);
 /// contact_pairs.cpp: surfaces, stiffnesses, and what is beyond their sides
 void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts);
-/// contradictions.cpp: InputError for entries that cannot all hold
+/// contradictions.cpp: InputError for entries that contradict each other
 void refuse_contradictions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts);
 /// rolling.cpp: angular velocities of initial motions that roll
 void resolve_rolling(AssembledScene& assembled);
-/// stable_step.cpp: the stable step by each estimate, which may ask what all of the model does together
+/// stable_step.cpp: the stable step by each estimate, which may need the frequency of the whole model. plan_steps then
+/// sets the size and number of steps
 void build_stable_step(Model& model);
 /// subcycling.cpp: levels of nodes
 void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);

@@ -7,6 +7,7 @@
 
 #include "kernels/contact/contact_force.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/contact/contact_law.hpp"
 #include "model/contact/contact_pair.hpp"
@@ -37,8 +38,6 @@ struct FetchNodes {
   }
 };
 
-using Rows = Array<double* [3]>::HostMirror;
-
 /// Areas and unit normals at the nodes of one side, from its facets as they lie now.
 void surface_geometry(ContactSide& side) {
   const std::size_t count = side.nodes.size();
@@ -50,8 +49,7 @@ void surface_geometry(ContactSide& side) {
   for (const auto& facet : side.facets) {
     const Vec3 a = point(facet[0]), b = point(facet[1]), c = point(facet[2]), d = point(facet[3]);
     const double area = facet_area(a, b, c, d);
-    const Vec3 p{c[0] - a[0], c[1] - a[1], c[2] - a[2]}, q{d[0] - b[0], d[1] - b[1], d[2] - b[2]};
-    const Vec3 normal{p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+    const Vec3 normal = cross(difference(c, a), difference(d, b));
     for (int k : facet) {
       side.area[k] += 0.25 * area;
       for (int i = 0; i < 3; ++i) side.normal[3 * k + i] += normal[i];
@@ -144,7 +142,7 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
   return {1, to_vector(result)};
 }
 
-/// Gaps of all nodes in the window; those far from the master are not followed at each step.
+/// Present gap of the far nodes in the window: a step projects the near ones only.
 struct PresentGap {
   ContactSearch search;
   ContactWindow window;
@@ -169,7 +167,7 @@ Array<double*>::HostMirror present_gaps(const NodeArrays& nodes, const ContactPa
   return to_host(gap);
 }
 
-/// What a pair's slaves do now, on the host.
+/// Present contact state of a pair's slave nodes, on the host.
 struct SlavesNow {
   Array<double*[3]>::HostMirror normal, tangential;
   Array<double* [2]>::HostMirror place;
@@ -185,7 +183,7 @@ struct SlavesNow {
   double share(int s, int corner) const { return segment_shape(corner, place(s, 0), place(s, 1)); }
 };
 
-/// What curved segments hand on to the master's nodes, by these.
+/// Shares of the master's nodes in a force on the slaves, where segments are curved.
 struct CurvedShares {
   ContactSearch search;
   ExternalForceSum sum;
@@ -201,7 +199,7 @@ struct CurvedShares {
   }
 };
 
-/// Springs on curved segments are felt by nodes around the segment too, see SmoothNormals::reaction.
+/// A contact spring on a curved segment also loads nodes around the segment, see SmoothNormals::reaction.
 bool curved(const ContactPair& pair) {
   return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs();
 }
@@ -252,7 +250,7 @@ HostField own_node_field(const NodalState& nodal, NodeField field, const std::ve
   return {3, to_vector(result)};
 }
 
-/// Tied nodes have no acceleration of their own but that of the face they lie on.
+/// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.
 void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes,
                     std::vector<double>& values) {
   std::vector<int> place_of(nodal.nodes.count, -1), masters;
@@ -272,7 +270,7 @@ void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, 
   }
 }
 
-/// Velocity of a slave over its segment, in the plane across the force that presses it.
+/// Slip velocity of a slave node over its segment: relative velocity in the plane normal to its normal force.
 Vec3 slip_velocity(const ContactPair& pair, const SlavesNow& now, const ContactState& state, int s) {
   Vec3 slip{};
   double along = 0, squared = 0;

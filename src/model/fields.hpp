@@ -41,7 +41,7 @@ HostField element_stress(const ElementModel& elements, const NodeArrays& nodes, 
 /// Equivalent plastic strain at the present instant of the elements wanted; zero in elastic parts. One component.
 HostField element_plastic_strain(const ElementModel& elements, const std::vector<int>& wanted);
 
-/// What one contact pair does at the present instant: one entry for every node of the slave surface and of the master
+/// State of one contact pair at the present instant: one entry for every node of the slave surface and of the master
 /// surface (not only those that touch). Vectors have three components, global axes. Forces of a symmetric contact are
 /// those of both its halves; gap, slip velocity and whether a node slips are those of the slave's nodes against the
 /// master's faces.

@@ -1,8 +1,5 @@
 #include "model/model.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "case/activity.hpp"
 #include "model/beams/beams.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "kernels/nodes/nodes.hpp"
 #include "kernels/support/reduction_space.hpp"

@@ -43,7 +43,8 @@ void build_gather(const std::vector<ElementGroup>& groups, NodeArrays& nodes) {
   nodes.partial_place = to_device("partial forces of nodes", place);
 }
 
-/// A node of one block only, on which nothing else acts, is advanced by its block; the others are listed.
+/// The kernel of a block advances nodes that belong to this block only and on which nothing else acts. All others are
+/// listed as shared nodes.
 void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal) {
   const auto first = to_host(nodal.nodes.first_partial);
   const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
@@ -61,7 +62,8 @@ void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal)
   }
   for (const ElementGroup& group : groups) {
     const auto nodes = to_host(group.blocks.node);
-    // The rows' fill carries the bit too; the kernels read no further than a block's nodes when they advance.
+    // What fills up a row repeats its first node, and so may carry the bit too. When kernels advance nodes, they read
+    // no further than the block's nodes.
     for (std::size_t k = 0; k < nodes.extent(0); ++k)
       if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
     Kokkos::deep_copy(group.blocks.node, nodes);
@@ -78,9 +80,8 @@ void build_node_arrays(const AssembledScene& assembled, const std::vector<Elemen
   nodes.count = static_cast<int>(assembly.nodes.size());
   for (int n = 0; n < nodes.count; ++n)
     if (!(assembled.mass[n] > 0))
-      throw InputError(fmt::format(
-          "{}: node at ({:.6g}, {:.6g}, {:.6g}) m belongs to no element and has no mass; remove it from the mesh",
-          assembled.scene.path, assembly.nodes[n][0], assembly.nodes[n][1], assembly.nodes[n][2]));
+      throw InputError(fmt::format("{}: node at {} belongs to no element and has no mass; remove it from the mesh",
+                                   assembled.scene.path, place_text(assembly.nodes[n])));
   nodes.reference = to_device("reference", assembly.nodes);
   nodes.position = unset_array<double* [3]>("position", nodes.count);
   nodes.velocity = unset_array<double* [3]>("velocity", nodes.count);

@@ -1,12 +1,10 @@
-
 #include <stdexcept>
 #include <string>
 
 #include "model/boundaries/ties.hpp"
 #include "model/elements/element_model.hpp"
-#include "model/nodal_state.hpp"
-
 #include "model/fields.hpp"
+#include "model/nodal_state.hpp"
 
 namespace railwave {
 namespace {

@@ -33,11 +33,6 @@ Division divide(double end, double interval) {
   return {count, end / static_cast<double>(count), false};
 }
 
-/// Steps in the whole number of cycles nearest to an interval, at least one cycle.
-long whole_cycles(double interval, double step, long cycle) {
-  return std::max(1L, std::lround(interval / (static_cast<double>(cycle) * step))) * cycle;
-}
-
 /// The least multiple of `unit` that is at least `least`.
 long up_to_multiple(double least, long unit) {
   return std::max(1L, static_cast<long>(std::ceil(least / static_cast<double>(unit) - rounding))) * unit;
@@ -50,6 +45,10 @@ long common_multiple(long a, long b, double most) {
 }
 
 }  // namespace
+
+long whole_cycles(double interval, double step, long cycle) {
+  return std::max(1L, std::lround(interval / (static_cast<double>(cycle) * step))) * cycle;
+}
 
 StepPlan equal_steps(double end, double largest, double history, double fields, long cycle, bool fixed) {
   const double needed = end / largest;

@@ -27,4 +27,7 @@ struct StepPlan {
 /// at the nearest cycles
 StepPlan equal_steps(double end, double largest, double history, double fields, long cycle, bool fixed);
 
+/// Steps in the whole number of cycles nearest to an interval, at least one cycle.
+long whole_cycles(double interval, double step, long cycle);
+
 }  // namespace railwave

@@ -25,11 +25,11 @@ struct Subcycling {
   double gain() const;
 };
 
-/// Level of each element of an assembly, by its own stable step against the one used: 2^level steps leave it a margin,
-/// and regions of different levels have a buffer between them. Empty where subcycling would not pay.
+/// Subcycling level of each element: 2^level steps of the run stay below the element's own stable step by a margin, and
+/// buffer layers separate regions of different levels. Empty where subcycling would not pay.
 std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assembly);
 
-/// Lines that tell how many elements are of which level, and what that saves; none without subcycling.
+/// One line per subcycling level with its element count, then the saving. Empty unless the case asks for subcycling.
 std::vector<std::string> describe_subcycling(const scene::Scene& scene, const Subcycling& subcycling);
 
 }  // namespace railwave

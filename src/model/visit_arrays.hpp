@@ -5,6 +5,7 @@
 #include "model/beams/beams.hpp"
 #include "model/elements/element_histories.hpp"
 #include "model/model.hpp"
+#include "model/time_step/global_step.hpp"
 
 /// Every array of a model, once each. What holds of all of them is made from these visits: the bytes held, what a reset
 /// puts back, what a checkpoint keeps. An array that is missing here is found by tests/model/test_visit_arrays.cpp.
@@ -257,6 +258,40 @@ void visit_arrays(const Named<Visitor>& visit, ReductionSpace& space) {
   visit(ArrayUse::scratch, "left", space.left);
 }
 
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, TangentSprings& springs) {
+  const ArrayShape grows{0, true};
+  visit(ArrayUse::scratch, "spring_first", springs.first, grows);
+  visit(ArrayUse::scratch, "spring_node", springs.node, grows);
+  visit(ArrayUse::scratch, "spring_share", springs.share, grows);
+  visit(ArrayUse::scratch, "spring_stiffness", springs.stiffness, grows);
+  visit(ArrayUse::scratch, "spring_damping", springs.damping, grows);
+  visit(ArrayUse::scratch, "spring_force", springs.force, grows);
+  visit(ArrayUse::scratch, "with_springs", springs.with_springs, grows);
+  visit(ArrayUse::scratch, "first_of_node", springs.first_of_node, grows);
+  visit(ArrayUse::scratch, "spring_of_node", springs.spring_of_node, grows);
+  visit(ArrayUse::scratch, "share_of_node", springs.share_of_node, grows);
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, TangentOperator& tangent) {
+  visit(ArrayUse::constant, "corners", tangent.corners_);
+  visit(ArrayUse::constant, "first_corner", tangent.first_corner_);
+  visit(ArrayUse::constant, "corner", tangent.corner_);
+  visit(ArrayUse::scratch, "corner_force", tangent.corner_force_);
+  visit_arrays(visit, tangent.springs_);
+}
+
+/// Each estimate makes its springs and its start vector anew.
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, GlobalEstimate& estimate) {
+  visit_arrays(visit, estimate.tangent_);
+  visit(ArrayUse::scratch, "now", estimate.now_);
+  visit(ArrayUse::scratch, "before", estimate.before_);
+  visit(ArrayUse::scratch, "image", estimate.image_);
+  visit(ArrayUse::scratch, "displacement", estimate.displacement_);
+}
+
 /// All of a model. Names are `module_array` or `module_number_array`.
 template <class Visitor>
 void visit_model_arrays(Visitor& visitor, Model& model) {
@@ -279,6 +314,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   visit_arrays(of("ties_"), model.ties);
   each("contact", model.contacts);
   visit_arrays(of("reductions_"), *model.reduction_space);
+  if (model.global_estimate) visit_arrays(of("global_estimate_"), *model.global_estimate);
   const Named<Visitor> own = of("model_");
   own(ArrayUse::constant, "constraints", model.constraints);
   own(ArrayUse::constant, "shared_nodes", model.shared_nodes);

@@ -65,14 +65,12 @@ void refuse_moving_held_nodes(const AssembledScene& assembled, const Array<doubl
       for (int a = 0; a < 3; ++a) {
         const double along = dot(constraint.axes[a], velocity[n]);
         if (!constraint.fixed[a] || std::fabs(along) <= 1e-6 * fastest) continue;
-        const Vec3& x = assembled.assembly.nodes[n];
         throw InputError(
-            fmt::format("{}:{}: [constraints.{}] holds the node at ({:.6g}, {:.6g}, {:.6g}) m along ({:.4g}, {:.4g}, "
-                        "{:.4g}), in which an initial motion gives it "
-                        "{:.4g} m/s; give {} a [prescribed_motion] in place of the constraint (without velocity: at "
-                        "rest), or take the direction out of one of both",
-                        assembled.scene.path, constraint.line, constraint.name, x[0], x[1], x[2], constraint.axes[a][0],
-                        constraint.axes[a][1], constraint.axes[a][2], along, constraint.target));
+            fmt::format("{}:{}: [constraints.{}] holds the node at {} along ({:.4g}, {:.4g}, {:.4g}), in which an "
+                        "initial motion gives it {:.4g} m/s; give {} a [prescribed_motion] in place of the constraint "
+                        "(without velocity: at rest), or take the direction out of one of both",
+                        assembled.scene.path, constraint.line, constraint.name, place_text(assembled.assembly.nodes[n]),
+                        constraint.axes[a][0], constraint.axes[a][1], constraint.axes[a][2], along, constraint.target));
       }
 }
 

@@ -8,6 +8,7 @@
 #include "case/error.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "model/host_copy.hpp"
+#include "model/output_times.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave {
@@ -18,11 +19,6 @@ constexpr double worthwhile_gain = 0.01;
 
 /// Steps between checks for slave nodes that touch although the estimate did not predict it.
 constexpr long steps_between_checks = 500;
-
-/// Steps in the whole number of cycles nearest to an interval, at least one cycle.
-long whole_cycles(double interval, double step, long cycle) {
-  return std::max(1L, std::lround(interval / (static_cast<double>(cycle) * step))) * cycle;
-}
 
 }  // namespace
 

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <map>
 
 #include "case/error.hpp"
+#include "mesh/vectors.hpp"
 #include "model/beams/beam_section.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
@@ -19,15 +20,14 @@ namespace {
 constexpr double relaxation_share = 0.5 / (0.65 * 0.65);
 
 const scene::Material& material_of(const scene::Scene& scene, const scene::Beam& beam) {
-  return *std::find_if(scene.materials.begin(), scene.materials.end(),
-                       [&](const auto& material) { return material.name == beam.material; });
+  return *find_entry(scene.materials, beam.material);
 }
 
 /// Everything on the host, element by element and beam node by beam node.
 struct Lists {
   std::vector<std::array<int, 2>> end;
   std::vector<std::array<Vec3, 3>> axes;
-  std::vector<double> length, stretch, pretension;
+  std::vector<double> length, pretension;
   std::vector<Vec3> stiffness, bending;
   std::vector<int> tightened;
   std::vector<int> node;
@@ -74,7 +74,8 @@ void add_chain(AssembledScene& assembled, BeamModel& built, Lists& lists, const 
     lists.bending.push_back(values.bending);
     const double pretension = beam.pretension.value_or(0);
     lists.pretension.push_back(pretension);
-    // One alone holds it while the scene settles: what lies between two such would be free to move along the bolt.
+    // Only the middle element keeps that force constant while the scene settles: nodes between two such elements would
+    // be free to move along the bolt.
     lists.tightened.push_back(!beam.pretension          ? 0
                               : k == beam.divisions / 2 ? BeamArrays::holding
                                                         : BeamArrays::beginning);
@@ -187,7 +188,7 @@ void add_moments(const scene::Scene& scene, const std::vector<LoadArrays>& loads
   for (const LoadArrays& load : loads) {
     if (load.beam_node < 0) continue;
     const Vec3& a = load.load->axis;
-    const double size = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    const double size = length(a);
     built.moments.push_back(&load);
     loaded.push_back(load.beam_node);
     axis.push_back({a[0] / size, a[1] / size, a[2] / size});

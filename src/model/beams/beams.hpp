@@ -39,13 +39,13 @@ std::array<Vec3, 3> beam_axes(const scene::Scene& scene, const scene::Beam& beam
 /// @param beams null in a scene without beams, here and below
 int beam_node_of(const std::shared_ptr<BeamModel>& beams, const std::vector<int>& nodes);
 
-/// Readies the moments from outside, which follow the loads. Their beam nodes have been found.
+/// Builds the arrays of torques on beam nodes, in the order of the loads. LoadArrays::beam_node must be set.
 void add_moments(const scene::Scene& scene, const std::vector<LoadArrays>& loads, BeamModel& built);
 
-/// Rotations and stretches as at the start, where all else is zero.
+/// Sets rotations and stretches to their values at the start. All other state of beams starts at zero.
 void reset_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes);
 
-/// Pretensions are kept by the stretch from here on.
+/// Sets the stretch without axial force such that the elements have their pretension where they lie now.
 /// @param all false: only of the elements that held them while the scene settled
 void tighten_beams(const std::shared_ptr<BeamModel>& beams, const NodeArrays& nodes, bool all);
 

@@ -46,11 +46,11 @@ AbsorbingLayers absorbing_layers(const scene::Scene& scene, const Assembly& asse
 /// A line for each layer: nodes, damping at the end, and the waves that it takes.
 std::vector<std::string> describe_absorbing_layers(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
-/// A line for each non-reflecting end of a slender part without an absorbing layer: it takes plane waves, and sends a
-/// bar's back in part.
+/// A line for each non-reflecting end of a slender part without an absorbing layer: such an end absorbs plane waves of
+/// the continuum, but reflects part of a bar's waves.
 std::vector<std::string> describe_slender_ends(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
-/// Layers of few elements, and on bodies that travel.
+/// Warnings about layers that are few elements deep, and about layers in parts with an initial motion.
 std::vector<std::string> absorbing_doubts(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
 }  // namespace railwave

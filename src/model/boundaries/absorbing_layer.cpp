@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "case/error.hpp"
-#include "mesh/hexahedron.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave {
@@ -14,12 +13,12 @@ namespace {
 
 /// Cosine of the angle, 10 degrees, by which faces of an end may lean from its plane.
 constexpr double leaning = 0.985;
-/// Of a bending wave's length: as long a layer takes as much of it as one of a single wavelength takes of a
-/// longitudinal wave.
+/// A layer absorbs a bending wave as well over so many wavelengths as it absorbs a longitudinal wave over one.
 constexpr double lengths_of_bending = 2;
-/// Of elements over its length: damping that grows from one to the next in large steps sends waves back.
+/// Elements along a layer, at least: with fewer, damping grows from one to the next in large steps, which reflect
+/// waves.
 constexpr double few_elements = 6;
-/// Of a part along an end's normal over its largest extent across: longer is a bar.
+/// A part is a bar if its length along an end's normal is more than so many times its largest extent across.
 constexpr double slender = 3;
 
 using Zone = AbsorbingLayers::Zone;
@@ -53,7 +52,7 @@ Plane plane_of(const Assembly& assembly, const std::vector<Face>& surface) {
 
 double distance_from(const Plane& plane, const Vec3& x) { return dot(difference(plane.middle, x), plane.normal); }
 
-/// How far the elements at an end reach from it, m: the most of them.
+/// Longest of the elements at an end along its normal, m.
 double element_at(const Assembly& assembly, const std::vector<Face>& surface, const Plane& plane) {
   double most = 0;
   for (const Face& face : surface)
@@ -133,8 +132,8 @@ Extents extents_of(const Assembly& assembly, const std::vector<Face>& surface, c
   return extents;
 }
 
-/// Of the amplitude of a longitudinal wave as long as the layer, at most: what damping leaves, or what its growth sends
-/// back (docs/verification.md).
+/// Upper bound of the share of amplitude that a layer reflects of a longitudinal wave as long as itself: what damping
+/// leaves, or what the growth of damping reflects (docs/verification.md).
 double sent_back(double reflection) { return reflection < 0.005 ? 0.05 : std::max(0.02, reflection); }
 
 double bar_speed(const scene::Material& material) { return std::sqrt(material.youngs_modulus / material.density); }

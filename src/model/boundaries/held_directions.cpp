@@ -1,17 +1,15 @@
 #include "model/boundaries/held_directions.hpp"
 
-#include <cmath>
-
 #include "mesh/vectors.hpp"
 
 namespace railwave {
 
 void add_direction(HeldDirections& directions, scene::Vec3 d) {
   for (const scene::Vec3& known : directions) {
-    const double along = d[0] * known[0] + d[1] * known[1] + d[2] * known[2];
+    const double along = dot(d, known);
     for (int i = 0; i < 3; ++i) d[i] -= along * known[i];
   }
-  const double size = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  const double size = length(d);
   if (size < 1e-9) return;
   for (double& component : d) component /= size;
   directions.push_back(d);

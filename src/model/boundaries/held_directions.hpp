@@ -18,7 +18,7 @@ void add_direction(HeldDirections& directions, scene::Vec3 direction);
 /// Adds all three.
 void hold(HeldDirections& directions);
 
-/// In which constraints and prescribed motions hold nodes.
+/// By node: the directions in which constraints and prescribed motions hold it.
 std::map<int, HeldDirections> held_directions(const scene::Scene& scene, const Assembly& assembly);
 
 /// Whether what holds a node leaves nothing of a force in that direction.

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_pair.hpp"
@@ -29,13 +28,7 @@ void add_face(const AssembledScene& assembled, const Face& face, std::map<int, M
   const auto corner = assembled.assembly.face_nodes(face);
   const auto& x = assembled.assembly.nodes;
   const double area = facet_area(x[corner[0]], x[corner[1]], x[corner[2]], x[corner[3]]);
-  Vec3 n{};
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    n[i] = 0.5 / area *
-           ((x[corner[2]][j] - x[corner[0]][j]) * (x[corner[3]][k] - x[corner[1]][k]) -
-            (x[corner[2]][k] - x[corner[0]][k]) * (x[corner[3]][j] - x[corner[1]][j]));
-  }
+  const Vec3 n = scaled(0.5 / area, doubled_area(x, corner));
   const scene::Material& material = material_under(assembled, face);
   const double across = material.shear_speed(), more = material.dilatational_speed() - across;
   for (int node : corner)
@@ -57,9 +50,8 @@ void take_out(Matrix& c, const std::vector<Vec3>& held) {
 
 [[noreturn]] void refuse(const AssembledScene& assembled, const scene::NonReflecting& end, int node,
                          const std::string& why) {
-  const Vec3& x = assembled.assembly.nodes[node];
-  throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at ({:.6g}, {:.6g}, {:.6g}) m {}",
-                               assembled.scene.path, end.line, end.name, x[0], x[1], x[2], why));
+  throw InputError(fmt::format("{}:{}: [non_reflecting.{}]: the node at {} {}", assembled.scene.path, end.line,
+                               end.name, place_text(assembled.assembly.nodes[node]), why));
 }
 
 void check_nodes(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,

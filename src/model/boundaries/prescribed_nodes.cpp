@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "case/error.hpp"
+#include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 /// Rodrigues' formula for a turn about a fixed axis; @param angle the rotation vector, rad
 void turn_by(const Vec3& angle, double (&turn)[3][3]) {
-  const double size = std::sqrt(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]);
+  const double size = length(angle);
   const double half = std::sin(size / 2);
   // sin(a)/a and (1 - cos(a))/a^2, also for no turn at all
   const double first = size > 0 ? std::sin(size) / size : 1, second = size > 0 ? 2 * half * half / (size * size) : 0.5;
@@ -28,7 +29,7 @@ void turn_by(const Vec3& angle, double (&turn)[3][3]) {
     }
 }
 
-/// Its sum of d d^T; exactly the unit matrix for all three directions.
+/// Sum of d d^T over the prescribed directions d; exactly the unit matrix for all three.
 void hold_directions(const scene::PrescribedMotion& motion, double (&held)[3][3]) {
   const bool all = motion.directions[0] && motion.directions[1] && motion.directions[2];
   for (int i = 0; i < 3; ++i)
@@ -39,7 +40,7 @@ void hold_directions(const scene::PrescribedMotion& motion, double (&held)[3][3]
     }
 }
 
-/// The set would jump in the first step.
+/// A displacement that does not begin with 0 would move the set by a jump in the first step.
 void refuse_jump(const scene::Scene& scene, const scene::PrescribedMotion& motion, const scene::Curve* curve) {
   if (curve == nullptr || curve_value(curve, 0) == 0) return;
   throw InputError(fmt::format(

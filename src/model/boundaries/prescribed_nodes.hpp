@@ -19,8 +19,8 @@ struct PrescribedSet {
   Array<double*> work;  ///< J, by node of the set
 };
 
-/// Where a prescribed motion has its set at a time: moved by the velocity's, turned by the angular velocity's integral
-/// over time, both times its curve; moved by its displacement besides.
+/// Position and rotation of a set at a time: the integrals over time of velocity and angular velocity, both times their
+/// curve, and the displacement times its own.
 RigidPlace place_at(const PrescribedSet& set, double time);
 
 /// The kernel that moves a set from the present instant by a step; and, with a step of 0, what its account needs.

@@ -19,7 +19,7 @@ namespace {
 /// How far beyond a face's sides, in its own coordinates, a node may lie: facets of a curved edge do not meet exactly.
 constexpr double most_outside = 0.25;
 constexpr double default_distance = 0.1;  // of the shorter diagonal
-/// What is left of a slave's mass.
+/// Share of its mass that a slave node keeps.
 constexpr double trace_of_mass = 1.0 / (1ull << 40);
 /// A master node with less of all slaves' weights is tied to none.
 constexpr double least_weight = 0.01;
@@ -84,7 +84,7 @@ TiedPlace tied_place(int slave, const Vector3& x, const MasterFace& face, const 
   return tied;
 }
 
-/// What one of a tie's nodes may not be besides.
+/// Why a node cannot be a slave of a tie: something else moves it already, or reads its own motion.
 class Conflicts {
  public:
   Conflicts(const AssembledScene& assembled, const std::vector<ContactPair>& contacts)
@@ -190,20 +190,24 @@ void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& 
   refuse_far(assembled.scene, tie, far, slaves.size());
 }
 
-/// A slave must not carry another one: forces go over one tie only.
-void refuse_chains(const AssembledScene& assembled, const Ties& ties) {
+/// A master node must not be a slave of another tie: forces pass over one tie only.
+/// @param places_end of each of the scene's ties: how many places it and those before it have
+void refuse_chains(const AssembledScene& assembled, const Ties& ties, const std::vector<std::size_t>& places_end) {
   std::vector<char> slave(assembled.mass.size(), 0);
   for (const TiedPlace& tied : ties.places) slave[tied.slave] = 1;
-  for (const TiedPlace& tied : ties.places)
-    for (int n : tied.face)
+  std::size_t tie = 0;
+  for (std::size_t i = 0; i < ties.places.size(); ++i) {
+    while (i >= places_end[tie]) ++tie;
+    for (int n : ties.places[i].face)
       if (slave[n] != 0)
-        refuse(assembled.scene, assembled.scene.ties.back(),
+        refuse(assembled.scene, assembled.scene.ties[tie],
                fmt::format("the node at {} is of a slave and of a master; ties cannot follow each other: let "
                            "one surface be the master of both, or end the surfaces before they meet",
                            place_text(assembled.assembly.nodes[n])));
+  }
 }
 
-/// Where the slave is the coarser mesh, nodes of the master between its nodes would hang free.
+/// Where the slave is the coarser mesh, no slave node is tied to the master's nodes between: the surfaces would part.
 void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
   const Assembly& assembly = assembled.assembly;
   std::vector<double> weight(assembled.mass.size(), 0);
@@ -227,7 +231,7 @@ void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
   }
 }
 
-/// Rows of the external forces are known only later.
+/// All arrays but the rows of external forces: build_external_forces numbers these later.
 void build_tie_arrays(Ties& ties) {
   for (const TiedPlace& tied : ties.places) ties.masters.insert(ties.masters.end(), tied.face, tied.face + 4);
   std::sort(ties.masters.begin(), ties.masters.end());
@@ -263,8 +267,12 @@ void build_ties(const AssembledScene& assembled, const std::vector<ContactPair>&
   ties = {};
   if (assembled.scene.ties.empty()) return;
   Conflicts conflicts(assembled, contacts);
-  for (const scene::Tie& tie : assembled.scene.ties) add_tie(assembled, tie, conflicts, ties);
-  refuse_chains(assembled, ties);
+  std::vector<std::size_t> places_end;
+  for (const scene::Tie& tie : assembled.scene.ties) {
+    add_tie(assembled, tie, conflicts, ties);
+    places_end.push_back(ties.places.size());
+  }
+  refuse_chains(assembled, ties, places_end);
   refuse_coarse_slaves(assembled, ties);
   build_tie_arrays(ties);
 }

@@ -7,8 +7,8 @@
 namespace railwave {
 
 /// All ties together. Each joins the nodes of one surface, its slaves, to faces of another, its master, where they lie
-/// undeformed; the two meshes need not match. The slaves' mesh is the finer one, and no slave carries another one. What
-/// multipliers press on, what a prescribed motion moves and what is of a non-reflecting end is no slave.
+/// undeformed; the two meshes need not match. The slaves' mesh is the finer one, and no master node is itself a slave.
+/// Nodes of a contact by multipliers, of a prescribed motion or of a non-reflecting end cannot be slaves.
 struct Ties {
   TieArrays arrays;               ///< their rows of the external forces are known later than the rest
   std::vector<TiedPlace> places;  ///< host copy

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/checks/inside_bodies.hpp"
-#include "model/checks/round_part.hpp"
 #include "model/contact/initial_overlap.hpp"
 #include "model/contact/rolling.hpp"
 #include "model/loads/load_model.hpp"
@@ -44,10 +42,8 @@ void overlapping_parts(const AssembledScene& assembled, Doubts& doubts) {
       continue;
     doubts.push_back(
         fmt::format("[parts.{}] (line {}) and [parts.{}] (line {}) overlap: {} nodes of one lie inside elements of the "
-                    "other, the first at ({:.6g}, {:.6g}, {:.6g}) m; see "
-                    "their positions",
-                    first.name, first.line, second.name, second.line, overlap.inside, overlap.place[0],
-                    overlap.place[1], overlap.place[2]));
+                    "other, the first at {}; see their positions",
+                    first.name, first.line, second.name, second.line, overlap.inside, place_text(overlap.place)));
   }
 }
 

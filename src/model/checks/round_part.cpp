@@ -126,8 +126,6 @@ NearestFace nearest_of(const Assembly& assembly, const Profile& profile, const s
 
 }  // namespace
 
-std::string part_of_name(const std::string& name) { return name.substr(0, name.find('.')); }
-
 std::optional<RoundPart> round_part(const AssembledScene& assembled, const std::string& name) {
   const scene::Scene& scene = assembled.scene;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {

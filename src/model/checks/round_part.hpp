@@ -35,7 +35,4 @@ struct Touch {
 /// radius are left out.
 std::vector<Touch> touches(const AssembledScene& assembled, const RoundPart& round);
 
-/// `part` of `part.set`.
-std::string part_of_name(const std::string& name);
-
 }  // namespace railwave

@@ -1,6 +1,5 @@
 #include "model/contact/contact_springs.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -10,7 +10,6 @@
 #include "mesh/hexahedron.hpp"
 #include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
-#include "model/checks/round_part.hpp"
 #include "model/sets/place_sets.hpp"
 #include "model/sets/point_search.hpp"
 
@@ -213,13 +212,11 @@ std::string mend_of(const InitialOverlap& overlap) {
 
 std::string describe(const scene::Scene& scene, const InitialOverlap& overlap) {
   const scene::Contact& contact = *overlap.contact;
-  const Vec3& x = overlap.place;
   const std::string what = fmt::format(
       "[contacts.{}] (line {}): {} node{} of '{}' lie{} inside the body of '{}' when the run begins, the deepest "
-      "{:.4g} m ({:.3g} of the size of a face there) at "
-      "({:.6g}, {:.6g}, {:.6g}) m",
+      "{:.4g} m ({:.3g} of the size of a face there) at {}",
       contact.name, contact.line, overlap.nodes, overlap.nodes == 1 ? "" : "s", contact.slave,
-      overlap.nodes == 1 ? "s" : "", contact.master.text(), overlap.depth, overlap.share, x[0], x[1], x[2]);
+      overlap.nodes == 1 ? "s" : "", contact.master.text(), overlap.depth, overlap.share, place_text(overlap.place));
   if (overlap.deep)
     return fmt::format("{}: more than a contact can push apart without a blow; {}", what, mend_of(overlap));
   return fmt::format("{}: {}", what,

@@ -1,7 +1,6 @@
 #include "model/contact/link_segments.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>

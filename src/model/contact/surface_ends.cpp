@@ -176,12 +176,10 @@ std::array<SurfaceEnds, 2> pair_ends(const Assembly& assembly, const std::vector
 }
 
 double finest_wanted(const scene::Scene& scene, const std::string& part) {
-  const auto own =
-      std::find_if(scene.parts.begin(), scene.parts.end(), [&](const scene::Part& one) { return one.name == part; });
-  if (own == scene.parts.end()) return 0;
-  const auto mesh = std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                                 [&](const scene::MeshSource& one) { return one.name == own->mesh; });
-  if (mesh == scene.meshes.end()) return 0;
+  const scene::Part* own = find_entry(scene.parts, part);
+  if (own == nullptr) return 0;
+  const scene::MeshSource* mesh = find_entry(scene.meshes, own->mesh);
+  if (mesh == nullptr) return 0;
   return coarse * fine_element_size(*mesh);
 }
 

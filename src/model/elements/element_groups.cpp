@@ -23,10 +23,10 @@ void check_element(const AssembledScene& assembled, const Assembly::PartRange& p
   for (const auto& s : hexahedron_corner_signs) {
     if (hexahedron_jacobian(corners, g * s[0], g * s[1], g * s[2]) > 0) continue;
     throw InputError(fmt::format(
-        "{}: part '{}': element {} (counted from 0 in its mesh) near ({:.6g}, {:.6g}, {:.6g}) m is inverted or flat; "
+        "{}: part '{}': element {} (counted from 0 in its mesh) near {} is inverted or flat; "
         "mend the mesh there, or number the element's corners bottom face first, then the top face, both turning the "
         "same way",
-        assembled.scene.path, part.name, element - part.first_element, corners[0][0], corners[0][1], corners[0][2]));
+        assembled.scene.path, part.name, element - part.first_element, place_text(corners[0])));
   }
 }
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/build_steps.hpp"
+#include "model/model.hpp"
 #include "model/subcycling.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -109,7 +109,7 @@ void take_buffer(const Assembly& assembly, const std::vector<double>& steps, dou
 }  // namespace
 
 std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assembly) {
-  // As much of a model as tells the stable steps; it has no blocks yet.
+  // The parts of a model that stable steps depend on. Its elements are not in blocks yet.
   Model model;
   model.scene = scene;
   model.assembly = assembly;
@@ -118,6 +118,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   build_contacts(model, model.contacts);
   model.connectors.cells = connector_cells(scene, assembly, model.mass);
   build_stable_step(model);
+  plan_steps(scene, 1, model);
 
   const OwnSteps own(model, model.contacts, model.connectors.cells, model.stable_step.connector);
   auto steps = own.with_springs(safe_steps(model, model.absorbing));

@@ -10,13 +10,6 @@
 namespace railwave {
 namespace {
 
-template <class Entry>
-const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
-  for (const Entry& entry : entries)
-    if (entry.name == name) return &entry;
-  return nullptr;
-}
-
 /// The probe that made a set `part.NAME` or `part.NAME_3`, with that one's position.
 struct AskedProbe {
   const scene::Probe* probe = nullptr;
@@ -63,7 +56,7 @@ HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const st
     std::vector<std::string> known;
     for (const auto* sets : {&assembly.node_sets, &assembly.element_sets})
       for (const auto& one : *sets)
-        if (one.first.find('.') != std::string::npos || named(scene.points, one.first)) known.push_back(one.first);
+        if (one.first.find('.') != std::string::npos || find_entry(scene.points, one.first)) known.push_back(one.first);
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
     throw InputError(unknown_set(scene, {"history_sets", 0}, "output", name, known));
@@ -75,7 +68,8 @@ HistorySet resolve(const scene::Scene& scene, const Assembly& assembly, const st
         !asked.probe && std::string(row->name) == "plastic_strain" && !yields(scene, assembly, elements->second);
     if (!idle && (!asked.probe || asks(*asked.probe, *row))) set.quantities.push_back(row);
   }
-  if (const auto* hammer = named(scene.hammers, own); hammer && hammer->part == part) set.asked_by = "hammer " + own;
+  if (const auto* hammer = find_entry(scene.hammers, own); hammer && hammer->part == part)
+    set.asked_by = "hammer " + own;
   if (asked.probe) {
     set.asked_by = "probe " + asked.probe->name;
     set.asked_position = asked.position;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "case/error.hpp"
@@ -22,9 +21,7 @@ WeightedNodes by_mass(const scene::Scene& scene, const Assembly& assembly, const
   if (name == "ground") return end;
   end.set = name;
   end.nodes = find_node_set(scene, assembly, connector, key, name);
-  double total = 0;
-  for (int n : end.nodes) total += mass[n];
-  for (int n : end.nodes) end.weight.push_back(mass[n] / total);
+  end.weight = shares_by_mass(end.nodes, mass);
   return end;
 }
 
@@ -155,6 +152,14 @@ std::vector<ConnectorCell> connector_cells(const scene::Scene& scene, const Asse
     cells.push_back(std::move(cell));
   }
   return cells;
+}
+
+std::vector<double> shares_by_mass(const std::vector<int>& nodes, const std::vector<double>& mass) {
+  double total = 0;
+  for (int n : nodes) total += mass[n];
+  std::vector<double> share;
+  for (int n : nodes) share.push_back(mass[n] / total);
+  return share;
 }
 
 Vec3 mean_place(const WeightedNodes& end, const std::vector<Vec3>& nodes) {

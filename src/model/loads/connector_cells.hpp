@@ -39,6 +39,10 @@ struct ConnectorCell {
 std::vector<ConnectorCell> connector_cells(const scene::Scene& scene, const Assembly& assembly,
                                            const std::vector<double>& mass);
 
+/// Mass of each of the nodes over that of all.
+/// @param mass kg, by node of the model
+std::vector<double> shares_by_mass(const std::vector<int>& nodes, const std::vector<double>& mass);
+
 /// Mean place of the nodes, m.
 Vec3 mean_place(const WeightedNodes& end, const std::vector<Vec3>& nodes);
 

@@ -6,9 +6,7 @@
 namespace railwave {
 
 const scene::Curve* curve_of(const scene::Scene& scene, const std::string& name) {
-  for (const scene::Curve& curve : scene.curves)
-    if (curve.name == name) return &curve;
-  return nullptr;
+  return find_entry(scene.curves, name);
 }
 
 namespace {

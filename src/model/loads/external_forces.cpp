@@ -7,8 +7,9 @@
 namespace railwave {
 namespace {
 
-/// A power of two: the force of the stiffest contact spring pushed in by a tenth of its segment's diagonal (some 17 GPa
-/// on the segment, whatever the penalty's scale) is the largest that the sum of contact forces must hold.
+/// Unit of the whole numbers in which contact forces are summed, N: a power of two. The sum must hold the force of the
+/// stiffest contact spring at a penetration of a tenth of its segment's diagonal (some 17 GPa on the segment, whatever
+/// the penalty's scale).
 double contact_quantum(const std::vector<ContactPair>& contacts) {
   double largest = 1e-30;
   for (const ContactPair& pair : contacts)
@@ -27,12 +28,12 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
     concerned.insert(concerned.end(), pair.slave_nodes.begin(), pair.slave_nodes.end());
     concerned.insert(concerned.end(), pair.master_nodes.begin(), pair.master_nodes.end());
   }
-  // What ties and non-reflecting ends do to nodes is added to their loads, so these have a sum of loads, if of none.
+  // Ties and non-reflecting ends add their forces to the load of a node: its row needs that sum, even if no load acts.
   std::vector<char> added(assembly.nodes.size(), 0);
-  for (const auto* nodes : {&ties.masters, &ends.nodes})
+  for (const auto* nodes : {&ties.masters, &ends.nodes}) {
     for (int n : *nodes) added[n] = 1;
-  for (const auto* nodes : {&ties.masters, &ends.nodes})
     concerned.insert(concerned.end(), nodes->begin(), nodes->end());
+  }
   std::sort(concerned.begin(), concerned.end());
   concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
   const int rows = static_cast<int>(concerned.size());
@@ -63,7 +64,7 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
   external.sum.quantum = contact_quantum(contacts);
   external.loaded_count = static_cast<int>(loaded.size());
   external.loaded = to_device("loaded rows", loaded);
-  std::vector<int> loaded_of_row(external.row_count, -1);
+  std::vector<int> loaded_of_row(rows, -1);
   for (std::size_t k = 0; k < loaded.size(); ++k) loaded_of_row[loaded[k].row] = static_cast<int>(k);
   external.loaded_of_row = to_device("loaded of row", loaded_of_row);
   external.shares = to_device("shares of rows", sorted);

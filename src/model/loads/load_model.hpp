@@ -44,10 +44,10 @@ struct LoadModel {
   TorqueArrays torques;
 };
 
-/// What loads, connectors and beams do to nodes, one entry for each force on one node.
+/// Forces of loads, connectors and beams on nodes: one entry for each force on one node.
 struct Contributions {
   std::vector<int> node;
-  std::vector<RowShare> share;  ///< what each is worth at each step
+  std::vector<RowShare> share;  ///< from what each gets its force at a step
 };
 
 /// The scene's curve of that name; null for an empty name.

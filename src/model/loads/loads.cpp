@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
@@ -19,25 +18,16 @@ struct Collector {
   const AssembledScene& assembled;
   std::vector<std::vector<int>> sets;
   std::vector<std::vector<double>> set_weights;
-  std::vector<std::string> set_names;  ///< empty: weights of its own, which nobody else can mean
+  std::vector<std::string> set_names;  ///< empty: weights of its own, so that no other entry can share the set
   std::vector<int> contribution_node;
   std::vector<Vec3> torque_axis;
   std::vector<int> torque_set;
 
-  std::vector<double> weights(const std::vector<int>& nodes) const {
-    double total = 0;
-    for (int n : nodes) total += assembled.mass[n];
-    std::vector<double> weight;
-    for (int n : nodes) weight.push_back(assembled.mass[n] / total);
-    return weight;
-  }
-
   int set(const scene::Place& entry, const std::string& key, const std::string& name) {
-    if (name == "ground") return -1;
     const auto known = std::find(set_names.begin(), set_names.end(), name);
     if (known != set_names.end()) return static_cast<int>(known - set_names.begin());
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, entry, key, name);
-    return add({nodes, weights(nodes), name});
+    return add({nodes, shares_by_mass(nodes, assembled.mass), name});
   }
 
   /// An end of a connector; -1: the ground.
@@ -64,7 +54,7 @@ std::vector<Vec3> dead_load(Collector& collector, const scene::Load& load) {
   std::vector<Vec3> amplitude;
   if (load.type == scene::LoadType::nodal_force) {
     const auto& nodes = find_node_set(scene, assembly, load, "target", load.target);
-    const auto weight = collector.weights(nodes);
+    const auto weight = shares_by_mass(nodes, collector.assembled.mass);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       collector.contribution_node.push_back(nodes[k]);
       amplitude.push_back(scaled(weight[k], load.force));
@@ -107,7 +97,7 @@ void build_load(Collector& collector, const scene::Load& load, const std::shared
     arrays.set = collector.set(load, "target", load.target);
     arrays.torque = static_cast<int>(collector.torque_set.size());
     const Vec3 a = turned_with_part_of(scene, load.target, load.axis);
-    collector.torque_axis.push_back(scaled(1 / std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]), a));
+    collector.torque_axis.push_back(scaled(1 / length(a), a));
     collector.torque_set.push_back(arrays.set);
     if (collector.torque_set.size() > TorqueArrays::most)
       throw InputError(fmt::format("{}:{}: [loads.{}] is one torque too many; a scene can have {}", scene.path,
@@ -143,7 +133,7 @@ void build_connectors(Collector& collector, ConnectorModel& built) {
     const scene::Connector& connector = scene.connectors[cell.connector];
     ends.push_back({collector.set(cell.from), collector.set(cell.to)});
     const Vec3 a = mean_place(cell.from, nodes), b = mean_place(cell.to, nodes);
-    rest.push_back({b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+    rest.push_back(difference(b, a));
     stiffness.push_back(scaled(cell.share, connector.stiffness));
     damping.push_back(scaled(cell.share, connector.damping));
     preload.push_back(scaled(cell.share, connector.preload));
@@ -220,7 +210,7 @@ void build_torques(const Collector& collector, TorqueArrays& torques) {
   torques.now = Array<double* [4]>("torque now", torques.count);
 }
 
-/// What each contribution is worth at each step.
+/// From what each contribution gets its force at a step: its load's own kernel, a connector or a torque.
 std::vector<RowShare> contribution_shares(const Collector& collector, const LoadModel& loads) {
   std::vector<RowShare> shares(collector.contribution_node.size());
   for (std::size_t c = 0; c < shares.size(); ++c) shares[c] = {static_cast<int>(c), RowShare::given, 1};

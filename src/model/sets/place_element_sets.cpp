@@ -9,6 +9,7 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/sets/point_search.hpp"
 
 namespace railwave {
@@ -53,7 +54,7 @@ Found find_element(const Assembly& assembly, const std::vector<int>& candidates,
   Found nearest;
   double least = std::numeric_limits<double>::infinity();
   for (int e : candidates) {
-    const double away = distance(element_centre(assembly, e), place);
+    const double away = length(difference(element_centre(assembly, e), place));
     if (away < least - place_slack) least = away, nearest.element = e;
   }
   return nearest;
@@ -78,7 +79,7 @@ std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candid
                         const std::string& where, const std::string& whose) {
   std::vector<int> elements;
   int nearest = candidates.front();
-  const auto away = [&](int e) { return distance(box, element_centre(assembly, e)); };
+  const auto away = [&](int e) { return distance_outside(box, element_centre(assembly, e)); };
   for (int e : candidates) {
     if (away(e) <= place_slack) elements.push_back(e);
     if (away(e) < away(nearest)) nearest = e;
@@ -154,7 +155,8 @@ void add_element_sets(const scene::Scene& scene, Assembly& assembly) {
     std::vector<int> elements{find_element(assembly, candidates, *set.position).element};
     if (set.radius > 0)
       for (int e : candidates)
-        if (distance(element_centre(assembly, e), *set.position) <= set.radius + place_slack && e != elements.front())
+        if (length(difference(element_centre(assembly, e), *set.position)) <= set.radius + place_slack &&
+            e != elements.front())
           elements.push_back(e);
     std::sort(elements.begin(), elements.end());
     assembly.element_sets[name] = std::move(elements);
@@ -169,7 +171,7 @@ std::vector<PlacedElements> placed_element_sets(const scene::Scene& scene, const
     const Found found = find_element(assembly, elements, *set.position);
     PlacedElements placed{
         &set, static_cast<int>(elements.size()), found.element, element_centre(assembly, found.element), 0, {}};
-    placed.distance = distance(placed.centre, *set.position);
+    placed.distance = length(difference(placed.centre, *set.position));
     // Sets are made before the part is moved to where it touches, or turned.
     const bool moved = std::any_of(scene.contacts.begin(), scene.contacts.end(),
                                    [&](const scene::Contact& contact) {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "case/error.hpp"
+#include "mesh/vectors.hpp"
 #include "model/sets/point_search.hpp"
 
 namespace railwave {
@@ -13,7 +13,7 @@ namespace {
 
 /// How far a node is from what the set asks for, m: outside its box, or from its position.
 double distance_from(const scene::NodeSet& set, const Vec3& x) {
-  return set.box ? distance(*set.box, x) : distance(*set.position, x);
+  return set.box ? distance_outside(*set.box, x) : length(difference(*set.position, x));
 }
 
 /// Longest edge of the elements around a node, m.
@@ -24,7 +24,8 @@ double size_around(const Assembly& assembly, int node) {
   for (const auto& element : assembly.elements) {
     if (std::find(element.begin(), element.end(), node) == element.end()) continue;
     for (const auto& edge : edges)
-      longest = std::max(longest, distance(assembly.nodes[element[edge[0]]], assembly.nodes[element[edge[1]]]));
+      longest =
+          std::max(longest, length(difference(assembly.nodes[element[edge[0]]], assembly.nodes[element[edge[1]]])));
   }
   return longest;
 }
@@ -61,7 +62,8 @@ void add_node_sets(const scene::Scene& scene, Assembly& assembly) {
     if (nodes.empty())
       throw InputError(fmt::format("{} box: no node of '{}' is in it; the nearest is at {} m, {:.4g} m away", where,
                                    of_surface ? set.part + "." + set.surface : set.part,
-                                   text_of(assembly.nodes[nearest]), distance(*set.box, assembly.nodes[nearest])));
+                                   text_of(assembly.nodes[nearest]),
+                                   distance_outside(*set.box, assembly.nodes[nearest])));
     std::sort(nodes.begin(), nodes.end());
     if (of_surface) {
       std::vector<Face> faces;

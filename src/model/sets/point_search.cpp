@@ -3,9 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace railwave {
+
+double distance_outside(const scene::Box& box, const Vec3& x) {
+  double squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double outside = std::max({box[0][i] - x[i], x[i] - box[1][i], 0.0});
+    squared += outside * outside;
+  }
+  return std::sqrt(squared);
+}
 
 std::string text_of(const Vec3& x) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", x[0], x[1], x[2]); }
 

@@ -14,19 +14,8 @@ namespace railwave {
 /// m: what rounding may take a place out of a box on whose side it lies.
 inline constexpr double place_slack = 1e-9;
 
-inline double distance(const Vec3& a, const Vec3& b) {
-  return std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-/// How far outside the box a place is, m.
-inline double distance(const scene::Box& box, const Vec3& x) {
-  double squared = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double outside = std::max({box[0][i] - x[i], x[i] - box[1][i], 0.0});
-    squared += outside * outside;
-  }
-  return std::sqrt(squared);
-}
+/// How far outside the box a place is, m; 0 inside.
+double distance_outside(const scene::Box& box, const Vec3& x);
 
 /// A place as a case file has it.
 std::string text_of(const Vec3& x);

@@ -1,7 +1,6 @@
 #include "model/time_step/global_step.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -9,7 +8,6 @@
 #include "kernels/ties/tie.hpp"
 #include "model/contact/contact_springs.hpp"
 #include "model/elements/hourglass_scale.hpp"
-#include "model/host_copy.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "model/time_step/tangent_springs.hpp"
 
@@ -89,8 +87,6 @@ GlobalEstimate::GlobalEstimate(const AssembledScene& assembled, const NodalState
   image_ = unset_array<double* [3]>("tangent image", nodes);
   displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
 }
-
-std::size_t GlobalEstimate::bytes() const { return tangent_.bytes() + 4 * now_.span() * sizeof(double); }
 
 void GlobalEstimate::set_springs(double horizon, GlobalStep& result) {
   SpringCollector collector;

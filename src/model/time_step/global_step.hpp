@@ -11,6 +11,9 @@
 
 namespace railwave {
 
+template <class Visitor>
+struct Named;  // model/visit_arrays.hpp
+
 /// The largest eigenvalue of the tridiagonal matrix that Lanczos' recurrence has made of a symmetric operator so far.
 struct RitzValue {
   double value = 0;     ///< at most the operator's largest eigenvalue
@@ -52,7 +55,8 @@ class GlobalEstimate {
   /// the ground: (u - w)^2 <= 2 u^2 + 2 w^2, with equality where the two move against each other.
   GlobalStep of_elements(double longest);
 
-  std::size_t bytes() const;
+  template <class Visitor>
+  friend void visit_arrays(const Named<Visitor>& visit, GlobalEstimate& estimate);
 
  private:
   void set_springs(double horizon, GlobalStep& result);

@@ -7,9 +7,11 @@
 
 #include "case/error.hpp"
 #include "mesh/hexahedron.hpp"
+#include "mesh/vectors.hpp"
 #include "model/beams/beams.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_springs.hpp"
+#include "model/model.hpp"
 #include "model/time_step/global_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -267,9 +269,7 @@ std::vector<double> safe_steps(const AssembledScene& assembled, const AbsorbingL
 double largest_initial_speed(const scene::Scene& scene) {
   double largest = 0;
   for (const scene::InitialMotion& motion : scene.initial_motions)
-    largest =
-        std::fmax(largest, std::sqrt(motion.velocity[0] * motion.velocity[0] + motion.velocity[1] * motion.velocity[1] +
-                                     motion.velocity[2] * motion.velocity[2]));
+    largest = std::fmax(largest, length(motion.velocity));
   return largest;
 }
 
@@ -323,7 +323,6 @@ void build_stable_step(Model& model) {
                     "by {}, times time.step_scale = {:.3g}: mend that, or end it earlier{}",
                     model.scene.path, time.end, steps, largest, most_steps, what_sets_step(model, stable),
                     time.step_scale, time.step > 0 ? ", or give a longer step" : ""));
-  plan_steps(model.scene, 1, model);
 }
 
 }  // namespace railwave

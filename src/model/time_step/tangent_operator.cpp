@@ -36,9 +36,4 @@ void TangentOperator::apply(const Assembly& assembly, const std::vector<ElementS
   Kokkos::parallel_for("tangent_add_springs", SpreadRange(0, springs_.node_count), AddSprings{springs_, f});
 }
 
-std::size_t TangentOperator::bytes() const {
-  return (corners_.span() + first_corner_.span() + corner_.span()) * sizeof(int) +
-         corner_force_.span() * sizeof(double);
-}
-
 }  // namespace railwave

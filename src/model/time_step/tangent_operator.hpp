@@ -6,6 +6,9 @@
 
 namespace railwave {
 
+template <class Visitor>
+struct Named;  // model/visit_arrays.hpp
+
 /// Forces of small motions u about the present places: of elements, by corners that are stored and gathered, and of
 /// springs.
 class TangentOperator {
@@ -22,11 +25,12 @@ class TangentOperator {
              const Array<const double* [3]>& position, const NodeVector& u, double inverse_time,
              const NodeVector& f) const;
 
-  const Array<int* [8]>& corners() const { return corners_; } const Array<int*>& first_corner() const {
-    return first_corner_;
-  }
+  const Array<int*>& first_corner() const { return first_corner_; }
   const Array<int*>& corner() const { return corner_; }
-  std::size_t bytes() const;
+  const Array<int* [8]>& corners() const { return corners_; }
+
+  template <class Visitor>
+  friend void visit_arrays(const Named<Visitor>& visit, TangentOperator& tangent);
 
  private:
   Array<int* [8]> corners_;

@@ -9,16 +9,14 @@ import json
 import os
 import re
 import subprocess
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+from two_blocks import STEEL  # noqa: E402
 
 PROGRAM = os.path.join(os.environ.get("RAILWAVE_BIN_DIR", "build/release/bin"), "railwave")
 SECONDS = 60  # of the clock: the machine may be busy with other tests
 
-STEEL = """
-[materials.steel]
-youngs_modulus = 210e9
-poissons_ratio = 0.3
-density = 7800
-"""
 TIME = """
 [time]
 end = 1e-4

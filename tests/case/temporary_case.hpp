@@ -1,8 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -41,10 +39,5 @@ inline const std::string small_case =
     "[meshes.cube]\ntype = \"box\"\n"
     "[parts.cube]\nmesh = \"cube\"\nmaterial = \"steel\"\n"
     "[time]\nend = 1e-3\n";
-
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
 
 }  // namespace railwave::test

@@ -97,6 +97,7 @@ TEST_CASE("help tells a section, a key, or a key of one section", "[case]") {
   CHECK(key.find("between -0.999 and 0.4999") != std::string::npos);
   CHECK(case_help("time.end").find("meshes") == std::string::npos);
   CHECK(case_help("end").find("meshes") != std::string::npos);
+  CHECK(case_help("watch") == case_help("monitor"));
 }
 
 TEST_CASE("help for an unknown topic names the nearest", "[case]") {

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "source_folder.hpp"
 #include "tests/fuzz/readers.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace railwave;
 namespace fs = std::filesystem;
@@ -22,15 +21,10 @@ std::vector<fs::path> files_of(const std::string& folder, const std::string& rea
   return paths;
 }
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// What goes wrong with a file that must be read or refused; "" when nothing does.
 std::string fault(const fuzz::Reader& reader, const fs::path& path) {
   try {
-    reader.read(bytes_of(path));
+    reader.read(text_of(path));
     return "";
   } catch (const std::exception& error) {
     return error.what();

@@ -1,12 +1,44 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <functional>
 #include <vector>
 
 #include "kernels/materials/bilinear.hpp"
 #include "kernels/materials/elastic.hpp"
 
 namespace railwave {
+
+/// Of the steel that materials are tested with.
+inline constexpr double youngs_modulus = 210e9, poissons_ratio = 0.3;
+
+inline ElasticConstants elastic_steel() {
+  const double mu = youngs_modulus / (2 * (1 + poissons_ratio));
+  return {2 * mu * poissons_ratio / (1 - 2 * poissons_ratio), mu};
+}
+
+inline BilinearConstants steel(double yield_stress, double tangent_modulus) {
+  return {elastic_steel(), yield_stress, hardening_modulus(youngs_modulus, tangent_modulus)};
+}
+
+inline Eigen::Matrix3d rotation(double angle, const Eigen::Vector3d& axis) {
+  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+}
+
+/// Equivalent stress of von Mises.
+inline double mises(const Eigen::Matrix3d& tau) {
+  return std::sqrt(1.5) * (tau - Eigen::Matrix3d::Identity() * tau.trace() / 3).norm();
+}
+
+/// Gradients over a time from 0 to 1.
+using Motion = std::function<Eigen::Matrix3d(double)>;
+
+inline std::vector<Eigen::Matrix3d> sampled(const Motion& motion, int steps) {
+  std::vector<Eigen::Matrix3d> path;
+  for (int k = 1; k <= steps; ++k) path.push_back(motion(static_cast<double>(k) / steps));
+  return path;
+}
 
 /// Takes one batch of elements, all lanes alike, along a path.
 template <class S, class Material>

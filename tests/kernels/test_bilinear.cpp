@@ -1,11 +1,11 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <functional>
 #include <vector>
 
 #include "kernels/elements/element_force.hpp"
 #include "kernels/materials/bilinear.hpp"
 #include "tests/kernels/exact_plasticity.hpp"
+#include "tests/kernels/material_path.hpp"
 
 using namespace railwave;
 using Catch::Matchers::WithinAbs;
@@ -13,14 +13,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-constexpr double youngs_modulus = 210e9, poissons_ratio = 0.3, yield_stress = 500e6;
-
-BilinearConstants steel(double tangent_modulus) {
-  const double mu = youngs_modulus / (2 * (1 + poissons_ratio));
-  return {{2 * mu * poissons_ratio / (1 - 2 * poissons_ratio), mu},
-          yield_stress,
-          hardening_modulus(youngs_modulus, tangent_modulus)};
-}
+constexpr double yield_stress = 500e6;
 
 /// The constants of one element, and its history.
 struct Element {
@@ -114,20 +107,6 @@ double plastic_volume(const Element& bilinear) {
   return (Matrix::Identity() + 2 * metric).determinant();
 }
 
-Matrix turn(double angle, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
-
-double mises(const Matrix& tau) { return std::sqrt(1.5) * (tau - Matrix::Identity() * tau.trace() / 3).norm(); }
-
-using Motion = std::function<Matrix(double)>;
-
-std::vector<Matrix> sampled(const Motion& motion, int steps) {
-  std::vector<Matrix> path;
-  for (int k = 1; k <= steps; ++k) path.push_back(motion(static_cast<double>(k) / steps));
-  return path;
-}
-
 Matrix stretch(double a, double b, double c) {
   return Eigen::Vector3d(std::exp(a), std::exp(b), std::exp(c)).asDiagonal();
 }
@@ -171,7 +150,7 @@ void check_path(const BilinearConstants& constants, const std::vector<Matrix>& p
 }  // namespace
 
 TEST_CASE("under uniaxial stress the material follows its two slopes, forth and back") {
-  const BilinearConstants constants = steel(5e9);
+  const BilinearConstants constants = steel(yield_stress, 5e9);
   // The lateral strain that keeps the lateral stress zero: -nu times the elastic part, -1/2 times the plastic one.
   double plastic = 0, equivalent = 0;
   std::vector<Matrix> path;
@@ -207,7 +186,7 @@ TEST_CASE("under uniaxial stress the material follows its two slopes, forth and 
 
 TEST_CASE("pure shear strain far beyond yield follows the exact law, without hardening too") {
   for (const double tangent : {0.0, 2e9}) {
-    const BilinearConstants constants = steel(tangent);
+    const BilinearConstants constants = steel(yield_stress, tangent);
     const Element bilinear = material(constants);
     const int steps = 1000;
     const auto stress = follow(bilinear, sampled([](double t) { return stretch(0.5 * t, -0.5 * t, 0); }, steps));
@@ -226,16 +205,16 @@ TEST_CASE("pure shear strain far beyond yield follows the exact law, without har
 
 TEST_CASE("stress along winding paths is that of the spectral return map") {
   const auto back_and_forth = sampled([](double t) { return shear(std::sin(7 * t)); }, 8000);
-  for (const double tangent : {0.0, 2e9, 10e9}) check_path(steel(tangent), sampled(winding, 4000));
-  for (const double tangent : {0.0, 2e9}) check_path(steel(tangent), back_and_forth);
-  BilinearConstants soft = steel(0);
+  for (const double tangent : {0.0, 2e9, 10e9}) check_path(steel(yield_stress, tangent), sampled(winding, 4000));
+  for (const double tangent : {0.0, 2e9}) check_path(steel(yield_stress, tangent), back_and_forth);
+  BilinearConstants soft = steel(yield_stress, 0);
   soft.yield_stress = 0.1 * yield_stress;
   check_path(soft, sampled(winding, 40000));
   check_path(soft, sampled([](double t) { return shear(std::sin(7 * t)); }, 40000));
 }
 
 TEST_CASE("at small strain the return converges to the integrated rate equations") {
-  const BilinearConstants constants = steel(10e9);
+  const BilinearConstants constants = steel(yield_stress, 10e9);
   Matrix tension = Matrix::Zero(), twist = Matrix::Zero();
   tension.diagonal() << 0.004, -0.002, -0.002;
   twist(0, 1) = twist(1, 0) = 0.004;
@@ -264,13 +243,15 @@ TEST_CASE("at small strain the return converges to the integrated rate equations
 
 TEST_CASE("a turning body has the same stress, turned") {
   const int steps = 1500;
-  const Element still = material(steel(5e9)), turning = material(steel(5e9));
-  const auto rotation = [](double t) { return Matrix(turn(9 * t, {1, 2, -0.5}) * turn(4 * t * t, {0, 1, 1})); };
+  const Element still = material(steel(yield_stress, 5e9)), turning = material(steel(yield_stress, 5e9));
+  const auto turned_by = [](double t) {
+    return Matrix(rotation(9 * t, {1, 2, -0.5}) * rotation(4 * t * t, {0, 1, 1}));
+  };
   const auto stress = follow(still, sampled(winding, steps));
-  const auto turned = follow(turning, sampled([&](double t) { return Matrix(rotation(t) * winding(t)); }, steps));
+  const auto turned = follow(turning, sampled([&](double t) { return Matrix(turned_by(t) * winding(t)); }, steps));
   double worst = 0;
   for (int k = 0; k < steps; ++k) {
-    const Matrix Q = rotation(static_cast<double>(k + 1) / steps);
+    const Matrix Q = turned_by(static_cast<double>(k + 1) / steps);
     worst = std::max(worst, (turned[k] - Q * stress[k] * Q.transpose()).norm() / yield_stress);
   }
   CHECK(worst < 1e-10);
@@ -280,10 +261,10 @@ TEST_CASE("a turning body has the same stress, turned") {
 TEST_CASE("below yield the stress is the elastic material's") {
   const auto path = sampled(
       [](double t) {
-        return Matrix(turn(3 * t, {1, 1, 2}) * shear(0.002 * t) * stretch(0.001 * t, 0, 0));
+        return Matrix(rotation(3 * t, {1, 1, 2}) * shear(0.002 * t) * stretch(0.001 * t, 0, 0));
       },
       500);
-  const BilinearConstants constants = steel(5e9);
+  const BilinearConstants constants = steel(yield_stress, 5e9);
   const Element bilinear = material(constants);
   const auto plastic = follow(bilinear, path), elastic = follow(bilinear, path, false);
   // Bit by bit but where a compiler fuses multiplications and additions differently in the two.
@@ -296,7 +277,7 @@ TEST_CASE("below yield the stress is the elastic material's") {
 }
 
 TEST_CASE("a hundred thousand yielding steps end where a few end") {
-  const BilinearConstants constants = steel(0);
+  const BilinearConstants constants = steel(yield_stress, 0);
   const Motion straight = [](double t) { return stretch(0.3 * t, -0.2 * t, -0.1 * t); };
   // The direction is fixed, so the law can be written down: the strain's own measure less the elastic part.
   const Eigen::Vector3d strain(0.3, -0.2, -0.1);
@@ -314,7 +295,7 @@ TEST_CASE("a hundred thousand yielding steps end where a few end") {
 }
 
 TEST_CASE("held on the yield surface for a hundred thousand steps nothing flows") {
-  const Element bilinear = material(steel(0));
+  const Element bilinear = material(steel(yield_stress, 0));
   std::vector<Matrix> path = sampled(winding, 300);
   path.resize(200);
   path.push_back(path.back());
@@ -327,10 +308,10 @@ TEST_CASE("held on the yield surface for a hundred thousand steps nothing flows"
 }
 
 TEST_CASE("a hundred thousand steps around a loop do not ratchet the pressure") {
-  const Element bilinear = material(steel(0));
+  const Element bilinear = material(steel(yield_stress, 0));
   const Motion loop = [](double t) {
     const double phase = 2 * M_PI * 100 * t;
-    return Matrix(turn(20 * t, {0, 1, 0}) * shear(0.01 * std::sin(phase)) *
+    return Matrix(rotation(20 * t, {0, 1, 0}) * shear(0.01 * std::sin(phase)) *
                   stretch(0.004 * std::cos(phase), -0.004 * std::cos(phase), 0));
   };
   const auto path = sampled(loop, 100000);
@@ -345,7 +326,7 @@ TEST_CASE("a hundred thousand steps around a loop do not ratchet the pressure") 
 }
 
 TEST_CASE("plastic work is never negative and is what the stress did") {
-  const BilinearConstants constants = steel(8e9);
+  const BilinearConstants constants = steel(yield_stress, 8e9);
   const Element bilinear = material(constants);
   const int steps = 20000;
   const auto path = sampled(winding, steps);
@@ -376,22 +357,22 @@ TEST_CASE("plastic work is never negative and is what the stress did") {
 
 TEST_CASE("numbers of type float follow the same path") {
   const auto path = sampled(winding, 2000);
-  const auto exact = follow(material(steel(5e9)), path);
+  const auto exact = follow(material(steel(yield_stress, 5e9)), path);
   const auto deviation = [&](const std::vector<Matrix>& stress) {
     double worst = 0;
     for (std::size_t k = 0; k < path.size(); ++k) worst = std::max(worst, (stress[k] - exact[k]).norm() / yield_stress);
     return worst;
   };
-  CHECK(deviation(follow<float>(material(steel(5e9)), path)) < 1e-3);
+  CHECK(deviation(follow<float>(material(steel(yield_stress, 5e9)), path)) < 1e-3);
 }
 
 TEST_CASE("the turn that single precision leaves out of the gradient may change from step to step") {
   const auto path = sampled(winding, 800);
-  const auto exact = follow<double>(material(steel(5e9)), path);
-  Element turned = material(steel(5e9));
+  const auto exact = follow<double>(material(steel(yield_stress, 5e9)), path);
+  Element turned = material(steel(yield_stress, 5e9));
   double worst = 0;
   for (int leg = 0; leg < 4; ++leg) {
-    const Matrix R = turn(0.9 * leg, {1, -2, 0.7});
+    const Matrix R = rotation(0.9 * leg, {1, -2, 0.7});
     turned.turn = R;
     // The gradient of x - R X is I - R F^-1, the one that F R^T has.
     std::vector<Matrix> relative;
@@ -404,7 +385,7 @@ TEST_CASE("the turn that single precision leaves out of the gradient may change 
 }
 
 TEST_CASE("each lane flows by itself") {
-  const BilinearConstants constants = steel(5e9);
+  const BilinearConstants constants = steel(yield_stress, 5e9);
   const int lanes = tile_width<double>;
   const auto path = sampled([](double t) { return shear(0.02 * t); }, 200);
   const Element batch = material(constants);

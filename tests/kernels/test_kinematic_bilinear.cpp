@@ -1,6 +1,5 @@
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
-#include <functional>
 #include <vector>
 
 #include "kernels/materials/kinematic_bilinear.hpp"
@@ -14,15 +13,7 @@ using Matrix3 = Eigen::Matrix3d;
 
 namespace {
 
-constexpr double youngs_modulus = 210e9, poissons_ratio = 0.3;
 constexpr double betas[] = {0, 0.3, 0.5, 1};
-
-BilinearConstants steel(double yield_stress, double tangent_modulus) {
-  const double mu = youngs_modulus / (2 * (1 + poissons_ratio));
-  return {{2 * mu * poissons_ratio / (1 - 2 * poissons_ratio), mu},
-          yield_stress,
-          hardening_modulus(youngs_modulus, tangent_modulus)};
-}
 
 /// So soft that elastic strains stay near 1e-6: the kernel's series of the logarithm leaves out some 1e-12 of the
 /// stress there.
@@ -73,20 +64,6 @@ Matrix3 shear(double angle) {
 
 /// H of first `inner`, then `outer`: I - G_inner G_outer.
 Matrix3 after(const Matrix3& outer, const Matrix3& inner) { return outer + inner - inner * outer; }
-
-Matrix3 rotation(double angle, const Eigen::Vector3d& axis) {
-  return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-}
-
-double mises(const Matrix3& tau) { return std::sqrt(1.5) * (tau - Matrix3::Identity() * tau.trace() / 3).norm(); }
-
-using Motion = std::function<Matrix3(double)>;
-
-std::vector<Matrix3> sampled(const Motion& motion, int steps) {
-  std::vector<Matrix3> path;
-  for (int k = 1; k <= steps; ++k) path.push_back(motion(static_cast<double>(k) / steps));
-  return path;
-}
 
 /// Shear and stretches out of phase, so that the flow turns all the time, of a size.
 Motion winding(double size) {

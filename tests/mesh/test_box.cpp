@@ -6,6 +6,7 @@
 
 #include "case/error.hpp"
 #include "mesh/build_mesh.hpp"
+#include "topology.hpp"
 
 using namespace railwave;
 
@@ -19,17 +20,6 @@ scene::MeshSource block() {
   source.box.size = {3, 2, 0.4};
   source.box.divisions = {3, 4, 2};
   return source;
-}
-
-// Area vector of a face: half the cross product of its diagonals.
-Vec3 area(const Mesh& mesh, const Face& face) {
-  const auto n = mesh.face_nodes(face);
-  Vec3 a, b;
-  for (int i = 0; i < 3; ++i) {
-    a[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i];
-    b[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
-  }
-  return {(a[1] * b[2] - a[2] * b[1]) / 2, (a[2] * b[0] - a[0] * b[2]) / 2, (a[0] * b[1] - a[1] * b[0]) / 2};
 }
 
 }  // namespace
@@ -49,13 +39,10 @@ TEST_CASE("a box has the divisions, corners and six sides asked for") {
       const std::string name = std::string(1, "xyz"[axis]) + (upper ? "_max" : "_min");
       CAPTURE(name);
       const double position = upper ? high[axis] : low[axis];
-      Vec3 total{0, 0, 0};
+      const Vec3 total = area_vector(mesh, mesh.surfaces.at(name));
       std::set<int> surface_nodes;
-      for (const Face& face : mesh.surfaces.at(name)) {
-        const Vec3 a = area(mesh, face);
-        for (int i = 0; i < 3; ++i) total[i] += a[i];
+      for (const Face& face : mesh.surfaces.at(name))
         for (int node : mesh.face_nodes(face)) surface_nodes.insert(node);
-      }
       for (int node : surface_nodes) CHECK(mesh.nodes[node][axis] == Catch::Approx(position));
       const auto& nodes = mesh.node_sets.at(name);
       CHECK(std::set<int>(nodes.begin(), nodes.end()) == surface_nodes);

@@ -62,15 +62,10 @@ TEST_CASE("A cylinder's faces look outwards: skin away from the axis, ends along
   const auto area = [&](const char* name, int axis) {
     double sum = 0;
     for (const Face& face : mesh.surfaces.at(name)) {
-      const auto c = mesh.face_nodes(face);
-      Vec3 middle{}, p{}, q{};
-      for (int i = 0; i < 3; ++i) {
-        for (int n : c) middle[i] += 0.25 * mesh.nodes[n][i];
-        p[i] = mesh.nodes[c[2]][i] - mesh.nodes[c[0]][i];
-        q[i] = mesh.nodes[c[3]][i] - mesh.nodes[c[1]][i];
-      }
-      const Vec3 normal{0.5 * (p[1] * q[2] - p[2] * q[1]), 0.5 * (p[2] * q[0] - p[0] * q[2]),
-                        0.5 * (p[0] * q[1] - p[1] * q[0])};
+      Vec3 middle{};
+      for (int n : mesh.face_nodes(face))
+        for (int i = 0; i < 3; ++i) middle[i] += 0.25 * mesh.nodes[n][i];
+      const Vec3 normal = area_vector(mesh, face);
       sum += axis == 2 ? normal[2] : (normal[0] * middle[0] + normal[1] * middle[1]) / std::hypot(middle[0], middle[1]);
     }
     return sum;

@@ -35,26 +35,6 @@ scene::MeshSource rail_of(const scene::MeshSource& plate) {
   return source;
 }
 
-/// Half the vector product of the diagonals: outwards, as long as the area.
-Vec3 area_vector(const Mesh& mesh, const Face& face) {
-  const auto n = mesh.face_nodes(face);
-  Vec3 p, q;
-  for (int i = 0; i < 3; ++i) {
-    p[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i];
-    q[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
-  }
-  return {0.5 * (p[1] * q[2] - p[2] * q[1]), 0.5 * (p[2] * q[0] - p[0] * q[2]), 0.5 * (p[0] * q[1] - p[1] * q[0])};
-}
-
-Vec3 sum_of_areas(const Mesh& mesh, const char* surface) {
-  Vec3 sum{0, 0, 0};
-  for (const Face& face : mesh.surfaces.at(surface)) {
-    const Vec3 area = area_vector(mesh, face);
-    for (int i = 0; i < 3; ++i) sum[i] += area[i];
-  }
-  return sum;
-}
-
 /// How far in a plane of constant x a point lies from the nearest chord of the rail's fishing chamber.
 double distance_to_rail(const Mesh& rail, const char* surface, const Vec3& p) {
   double nearest = 1;
@@ -105,19 +85,19 @@ TEST_CASE("a fishplate lies on the facets of its rail, on either side") {
       for (const Face& face : plate.surfaces.at("fishing_2"))
         for (int n : plate.face_nodes(face)) CHECK(plate.nodes[n][0] > 0.003 - 1e-12);
       // Outer side away from the rail, leaning as it does; a closed body has no area in all.
-      const Vec3 outer = sum_of_areas(plate, "outer");
+      const Vec3 outer = area_vector(plate, plate.surfaces.at("outer"));
       CHECK((left ? -1 : 1) * outer[1] > 0.6 * 0.07);
       CHECK((left ? -1 : 1) * outer[2] > 0);
-      CHECK(sum_of_areas(plate, "upper")[2] > 0);
-      CHECK(sum_of_areas(plate, "lower")[2] < 0);
-      CHECK((left ? -1 : 1) * sum_of_areas(plate, "inner")[1] < 0);
+      CHECK(area_vector(plate, plate.surfaces.at("upper"))[2] > 0);
+      CHECK(area_vector(plate, plate.surfaces.at("lower"))[2] < 0);
+      CHECK((left ? -1 : 1) * area_vector(plate, plate.surfaces.at("inner"))[1] < 0);
       for (int i = 0; i < 3; ++i) {
         double sum = 0;
         for (const char* surface : {"upper", "inner", "lower", "outer", "start_face", "end_face"})
-          sum += sum_of_areas(plate, surface)[i];
+          sum += area_vector(plate, plate.surfaces.at(surface))[i];
         CHECK_THAT(sum, WithinAbs(0, 1e-12));
       }
-      const Vec3 start = sum_of_areas(plate, "start_face");
+      const Vec3 start = area_vector(plate, plate.surfaces.at("start_face"));
       CHECK_THAT(quality.volume, WithinRel(-0.6 * start[0], 1e-9));
       CHECK(-start[0] > 0.0014);
       CHECK(-start[0] < 0.0026);
@@ -191,7 +171,7 @@ TEST_CASE("a rail's fishing surfaces are the sides of its chambers") {
     for (const char* surface : {"fishing_left", "fishing_right"}) {
       const double outwards = std::string(surface) == "fishing_left" ? -1 : 1;
       INFO(section << " " << surface);
-      const Vec3 sum = sum_of_areas(rail, surface);
+      const Vec3 sum = area_vector(rail, rail.surfaces.at(surface));
       // Projected sideways: from the toe's rounding up to the head's lower corner. Upwards: foot beyond the head.
       CHECK_THAT(outwards * sum[1], WithinRel(height * length, 0.02));
       CHECK(sum[2] > 0);

@@ -11,6 +11,7 @@
 #include "mesh/height_map.hpp"
 #include "mesh/quality.hpp"
 #include "tests/temporary_folder.hpp"
+#include "topology.hpp"
 
 using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
@@ -142,18 +143,7 @@ TEST_CASE("A rail has its foot and both ends as surfaces") {
   scene::MeshSource source = rail_with("");
   source.rail.inclination = 0.025;
   const Mesh mesh = rail_mesh(source);
-  const auto area = [&](const std::string& name, int axis) {
-    double sum = 0;
-    for (const Face& face : mesh.surfaces.at(name)) {
-      const auto n = mesh.face_nodes(face);
-      const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-      for (int c = 0; c < 4; ++c) {
-        const Vec3 &a = mesh.nodes[n[c]], &b = mesh.nodes[n[(c + 1) % 4]];
-        sum += 0.5 * (a[j] * b[k] - b[j] * a[k]);
-      }
-    }
-    return sum;
-  };
+  const auto area = [&](const char* name, int axis) { return area_vector(mesh, mesh.surfaces.at(name))[axis]; };
   // Normals point out of the rail: down, backwards, forwards.
   CHECK(area("start_face", 0) < -0.0069);
   CHECK(area("end_face", 0) > 0.0069);

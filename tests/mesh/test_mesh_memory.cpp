@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 
 #include "case/error.hpp"
+#include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/mesh_memory.hpp"
 
@@ -10,14 +11,6 @@ using Catch::Matchers::ContainsSubstring;
 using Catch::Matchers::StartsWith;
 
 namespace {
-
-scene::MeshSource named(scene::MeshType type) {
-  scene::MeshSource source;
-  source.name = "body";
-  source.line = 7;
-  source.type = type;
-  return source;
-}
 
 void check_refused(const scene::MeshSource& source, const std::string& why) {
   CHECK_THROWS_WITH(build_mesh(source), StartsWith("[meshes.body] (line 7): ") && ContainsSubstring(why));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "case/error.hpp"
+#include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/mesh_memory.hpp"
 
@@ -12,14 +13,6 @@ using namespace railwave;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
-
-scene::MeshSource named(scene::MeshType type) {
-  scene::MeshSource source;
-  source.name = "body";
-  source.line = 7;
-  source.type = type;
-  return source;
-}
 
 /// What is expected over what is made.
 double share(const scene::MeshSource& source) {

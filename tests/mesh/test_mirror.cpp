@@ -20,21 +20,6 @@ scene::MeshSource source_of(scene::MeshType type) {
   return source;
 }
 
-/// Vector area of a surface and of the volume that it and the axis close: their signs show where the faces look.
-Vec3 vector_area(const Mesh& mesh, const std::vector<Face>& faces) {
-  Vec3 sum{};
-  for (const Face& face : faces) {
-    const auto c = mesh.face_nodes(face);
-    Vec3 p{}, q{};
-    for (int i = 0; i < 3; ++i) {
-      p[i] = mesh.nodes[c[2]][i] - mesh.nodes[c[0]][i];
-      q[i] = mesh.nodes[c[3]][i] - mesh.nodes[c[1]][i];
-    }
-    for (int i = 0; i < 3; ++i) sum[i] += 0.5 * (p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3]);
-  }
-  return sum;
-}
-
 void check_mirrored(const Mesh& mesh) {
   Mesh image = mesh;
   mirror(image);
@@ -49,7 +34,7 @@ void check_mirrored(const Mesh& mesh) {
   CHECK(image.node_sets == mesh.node_sets);
   for (const auto& [name, faces] : mesh.surfaces) {
     INFO(name);
-    const Vec3 own = vector_area(mesh, faces), other = vector_area(image, image.surfaces.at(name));
+    const Vec3 own = area_vector(mesh, faces), other = area_vector(image, image.surfaces.at(name));
     CHECK(std::fabs(other[0] - own[0]) < 1e-12);
     CHECK(std::fabs(other[1] + own[1]) < 1e-12);
     CHECK(std::fabs(other[2] - own[2]) < 1e-12);

@@ -6,7 +6,7 @@
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/quality.hpp"
-#include "mesh/vectors.hpp"
+#include "round_bodies.hpp"
 #include "tests/case/temporary_case.hpp"
 #include "topology.hpp"
 
@@ -66,11 +66,10 @@ TEST_CASE("A ring's sets are its sides, exact at every node") {
   const Mesh mesh = build_mesh(ring_of(36, 2, 3));
   CHECK(mesh.node_sets.size() == 4);
   CHECK(mesh.surfaces.size() == 4);
-  const auto radius = [&](int n) { return std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]); };
   CHECK(mesh.node_sets.at("outer").size() == 36u * 4u);
-  for (int n : mesh.node_sets.at("outer")) CHECK_THAT(radius(n), WithinAbs(0.46, 1e-15));
+  for (int n : mesh.node_sets.at("outer")) CHECK_THAT(radius_of(mesh.nodes[n]), WithinAbs(0.46, 1e-15));
   CHECK(mesh.node_sets.at("inner").size() == 36u * 4u);
-  for (int n : mesh.node_sets.at("inner")) CHECK_THAT(radius(n), WithinAbs(0.4, 1e-15));
+  for (int n : mesh.node_sets.at("inner")) CHECK_THAT(radius_of(mesh.nodes[n]), WithinAbs(0.4, 1e-15));
   CHECK(mesh.node_sets.at("y_min").size() == 36u * 3u);
   for (int n : mesh.node_sets.at("y_min")) CHECK(mesh.nodes[n][1] == -0.04);
   CHECK(mesh.node_sets.at("y_max").size() == 36u * 3u);
@@ -86,13 +85,11 @@ TEST_CASE("A ring's faces look outwards, and begin at the lowest point towards +
   const auto area = [&](const char* name, bool along) {
     double sum = 0;
     for (const Face& face : mesh.surfaces.at(name)) {
-      const auto corners = mesh.face_nodes(face);
-      const Vec3 doubled = doubled_area(mesh.nodes, corners);
       Vec3 middle{0, 0, 0};
-      for (int n : corners)
+      for (int n : mesh.face_nodes(face))
         for (int i = 0; i < 3; ++i) middle[i] += mesh.nodes[n][i] / 4;
-      sum += 0.5 * (along ? doubled[1]
-                          : (doubled[0] * middle[0] + doubled[2] * middle[2]) / std::hypot(middle[0], middle[2]));
+      const Vec3 normal = area_vector(mesh, face);
+      sum += along ? normal[1] : (normal[0] * middle[0] + normal[2] * middle[2]) / radius_of(middle);
     }
     return sum;
   };

@@ -6,6 +6,7 @@
 #include "complaint.hpp"
 #include "mesh/build_mesh.hpp"
 #include "mesh/quality.hpp"
+#include "round_bodies.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -52,7 +53,7 @@ TEST_CASE("A roller's tread is a cylinder, or a sphere where its crown has its o
       }
       for (int n : mesh.node_sets.at("bore"))
         // A ring's bore takes what the chords of the tread's cells of 10 mm lack: a^2 / 12 (R^2 - r^2) / r and more.
-        CHECK_THAT(std::hypot(mesh.nodes[n][0], mesh.nodes[n][2]), WithinAbs(0.40, ring ? 1e-5 : 1e-14));
+        CHECK_THAT(radius_of(mesh.nodes[n]), WithinAbs(0.40, ring ? 1e-5 : 1e-14));
       CHECK(mesh.node_sets.count("arc_min") == (ring ? 0u : 1u));
     }
 }

@@ -40,11 +40,8 @@ scene::Seam seam(Vec3 place, double length, double depth, double angle) {
 double area_of(const Mesh& mesh, const std::vector<Face>& faces) {
   double sum = 0;
   for (const Face& face : faces) {
-    const auto n = mesh.face_nodes(face);
-    Vec3 p, q;
-    for (int i = 0; i < 3; ++i)
-      p[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i], q[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
-    sum += 0.5 * std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
+    const Vec3 area = area_vector(mesh, face);
+    sum += std::hypot(area[0], area[1], area[2]);
   }
   return sum;
 }

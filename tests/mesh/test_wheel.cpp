@@ -7,6 +7,7 @@
 #include "mesh/generators/wheel.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sections/profiles.hpp"
+#include "round_bodies.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -26,12 +27,6 @@ scene::MeshSource wheel_source() {
   source.wheel.zone_centre = 0.005;
   return source;
 }
-
-/// How far out nodes of inner circles lie at most, a fraction of the radius: between cells of core_size = 90 mm on a
-/// radius of 0.46 m, a = 0.196, so that their sectors have their area, a^2 / 12.
-constexpr double widest_growth = 0.0033;
-
-double radius_of(const Vec3& p) { return std::hypot(p[0], p[2]); }
 
 void check_sound(const Mesh& mesh, double zone_size, double least_step, double largest_ratio) {
   const MeshQuality quality = mesh_quality(mesh, 1);

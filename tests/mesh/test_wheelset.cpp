@@ -8,6 +8,7 @@
 #include "mesh/generators/wheel.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/sections/profiles.hpp"
+#include "round_bodies.hpp"
 #include "topology.hpp"
 
 using namespace railwave;
@@ -31,30 +32,6 @@ scene::MeshSource coarse(bool half) {
   w.zone_layers = 1;
   w.growth = 1.5;
   return source;
-}
-
-/// How far out nodes of inner circles lie at most, a fraction of the radius: between cells of core_size = 90 mm on a
-/// radius of 0.46 m, a = 0.196, so that their sectors have their area, a^2 / 12.
-constexpr double widest_growth = 0.0033;
-
-double radius_of(const Vec3& p) { return std::hypot(p[0], p[2]); }
-
-/// The lathe's volume of the axle beside the hub, of cones between the pairs, and within it of the bore's cylinder.
-double axle_volume(const scene::WheelsetMesh& w) {
-  const double first = 0.5 * w.flange_back_distance + 0.070 + w.web_centre - 0.5 * w.hub_width;
-  std::vector<std::array<double, 2>> all;
-  for (const auto& p : w.axle)
-    if (p[0] < first) all.push_back(p);
-  all.push_back({first, w.bore_radius});
-  all.push_back({first + w.hub_width, w.bore_radius});
-  for (const auto& p : w.axle)
-    if (p[0] > first) all.push_back(p);
-  double volume = 0;
-  for (std::size_t i = 1; i < all.size(); ++i) {
-    const double a = all[i - 1][1], b = all[i][1];
-    volume += M_PI / 3 * (a * a + a * b + b * b) * (all[i][0] - all[i - 1][0]);
-  }
-  return volume;
 }
 
 void check_sound(const Mesh& mesh, double zone_size, int euler) {

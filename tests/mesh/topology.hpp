@@ -75,6 +75,27 @@ inline Topology topology(const Mesh& mesh) {
   return result;
 }
 
+/// Half the vector product of a face's diagonals: outwards, as long as its area, m2.
+inline Vec3 area_vector(const Mesh& mesh, const Face& face) {
+  const auto n = mesh.face_nodes(face);
+  Vec3 p, q;
+  for (int i = 0; i < 3; ++i) {
+    p[i] = mesh.nodes[n[2]][i] - mesh.nodes[n[0]][i];
+    q[i] = mesh.nodes[n[3]][i] - mesh.nodes[n[1]][i];
+  }
+  return {0.5 * (p[1] * q[2] - p[2] * q[1]), 0.5 * (p[2] * q[0] - p[0] * q[2]), 0.5 * (p[0] * q[1] - p[1] * q[0])};
+}
+
+/// The sum of these over a surface: zero where it is closed.
+inline Vec3 area_vector(const Mesh& mesh, const std::vector<Face>& surface) {
+  Vec3 sum{0, 0, 0};
+  for (const Face& face : surface) {
+    const Vec3 area = area_vector(mesh, face);
+    for (int i = 0; i < 3; ++i) sum[i] += area[i];
+  }
+  return sum;
+}
+
 /// Shortest and longest edge of some elements, m.
 inline std::pair<double, double> edge_range(const Mesh& mesh, const std::vector<int>& elements) {
   std::pair<double, double> range{1e300, 0};

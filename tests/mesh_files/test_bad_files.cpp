@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "case/error.hpp"
-#include "mesh/build_mesh.hpp"
 #include "source_folder.hpp"
+#include "tests/mesh/complaint.hpp"
 #include "tests/mesh_files/mesh_checks.hpp"
 
 using namespace railwave;
@@ -24,22 +23,14 @@ TEST_CASE("each broken mesh file is refused with its message") {
 
   for (const auto& path : paths) {
     const bool abaqus = path.extension() == ".inp";
-    const auto text = bytes_of(abaqus ? path.string() : path.string() + ".expect");
+    const auto text = text_of(abaqus ? path.string() : path.string() + ".expect");
     const std::string prefix = abaqus ? "** expect: " : "";
     CAPTURE(path.filename());
     REQUIRE(text.compare(0, prefix.size(), prefix) == 0);
     const auto expected = text.substr(prefix.size(), text.find('\n') - prefix.size());
     REQUIRE(expected.size() > 20);
 
-    scene::MeshSource source;
-    source.type = scene::MeshType::file;
-    source.file.path = path.string();
-    std::string message = "(none: the file was read)";
-    try {
-      build_mesh(source);
-    } catch (const InputError& error) {
-      message = error.what();
-    }
+    const std::string message = complaint_of(source_of_file(path.string()));
     std::string rest = path.filename().string() + expected;
     for (std::size_t gap; (gap = rest.find(" ... ")) != std::string::npos; rest.erase(0, gap + 5))
       CHECK_THAT(message, Catch::Matchers::ContainsSubstring(rest.substr(0, gap)));

@@ -40,9 +40,7 @@ class Damage {
   explicit Damage(std::string ending) : ending_(std::move(ending)) {}
 
   void read(const std::string& bytes) {
-    scene::MeshSource source;
-    source.type = scene::MeshType::file;
-    source.file.path = folder_.write("damaged" + ending_, bytes);
+    const scene::MeshSource source = source_of_file(folder_.write("damaged" + ending_, bytes));
     try {
       if (!sound(build_mesh(source))) ++unsound_;
     } catch (const InputError& error) {
@@ -71,7 +69,7 @@ const std::string small_deck =
 
 std::string ending_of(const std::string& name) { return name.substr(name.rfind('.')); }
 
-std::string good_file(const std::string& name) { return name == "deck.inp" ? small_deck : bytes_of(test_data + name); }
+std::string good_file(const std::string& name) { return name == "deck.inp" ? small_deck : text_of(test_data + name); }
 
 }  // namespace
 
@@ -89,14 +87,11 @@ TEST_CASE("files cut short anywhere are refused or read, never worse") {
 TEST_CASE("a Gmsh file cut before its elements' end is never taken for whole") {
   const std::string name = GENERATE_COPY("small_ascii.msh", "small_binary.msh");
   const TemporaryFolder folder;
-  const auto bytes = bytes_of(test_data + name);
+  const auto bytes = text_of(test_data + name);
   const auto end = bytes.rfind("$EndElements") + std::string("$EndElements").size();
   for (std::size_t length = 0; length < end; ++length) {
-    scene::MeshSource source;
-    source.type = scene::MeshType::file;
-    source.file.path = folder.write("cut.msh", bytes.substr(0, length));
     CAPTURE(name, length);
-    CHECK_THROWS_AS(build_mesh(source), InputError);
+    CHECK_THROWS_AS(build_mesh(source_of_file(folder.write("cut.msh", bytes.substr(0, length)))), InputError);
   }
 }
 
@@ -132,16 +127,14 @@ TEST_CASE("random bytes are no mesh") {
 }
 
 TEST_CASE("a binary header that promises more than the file holds is refused before memory is asked for") {
-  const auto bytes = bytes_of(test_data + "small_binary.msh");
+  const auto bytes = text_of(test_data + "small_binary.msh");
   const std::string section = GENERATE("$Entities\n", "$Nodes\n", "$Elements\n");
   const int field = GENERATE(0, 1);
   const TemporaryFolder folder;
   auto damaged = bytes;
   const std::uint64_t count = std::uint64_t(1) << 61;
   std::memcpy(damaged.data() + damaged.find(section) + section.size() + 8 * field, &count, 8);
-  scene::MeshSource source;
-  source.type = scene::MeshType::file;
-  source.file.path = folder.write("huge.msh", damaged);
+  const scene::MeshSource source = source_of_file(folder.write("huge.msh", damaged));
   CAPTURE(section, field);
   CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("huge.msh: byte ") &&
                                             ContainsSubstring("the header promises 2305843009213693952"));
@@ -149,18 +142,16 @@ TEST_CASE("a binary header that promises more than the file holds is refused bef
 
 TEST_CASE("a binary file of the other byte order, and one with a number that isn't finite, are refused") {
   const TemporaryFolder folder;
-  scene::MeshSource source;
-  source.type = scene::MeshType::file;
-  auto swapped = bytes_of(test_data + "small_binary.msh");
+  auto swapped = text_of(test_data + "small_binary.msh");
   const auto mark = swapped.find("4.1 1 8\n") + 8;
   std::swap(swapped[mark], swapped[mark + 3]);
-  source.file.path = folder.write("swapped.msh", swapped);
-  CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("save the file as ASCII"));
+  CHECK_THROWS_WITH(build_mesh(source_of_file(folder.write("swapped.msh", swapped))),
+                    ContainsSubstring("save the file as ASCII"));
 
-  auto endless = bytes_of(test_data + "small_binary.msh");
+  auto endless = text_of(test_data + "small_binary.msh");
   const double infinity = HUGE_VAL;
   // Header 4 x 8 bytes, block 3 x 4 + 8, one tag of 8: then the first coordinate.
   std::memcpy(endless.data() + endless.find("$Nodes\n") + 7 + 32 + 20 + 8, &infinity, 8);
-  source.file.path = folder.write("endless.msh", endless);
-  CHECK_THROWS_WITH(build_mesh(source), ContainsSubstring("node's coordinate isn't a finite number"));
+  CHECK_THROWS_WITH(build_mesh(source_of_file(folder.write("endless.msh", endless))),
+                    ContainsSubstring("node's coordinate isn't a finite number"));
 }

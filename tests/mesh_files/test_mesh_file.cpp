@@ -13,11 +13,9 @@ using Catch::Matchers::StartsWith;
 namespace {
 
 scene::MeshSource file(const std::string& path) {
-  scene::MeshSource source;
-  source.type = scene::MeshType::file;
+  scene::MeshSource source = source_of_file(path);
   source.name = "rail";
   source.line = 12;
-  source.file.path = path;
   return source;
 }
 
@@ -33,7 +31,7 @@ TEST_CASE("a mesh in mm becomes metres") {
 
 TEST_CASE("the ending chooses the format, in either case") {
   const TemporaryFolder folder;
-  CHECK(build_mesh(file(folder.write("A.MSH", bytes_of(test_data + "small_ascii.msh")))).elements.size() == 2);
+  CHECK(build_mesh(file(folder.write("A.MSH", text_of(test_data + "small_ascii.msh")))).elements.size() == 2);
   CHECK(build_mesh(file(test_data + "block_binary.msh")).elements.size() == 640);
 }
 

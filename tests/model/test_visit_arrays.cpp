@@ -69,12 +69,7 @@ struct Bytes {
 /// Every kind of array that there is.
 scene::Scene scene_of_everything() {
   scene::Scene scene = busy_blocks();
-  scene::Load pressure;
-  pressure.name = "pressure";
-  pressure.type = scene::LoadType::pressure;
-  pressure.target = "upper.z_max";
-  pressure.pressure = 1e6;
-  scene.loads.push_back(pressure);
+  add_pressure(scene, "upper.z_max", 1e6);
   scene::NonReflecting end;
   end.name = "end";
   end.target = "lower.x_max";
@@ -144,6 +139,7 @@ void check_all_are_visited(const scene::Scene& scene) {
 TEST_CASE("every array that a model holds is visited once, and counted in its bytes") {
   scene::Scene scene = scene_of_everything();
   SECTION("double") {}
+  SECTION("estimate of the whole scene") { scene.solver.step_estimate = scene::StepEstimate::global; }
   SECTION("mixed") { scene.solver.precision = scene::Precision::mixed; }
   SECTION("multipliers, smooth normals") {
     scene.non_reflecting.clear();  // multipliers know nothing of dashpots

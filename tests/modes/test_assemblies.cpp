@@ -45,19 +45,9 @@ TEST_CASE("A block that slides on oblique planes vibrates as one that slides alo
 TEST_CASE("Two masses on springs", "[modes]") {
   // A block so stiff that it is a mass, and a point mass on it: f from the two by two problem along each axis.
   scene::Scene scene = mode_block({0.1, 0.1, 0.1}, {2, 2, 2}, 0.1);
-  scene::PointMass mass = massless("mass", {0.05, 0.05, 0.3});
-  mass.mass = 20;
-  scene.points.push_back(mass);
-  scene::Connector upper, lower;
-  upper.name = "upper";
-  upper.from = "block";
-  upper.to = "mass";
-  upper.stiffness = {0, 0, 2e5};
-  lower.name = "lower";
-  lower.from = "ground";
-  lower.to = "block";
-  lower.stiffness = {0, 0, 1e6};
-  scene.connectors = {upper, lower};
+  add_point(scene, "mass", 20, {0.05, 0.05, 0.3});
+  add_spring(scene, "block", "mass", {0, 0, 2e5});
+  add_spring(scene, "ground", "block", {0, 0, 1e6});
   const double m1 = 7.8, m2 = 20, k1 = 1e6, k2 = 2e5;
   const double trace = (k1 + k2) / m1 + k2 / m2, product = k1 * k2 / (m1 * m2),
                root = std::sqrt(trace * trace / 4 - product);

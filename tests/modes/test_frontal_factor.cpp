@@ -11,12 +11,7 @@ TEST_CASE(
     "included",
     "[modes]") {
   scene::Scene scene = mode_block({0.3, 0.2, 0.1}, {9, 6, 4}, 0.05);
-  scene::Connector spring;
-  spring.name = "spring";
-  spring.from = "block.x_min";
-  spring.to = "ground";
-  spring.stiffness = {1e9, 2e9, 3e9};
-  scene.connectors.push_back(spring);
+  add_spring(scene, "block.x_min", "ground", {1e9, 2e9, 3e9});
   Model model;
   build_model(scene, model);
   const ModeUnknowns unknowns(StaticUnknowns(model, model.ties, model.ends, model.beams), model.nodes, model.beams);

@@ -79,12 +79,7 @@ TEST_CASE("A mesh that is no body of revolution has modes without names", "[mode
 
 TEST_CASE("Bodies on soft springs: rigid motions are distinguished from slow ones", "[modes]") {
   scene::Scene scene = mode_block({0.1, 0.1, 0.1}, {4, 4, 4}, 0.1);
-  scene::Connector spring;
-  spring.name = "spring";
-  spring.from = "block";
-  spring.to = "ground";
-  spring.stiffness = {0, 0, 1e3};
-  scene.connectors.push_back(spring);
+  add_spring(scene, "block", "ground", {0, 0, 1e3});
   Model model;
   const ModeList list = modes_of(scene, 10000, model);
   REQUIRE(list.modes.size() == 6);

@@ -54,32 +54,16 @@ void check(const Model& model) {
   CHECK_THAT(energy, WithinRel(0.5 * q.dot(expected), 1e-12));
 }
 
-scene::Connector connector(const std::string& from, const std::string& to) {
-  scene::Connector made;
-  made.name = from + "_to_" + to;
-  made.from = from;
-  made.to = to;
-  made.stiffness = {3e9, 1e9, 2e9};
-  made.axes = oblique_axes();
-  return made;
-}
-
 }  // namespace
 
 TEST_CASE(
     "Mode matrix: warped elements, oblique constraints, springs and a point mass as the matrix-free operator has them",
     "[modes]") {
   scene::Scene scene = mode_block({0.3, 0.2, 0.1}, {5, 4, 3}, 0.07);
-  scene::PointMass mass = massless("mass", {0.1, 0.1, 0.3});
-  mass.mass = 10;
-  scene.points.push_back(mass);
-  scene.connectors = {connector("mass", "block.z_max"), connector("block.x_max", "ground")};
-  scene::Constraint slope;
-  slope.name = "slope";
-  slope.target = "block.x_min";
-  slope.fixed = {false, true, false};
-  slope.axes = oblique_axes();
-  scene.constraints.push_back(slope);
+  add_point(scene, "mass", 10, {0.1, 0.1, 0.3});
+  add_spring(scene, "mass", "block.z_max", {3e9, 1e9, 2e9}).axes = oblique_axes();
+  add_spring(scene, "block.x_max", "ground", {3e9, 1e9, 2e9}).axes = oblique_axes();
+  hold(scene, "block.x_min", {false, true, false}).axes = oblique_axes();
   Assembly assembly = assemble(scene);
   warp(assembly, 0.03, 0.2, 5);
   Model model;

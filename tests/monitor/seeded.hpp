@@ -25,21 +25,11 @@ inline double element_free(const Model& model) {
 }
 inline double allowed(const Model& model) { return model.stable_step.limit; }
 
-inline scene::Load& press(scene::Scene& scene, const std::string& target, double pressure) {
-  scene::Load load;
-  load.name = "weight";
-  load.type = scene::LoadType::pressure;
-  load.target = target;
-  load.pressure = pressure;
-  scene.loads.push_back(load);
-  return scene.loads.back();
-}
-
 /// A block of steel that stands on held nodes, pressed from above.
 inline scene::Scene pressed_block(double pressure = 1e6) {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {5, 5, 5}, 1);
   hold(scene, "block.z_min", {true, true, true});
-  press(scene, "block.z_max", pressure);
+  add_pressure(scene, "block.z_max", pressure);
   return scene;
 }
 
@@ -50,37 +40,23 @@ inline scene::Scene pressed_blocks(double penalty_scale, double pressure = 1e7) 
   scene::Scene scene = blocks.scene(1);
   scene.contacts[0].penalty_scale = penalty_scale;
   hold(scene, "lower.z_min", {true, true, true});
-  press(scene, "upper.z_max", pressure);
+  add_pressure(scene, "upper.z_max", pressure);
   return scene;
 }
 
 /// A pressed block, and a small mass that flies into a spring and dashpot.
 inline scene::Scene sprung_mass(double stiffness, double damping) {
   scene::Scene scene = pressed_block();
-  scene::PointMass ball;
-  ball.name = "ball";
-  ball.mass = 0.01;
-  ball.position = {0, 0, 1};
-  scene.points.push_back(ball);
-  scene::Connector connector;
-  connector.name = "stop";
-  connector.from = "ground";
-  connector.to = "ball";
-  connector.stiffness = {stiffness, 0, 0};
-  connector.damping = {damping, 0, 0};
-  scene.connectors.push_back(connector);
-  scene::InitialMotion motion;
-  motion.name = "ball";
-  motion.parts = {"ball"};
-  motion.velocity = {1, 0, 0};
-  scene.initial_motions.push_back(motion);
+  add_point(scene, "ball", 0.01, {0, 0, 1});
+  add_spring(scene, "ground", "ball", {stiffness, 0, 0}, {damping, 0, 0});
+  add_motion(scene, {"ball"}, {1, 0, 0});
   return scene;
 }
 
 inline scene::Scene bent_beam() {
   scene::Scene scene = beam_scene({1, 0, 0}, 0.02, 8, 1);
   clamp(scene, "root");
-  scene.loads.push_back(force_on("tip", {0, 0, 100}));
+  add_force(scene, "tip", {0, 0, 100});
   return scene;
 }
 
@@ -92,13 +68,7 @@ scene::Scene changed(scene::Scene scene, const Change& change) {
 
 inline scene::Scene spun_block() {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {4, 4, 4}, 1);
-  scene::Load load;
-  load.name = "drive";
-  load.type = scene::LoadType::torque;
-  load.target = "block.z_max";
-  load.moment = 3000;
-  load.axis = {0, 0, 1};
-  scene.loads.push_back(load);
+  add_torque(scene, "block.z_max", 3000, {0, 0, 1});
   return scene;
 }
 
@@ -133,12 +103,12 @@ inline std::vector<Seed> seeds() {
                    corner.part = "block";
                    corner.position = scene::Vec3{0.1, 0.1, 0.02};
                    scene.node_sets.push_back(corner);
-                   add_force(scene, "block.corner", {0, 0, 2000}, "");
+                   add_force(scene, "block.corner", {0, 0, 2000});
                  })});
   all.push_back({"pressure of five times Young's modulus", "load", pressed_block(1e12)});
   all.push_back({"force a million times too large", "load", changed(pressed_block(), [](Scene& scene) {
                    scene.loads.clear();
-                   add_force(scene, "block.z_max", {0, 0, -1e4 * 1e6}, "");
+                   add_force(scene, "block.z_max", {0, 0, -1e4 * 1e6});
                  })});
   all.push_back({"an element nearly flat at a corner", "mesh", pressed_block(), {}, [](Assembly& assembly) {
                    const auto& element = assembly.elements[62];
@@ -154,11 +124,7 @@ inline std::vector<Seed> seeds() {
   all.push_back({"springs of contact a thousandth as stiff", "soft penalty", pressed_blocks(1e-4, 2e8)});
   all.push_back({"velocity in mm/s", "speed", changed(pressed_block(), [](Scene& scene) {
                    scene.constraints.clear();
-                   scene::InitialMotion motion;
-                   motion.name = "throw";
-                   motion.parts = {"block"};
-                   motion.velocity = {30000, 0, 0};
-                   scene.initial_motions.push_back(motion);
+                   add_motion(scene, {"block"}, {30000, 0, 0});
                  })});
   all.push_back({"a curve's value that is no number", "curve", changed(pressed_block(), [](Scene& scene) {
                    scene::Curve curve;

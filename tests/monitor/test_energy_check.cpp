@@ -42,16 +42,8 @@ struct Meddler : RunObserver {
 
 /// 10.9 t at 100 km/h, which nothing touches: 4.2 MJ.
 void add_traveller(scene::Scene& scene) {
-  scene::PointMass mass;
-  mass.name = "traveller";
-  mass.mass = 10900;
-  mass.position = {0, 5, 0};
-  scene.points.push_back(mass);
-  scene::InitialMotion motion;
-  motion.name = "travel";
-  motion.parts = {"traveller"};
-  motion.velocity = {100 / 3.6, 0, 0};
-  scene.initial_motions.push_back(motion);
+  add_point(scene, "traveller", 10900, {0, 5, 0});
+  add_motion(scene, {"traveller"}, {100 / 3.6, 0, 0});
 }
 
 /// A block on a held one, pressed on it within 0.1 ms.
@@ -63,7 +55,7 @@ scene::Scene pressed_pair(scene::ContactAlgorithm algorithm) {
   scene::Scene scene = blocks.scene(1);
   for (scene::Part& part : scene.parts) part.take_hourglass(scene::HourglassType::stiffness);
   hold(scene, "lower.z_min", {true, true, true});
-  press(scene, "upper.z_max", 1e7).curve = "ramp";
+  add_pressure(scene, "upper.z_max", 1e7, "ramp");
   add_ramp(scene, "ramp", 0, 1e-4);
   add_traveller(scene);
   return scene;
@@ -133,7 +125,7 @@ TEST_CASE("a scene at rest far from the origin, damped and not loaded yet, makes
     for (double& x : part.position) x += 1.37;
   }
   hold(scene, "lower.z_min", {true, true, true});
-  press(scene, "upper.z_max", 1e7).curve = "late";
+  add_pressure(scene, "upper.z_max", 1e7, "late");
   add_ramp(scene, "late", 1, 1e-4);
   const Meddler meddler = run_with(scene, {}, 500);
   CHECK(meddler.said() == "");
@@ -218,12 +210,8 @@ TEST_CASE("what only travels is no error: bodies in flight, spun and in free fal
     scene.parts[0].take_hourglass(scene::HourglassType::stiffness);
     scene.gravity = {0, 0, -9.81};
     add_traveller(scene);
-    scene::InitialMotion motion;
-    motion.name = "throw";
-    motion.parts = {"block"};
-    motion.velocity = {100 / 3.6, 0, 0};
+    add_motion(scene, {"block"}, {100 / 3.6, 0, 0});
     INFO(static_cast<int>(precision));
-    scene.initial_motions.push_back(motion);
     CHECK(said_of_energy(run_with(scene, {})) == "");
     scene.initial_motions.back().angular_velocity = {10, 20, 60};
     CHECK(said_of_energy(run_with(scene, {})) == "");

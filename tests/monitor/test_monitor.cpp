@@ -143,13 +143,9 @@ TEST_CASE("sound scenes bring no warning") {
     hold(scene, "lower.z_min", {true, true, true});
     // Under the upper block's edges viscous control would take a seventh of the elastic energy.
     for (scene::Part& part : scene.parts) part.take_hourglass(scene::HourglassType::stiffness);
-    press(scene, "upper.z_max", 1e6);
+    add_pressure(scene, "upper.z_max", 1e6);
     scene = ramped(scene, 2e-4);
-    scene::InitialMotion motion;
-    motion.name = "slide";
-    motion.parts = {"upper"};
-    motion.velocity = {1, 0, 0};
-    scene.initial_motions.push_back(motion);
+    add_motion(scene, {"upper"}, {1, 0, 0});
     INFO(name_of(algorithm));
     CHECK(said_of(scene, 1e-3) == "");
   }

@@ -4,6 +4,7 @@ import os
 import subprocess
 import sys
 import tempfile
+import unittest
 
 SOURCE_DIR = os.environ.get("RAILWAVE_SOURCE_DIR", os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..")))
 
@@ -37,3 +38,15 @@ class Sample:
 
     def __exit__(self, *_):
         self._folder.cleanup()
+
+
+class SampleTest(unittest.TestCase):
+    """Tests that read the made-up run, which is written once for all tests of a class."""
+
+    name = "run.h5"
+
+    @classmethod
+    def setUpClass(cls):
+        cls.sample = Sample(cls.name)
+        cls.addClassCleanup(cls.sample.__exit__)
+        assert cls.sample.status == 0, "the writer failed"

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 #include "output/background_writer.hpp"
 #include "tests/output/made_up_run.hpp"
@@ -42,7 +41,7 @@ std::map<std::string, std::pair<hdf5::Shape, std::vector<double>>> datasets_of(c
 }
 
 /// The same bits: the gap is not-a-number here and there.
-bool same(const std::vector<double>& a, const std::vector<double>& b) {
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
@@ -54,14 +53,8 @@ void check_same_results(const std::string& path, const std::string& expected_pat
     INFO(name);
     REQUIRE(results.count(name) == 1);
     CHECK(results.at(name).first == dataset.first);
-    CHECK(same(results.at(name).second, dataset.second));
+    CHECK(same_bits(results.at(name).second, dataset.second));
   }
-}
-
-std::string text_of(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
 }
 
 /// As long as it lives no file grows beyond `bytes`: a full disk, seen from here.

@@ -17,7 +17,7 @@ import numpy as np
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sample import SOURCE_DIR, Sample
+from sample import SOURCE_DIR, SampleTest
 
 SCRIPTS = os.path.join(SOURCE_DIR, "scripts")
 sys.path.insert(0, SCRIPTS)
@@ -177,16 +177,7 @@ class WhatIsDrawn(unittest.TestCase):
         print(f"{len(corners)} faces sorted in {time.perf_counter() - start:.2f} s")
 
 
-class Files(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sample = Sample()
-        assert cls.sample.status == 0, "the writer failed"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.sample.__exit__()
-
+class Files(SampleTest):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="railwave-")
         self.addCleanup(folder.cleanup)

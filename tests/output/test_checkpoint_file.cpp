@@ -2,7 +2,6 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 
 #include "output/checkpoint_file.hpp"
@@ -33,19 +32,14 @@ RunState state_at(long step) {
 }
 
 void damage(const std::string& path, std::size_t place) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  in.close();
+  std::string bytes = text_of(path);
   bytes.at(place) = static_cast<char>(bytes[place] ^ 4);
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
 /// Where a double lies in a file.
 std::size_t place_of(const std::string& path, double value) {
-  std::ifstream in(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}},
-      sought(reinterpret_cast<const char*>(&value), sizeof value);
-  return bytes.find(sought);
+  return text_of(path).find(std::string(reinterpret_cast<const char*>(&value), sizeof value));
 }
 
 }  // namespace
@@ -162,9 +156,7 @@ TEST_CASE("no damage is taken for a state") {
   const Folder folder;
   const CheckpointFile file(folder.file(), "key");
   file.write(state_at(6), "run");
-  std::ifstream in(folder.file(), std::ios::binary);
-  const std::string sound{std::istreambuf_iterator<char>(in), {}};
-  in.close();
+  const std::string sound = text_of(folder.file());
   const auto refused = [&](const std::string& bytes) {
     std::ofstream(folder.file(), std::ios::binary | std::ios::trunc) << bytes;
     const CheckpointFile::Found found = file.find("run");

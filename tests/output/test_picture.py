@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sample import SOURCE_DIR, Sample
+from sample import SOURCE_DIR, SampleTest
 
 SCRIPTS = os.path.join(SOURCE_DIR, "scripts")
 sys.path.insert(0, SCRIPTS)
@@ -34,16 +34,7 @@ def png_size(path):
     return struct.unpack(">II", head[16:24])
 
 
-class Pictures(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sample = Sample()
-        assert cls.sample.status == 0, "the writer failed"
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.sample.__exit__()
-
+class Pictures(SampleTest):
     def test_all_pictures_are_drawn(self):
         out = os.path.join(self.sample.folder, "drawn", "here")
         result = picture(self.sample.path, "--out", out, "--time", "2.1e-4")

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sample import Sample
+from sample import Sample, SampleTest
 
 OUTPUT_STEPS = [0, 100, 200, 300, 400]
 KIND = {"displacement": 1e-6, "velocity": 1.0, "acceleration": 1e3}
@@ -23,17 +23,12 @@ def stress(elements, time):
     return 1e6 * (elements[:, None] + 0.1 * np.arange(6) + 1000 * time)
 
 
-class ResultsFile(unittest.TestCase):
+class ResultsFile(SampleTest):
     @classmethod
     def setUpClass(cls):
-        cls.sample = Sample()
-        assert cls.sample.status == 0, "the writer failed"
+        super().setUpClass()
         cls.file = h5py.File(cls.sample.path, "r")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.file.close()
-        cls.sample.__exit__()
+        cls.addClassCleanup(cls.file.close)
 
     def test_attributes(self):
         attributes = self.file.attrs

@@ -10,7 +10,6 @@
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 
 #include "case/error.hpp"
 #include "output/output_sets.hpp"
@@ -22,16 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_of(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
 void put(const std::string& path, const std::string& text) { std::ofstream(path) << text; }
 
 /// Equal to rounding: the compiler may contract the made-up formulas differently here and in the writer's source.
-bool same(const std::vector<double>& a, const std::vector<double>& b) {
+bool same_to_rounding(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (!(std::fabs(a[i] - b[i]) <= 1e-12 * std::fabs(b[i]) + 1e-9)) return false;
@@ -93,16 +86,17 @@ TEST_CASE("every history sample and field is read back") {
   CHECK(top.dataset("stress").shape() == hdf5::Shape{5, 12, 6});
   const OutputSet set = made_up::description().sets[2];
   CHECK(top.dataset("nodes").read<int>() == set.nodes);
-  CHECK(same(top.dataset("velocity").read_row<double>(3),
-             made_up::Source(1e-6 * 300).field(field_named("velocity"), set.nodes).values));
-  CHECK(same(top.dataset("stress").read_row<double>(4),
-             made_up::Source(1e-6 * 400).field(field_named("stress"), set.elements).values));
+  CHECK(same_to_rounding(top.dataset("velocity").read_row<double>(3),
+                         made_up::Source(1e-6 * 300).field(field_named("velocity"), set.nodes).values));
+  CHECK(same_to_rounding(top.dataset("stress").read_row<double>(4),
+                         made_up::Source(1e-6 * 400).field(field_named("stress"), set.elements).values));
   CHECK_THROWS_WITH(top.dataset("stress").read_row<double>(5), ContainsSubstring("/fields/block.top/stress"));
 
   const ContactState state = made_up::Source(1e-6 * 200).contact(0);
   const hdf5::Group contact = root.group("contact").group("tread");
   CHECK(contact.number_attribute("friction") == state.friction);
-  CHECK(same(contact.group("master").dataset("tangential_force").read_row<double>(2), state.master.tangential_force));
+  CHECK(same_to_rounding(contact.group("master").dataset("tangential_force").read_row<double>(2),
+                         state.master.tangential_force));
   CHECK(contact.group("slave").dataset("slipping").read_row<int>(2) == state.slipping);
 }
 

@@ -263,7 +263,7 @@ TEST_CASE("a damaged state is reported and settled anew") {
   const test::TemporaryCase file(two_blocks("penalty", "newton"));
   const Recorder first = run_case(file);
   const auto kept = kept_file(file);
-  const std::string sound = test::text_of(kept);
+  const std::string sound = text_of(kept);
   for (int kind = 0; kind < 3; ++kind) {
     std::string damaged = sound;
     if (kind == 0) damaged.resize(damaged.size() / 2);
@@ -290,9 +290,9 @@ TEST_CASE("a damaged state is reported and settled anew") {
     CHECK(again.report.taken_from.empty());
     CHECK(bitwise_equal(first, again));
     if (kind == 1)
-      CHECK(test::text_of(kept) == damaged);
+      CHECK(text_of(kept) == damaged);
     else
-      CHECK(test::text_of(kept).size() == sound.size());  // and the file is sound again
+      CHECK(text_of(kept).size() == sound.size());  // and the file is sound again
   }
 }
 

@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from sample import Sample
+from sample import Sample, SampleTest
 
 SKIPPED = 77  # ctest shows this exit status as "skipped"
 
@@ -40,16 +40,13 @@ def array(data, name):
     return vtk_to_numpy(data.GetArray(name))
 
 
-class Xdmf(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.sample = Sample("run & more.h5")
-        assert cls.sample.status == 0, "the writer failed"
-        cls.reader, cls.times, cls.complaints = read(os.path.join(cls.sample.folder, "run & more.xdmf"))
+class Xdmf(SampleTest):
+    name = "run & more.h5"
 
     @classmethod
-    def tearDownClass(cls):
-        cls.sample.__exit__()
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.reader, cls.times, cls.complaints = read(os.path.join(cls.sample.folder, "run & more.xdmf"))
 
     def test_times(self):
         np.testing.assert_allclose(self.times, [0, 1e-4, 2e-4, 3e-4, 4e-4], rtol=1e-12)

@@ -74,7 +74,7 @@ scene::Scene block_between_ends() {
     end.target = name;
     scene.non_reflecting.push_back(end);
   }
-  add_force(scene, "block.z_max", {2e4, 5e3, -1e4}, "");
+  add_force(scene, "block.z_max", {2e4, 5e3, -1e4});
   return scene;
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("Newton's method settles tied blocks, with a gap between them or none"
     scene.ties[0].max_distance = 3e-3;
     set_hourglass(scene.parts[1], scene::HourglassType::stiffness, 0.05);
     hold(scene, "coarse.z_min", {true, true, true});
-    add_force(scene, "fine.z_max", {2e4, 5e3, -3e4}, "");
+    add_force(scene, "fine.z_max", {2e4, 5e3, -3e4});
     Model model;
     check_both(gap > 0 ? "tie over a gap" : "tie", scene, model, 1e-4);
     // Slaves are where the ties put them.
@@ -129,7 +129,7 @@ TEST_CASE("Newton's method bends a beam to a quarter of a circle", "[static]") {
   const auto axes = oblique_axes();
   scene::Scene scene = beam_scene(length * axes[0], radius, 16, 1e-3);
   clamp(scene, "root");
-  scene.loads.push_back(torque_on("tip", bending * angle / length, axes[2]));
+  add_torque(scene, "tip", bending * angle / length, axes[2]);
   Model model;
   const Rest rest = settled(scene, scene::SettleMethod::newton, 1e-9, model);
   WARN("quarter of a circle: " << rest.report.steps << " evaluations in " << rest.report.iterations << " steps");
@@ -142,7 +142,7 @@ TEST_CASE("Newton's method bends a beam to a quarter of a circle", "[static]") {
 TEST_CASE("Newton's method bends a cantilever far by a force at its tip, as relaxation does", "[static]") {
   scene::Scene scene = beam_scene({1.2, 0, 0}, 0.01, 8, 1e-3);
   clamp(scene, "root");
-  scene.loads.push_back(force_on("tip", {300, 200, -2000}));
+  add_force(scene, "tip", {300, 200, -2000});
   Model model;
   check_both("cantilever", scene, model, 1e-5);
   CHECK(displacement(model, "tip")[2] < -0.3);
@@ -150,18 +150,13 @@ TEST_CASE("Newton's method bends a cantilever far by a force at its tip, as rela
 
 namespace {
 
-/// A cube with a bolt through it, see test_beams_on_solids; its lower washers hold it, its upper face is pushed aside.
-scene::Scene bolted_cube() {
-  scene::Scene scene = block_scene({0.08, 0.08, 0.08}, {4, 4, 4}, 1e-4);
+/// The bolted cube whose lower face is held; it is pushed aside.
+scene::Scene pushed_bolted_cube() {
+  scene::Scene scene = bolted_cube(12500, 1e-4);
   set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
-  scene.points = {massless("head", {0.04, 0.04, 0.1}), massless("nut", {0.04, 0.04, -0.02})};
-  scene::Beam shank = round_beam("nut", "head", 0.012, 4);
-  shank.name = "shank";
-  shank.pretension = 12500;
-  scene.beams = {shank, round_beam("head", "block.z_max", 0.01, 1), round_beam("nut", "block.z_min", 0.01, 1)};
   scene.gravity = {0, 0, -9.81e3};
   hold(scene, "block.z_min", {true, true, true});
-  add_force(scene, "block.x_max", {2e3, 1e3, 0}, "");
+  add_force(scene, "block.x_max", {2e3, 1e3, 0});
   return scene;
 }
 
@@ -169,7 +164,7 @@ scene::Scene bolted_cube() {
 
 TEST_CASE("Newton's method tightens a bolt, whose weight its ends bear", "[static]") {
   Model model;
-  check_both("bolt", bolted_cube(), model, 1e-4);
+  check_both("bolt", pushed_bolted_cube(), model, 1e-4);
   compute_forces(model);
   const BeamResultants shank = beam_resultants(*model.beams, model.nodes)[0];
   // Section forces of its four elements, from below: what lies between their middles hangs on those above.
@@ -178,7 +173,7 @@ TEST_CASE("Newton's method tightens a bolt, whose weight its ends bear", "[stati
 }
 
 TEST_CASE("what hangs on beams that nothing holds is named", "[static]") {
-  scene::Scene scene = bolted_cube();
+  scene::Scene scene = pushed_bolted_cube();
   scene.constraints.clear();
   scene.settle.active = true;
   scene.settle.method = scene::SettleMethod::newton;
@@ -207,8 +202,7 @@ TEST_CASE(
     CHECK(report.iterations > 0);
     CHECK(report.remarks.empty());
   }
-  scene.points.push_back(massless("body", {0.1, 0.025, 0.5}));
-  scene.points.back().mass = 10;
+  add_point(scene, "body", 10, {0.1, 0.025, 0.5});
   scene.gravity = {0, 0, -9.81};
   Model model;
   build_model(scene, model);

@@ -36,12 +36,7 @@ void check_settled(const Model& model, const SettleReport& report, int most_step
 TEST_CASE("a block under pressure comes to its exact state by Newton's method", "[static]") {
   scene::Scene scene = settling(block_scene({0.05, 0.05, 0.5}, {4, 4, 40}, 1e-5), 1e-9);
   hold(scene, "block.z_min", {false, false, true});
-  scene::Load load;
-  load.name = "push";
-  load.type = scene::LoadType::pressure;
-  load.target = "block.z_max";
-  load.pressure = 210e6;
-  scene.loads.push_back(load);
+  add_pressure(scene, "block.z_max", 210e6);
   Model model;
   build_model(scene, model);
   const SettleReport report = settle_whole(model);
@@ -99,16 +94,12 @@ struct BarOnSprings {
           nodes.push_back(static_cast<int>(n));
     };
     for (int k = seat_every / 2; k < along; k += seat_every) {
-      scene::Connector seat;
-      seat.name = "seat" + std::to_string(k);
-      seat.from = "ground";
-      seat.to = "block." + seat.name;
-      seat.stiffness = {0, 0, foundation * seat_every * pitch};
-      scene.connectors.push_back(seat);
-      row(seat.to, k * pitch, 0);
+      const std::string seat = "seat" + std::to_string(k);
+      add_spring(scene, "ground", "block." + seat, {0, 0, foundation * seat_every * pitch});
+      row("block." + seat, k * pitch, 0);
     }
     row("block.middle", 0.5 * length, height);
-    add_force(scene, "block.middle", {0, 0, -force}, "");
+    add_force(scene, "block.middle", {0, 0, -force});
     return assembly;
   }
 };
@@ -141,17 +132,8 @@ TEST_CASE("a sprung mass sinks until its spring carries it; one that nothing hol
   scene::Scene scene = settling(block_scene({0.1, 0.1, 0.1}, {4, 4, 4}, 1e-5), 1e-8);
   scene.gravity = {0, 0, -10};
   hold(scene, "block.z_min", {true, true, true});
-  scene::PointMass body;
-  body.name = "body";
-  body.mass = 1000;
-  body.position = {0.05, 0.05, 0.5};
-  scene.points.push_back(body);
-  scene::Connector spring;
-  spring.name = "suspension";
-  spring.from = "block.z_max";
-  spring.to = "body";
-  spring.stiffness = {0, 0, 1e6};
-  scene.connectors.push_back(spring);
+  add_point(scene, "body", 1000, {0.05, 0.05, 0.5});
+  add_spring(scene, "block.z_max", "body", {0, 0, 1e6});
   {
     Model model;
     build_model(scene, model);

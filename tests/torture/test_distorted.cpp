@@ -100,12 +100,7 @@ TEST_CASE(
     for (auto hourglass : both_kinds)
       for (const bool clamped : {true, false}) {
         scene::Scene scene = scene_of(distortion, hourglass);
-        scene::Load load;
-        load.name = "blow";
-        load.type = scene::LoadType::traction;
-        load.target = "block.z_max";
-        load.traction = {3e6, 0, -1e7};
-        scene.loads.push_back(load);
+        add_traction(scene, "block.z_max", {3e6, 0, -1e7});
         if (clamped) hold(scene, "block.z_min", {true, true, true});
         Model model;
         build_model(scene, assembly_of(distortion, scene), model);

@@ -5,6 +5,7 @@
 
 #include "solve/tasks/beam_forces.hpp"
 #include "tests/case/temporary_case.hpp"
+#include "tests/track/beam_on_supports.hpp"
 #include "tests/verify/march.hpp"
 
 using namespace railwave;
@@ -51,15 +52,6 @@ acceleration = [0, 0, -9.81]
 end = 1e-5
 )";
   return read_case(test::TemporaryCase(text.str()).path());
-}
-
-double ballast_force(const Model& model) {
-  const auto force = to_host(model.connectors.arrays.force);
-  double sum = 0;
-  for (int c = 0; c < model.connectors.arrays.count; ++c)
-    if (model.scene.connectors[model.connectors.cells[c].connector].name.find("ballast") != std::string::npos)
-      sum += force(c, 2);
-  return sum;
 }
 
 double axial_force(const Model& model, const std::string& name) {

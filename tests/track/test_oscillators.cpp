@@ -6,6 +6,7 @@
 #include "case/expand.hpp"
 #include "tests/case/temporary_case.hpp"
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -41,11 +42,7 @@ double decay_rate(const std::vector<double>& u, double interval) {
 
 void check_oscillator(const char* name, scene::Scene scene, const Oscillator& theory, const std::string& what,
                       int axis) {
-  scene::InitialMotion push;
-  push.name = "push";
-  push.parts = {what};
-  push.velocity[axis] = 1e-3 * theory.undamped();
-  scene.initial_motions.push_back(push);
+  add_motion(scene, {what}, {0, 0, 0}).velocity[axis] = 1e-3 * theory.undamped();
   // So many swings that the last is still a hundredth of the first.
   const double swings = std::min(10.0, 4.6 * theory.frequency() / (2 * M_PI * theory.decay()));
   scene.time.end = swings * 2 * M_PI / theory.frequency();
@@ -65,22 +62,14 @@ void check_oscillator(const char* name, scene::Scene scene, const Oscillator& th
 }
 
 void hold_other_directions(scene::Scene& scene, const std::string& what, int axis) {
-  scene::Constraint guide;
-  guide.name = "guide";
-  guide.target = what;
-  for (int i = 0; i < 3; ++i) guide.fixed[i] = i != axis;
-  scene.constraints.push_back(guide);
+  hold(scene, what, {axis != 0, axis != 1, axis != 2});
 }
 
 /// A block with all of its nodes held.
 scene::Scene held_block() {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {1, 1, 1}, 1);
   scene.materials[0].youngs_modulus = 1;  // only the step knows of it
-  scene::Constraint held;
-  held.name = "held";
-  held.target = "block";
-  held.fixed = {true, true, true};
-  scene.constraints.push_back(held);
+  hold(scene, "block", {true, true, true});
   return scene;
 }
 
@@ -106,18 +95,8 @@ void keep(std::vector<Entry>& entries, const std::vector<std::string>& names) {
 TEST_CASE("oscillator: a sprung mass on the primary suspension", "[oscillators]") {
   const Oscillator theory{10900, 1.15e6, 2.5e3};
   scene::Scene scene = held_block();
-  scene::PointMass body;
-  body.name = "body";
-  body.mass = theory.mass;
-  body.position = {0.05, 0.05, 1};
-  scene.points.push_back(body);
-  scene::Connector suspension;
-  suspension.name = "suspension";
-  suspension.from = "block.z_max";
-  suspension.to = "body";
-  suspension.stiffness = {0, 0, theory.stiffness};
-  suspension.damping = {0, 0, theory.damping};
-  scene.connectors.push_back(suspension);
+  add_point(scene, "body", theory.mass, {0.05, 0.05, 1});
+  add_spring(scene, "block.z_max", "body", {0, 0, theory.stiffness}, {0, 0, theory.damping});
   scene.time.step = 1e-3;
   check_oscillator("suspension", scene, theory, "body", 2);
 }

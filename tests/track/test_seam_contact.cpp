@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -30,18 +31,8 @@ scene::Scene cracked_bar(double traction) {
   faces.master = "block.crack_behind";
   faces.friction = 0.4;
   scene.contacts.push_back(faces);
-  const char* sides[3] = {"block.x_min", "block.y_min", "block.z_min"};
-  for (int i = 0; i < 3; ++i) {
-    scene::Constraint held;
-    held.target = sides[i];
-    held.fixed[i] = true;
-    scene.constraints.push_back(held);
-  }
-  scene::Load pull;
-  pull.type = scene::LoadType::traction;
-  pull.target = "block.x_max";
-  pull.traction = {traction, 0, 0};
-  scene.loads.push_back(pull);
+  hold_lower_faces(scene, "block");
+  add_traction(scene, "block.x_max", {traction, 0, 0});
   scene.settle.active = true;
   scene.settle.tolerance = 1e-5;
   scene.settle.max_steps = 50000;

@@ -46,7 +46,7 @@ double stiffness_of(scene::Scene scene, int axis) {
   const double force = -3e3;
   Vec3 applied{0, 0, 0};
   applied[axis] = force;
-  add_force(scene, "track_rail.foot", applied, "");
+  add_force(scene, "track_rail.foot", applied);
   scene.settle.active = true;
   scene.settle.method = scene::SettleMethod::newton;
   scene.settle.tolerance = 1e-5;
@@ -73,7 +73,7 @@ scene::Scene loaded_track(const std::string& sleeper, double inclination, const 
 double deflection(const std::string& sleeper, double inclination) {
   scene::Scene scene = loaded_track(sleeper, inclination);
   const double weight = 1e5;
-  add_force(scene, "track_rail.loaded", {0, 0, -weight}, "");
+  add_force(scene, "track_rail.loaded", {0, 0, -weight});
   scene.settle.active = true;
   scene.settle.method = scene::SettleMethod::newton;
   scene.settle.tolerance = 1e-7;
@@ -167,11 +167,8 @@ TEST_CASE("oscillator: a block on a solid pad", "[oscillators]") {
   scene.constraints.clear();
   hold(scene, "track_pad_1.z_min", {true, true, true});
   hold(scene, "block", {true, true, false});
-  scene::InitialMotion push;
-  push.name = "push";
-  push.parts = {"block"};
-  push.velocity = {0, 0, -0.1};
-  scene.initial_motions = {push};
+  scene.initial_motions.clear();
+  add_motion(scene, {"block"}, {0, 0, -0.1});
   scene.time.end = 0.025;
   Model model;
   build_model(scene, model);

@@ -4,6 +4,7 @@
 
 #include "case/error.hpp"
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -27,14 +28,9 @@ scene::Scene two_blocks(std::array<int, 2> spread) {
   scene.parts.push_back(scene.parts[0]);
   scene.parts[1].name = scene.parts[1].mesh = "lower";
   scene.parts[1].position = {-0.1, 0, -0.1};
-  scene::Connector bed;
+  scene::Connector& bed = add_spring(scene, "lower.z_max", "block.z_min", stiffness);
   bed.name = "bed";
-  bed.from = "lower.z_max";
-  bed.to = "block.z_min";
-  bed.stiffness = stiffness;
-  bed.damping = {0, 0, 0};
   bed.spread = spread;
-  scene.connectors.push_back(bed);
   return scene;
 }
 
@@ -121,10 +117,7 @@ TEST_CASE("a block on a spread bed swings at its theory's frequency, stable at t
   scene.connectors[0].from = "ground";
   // Soft beside the block itself: it moves as a whole.
   scene.connectors[0].stiffness = {1e5, 1e5, 1e5};
-  scene::InitialMotion motion;
-  motion.parts = {"block"};
-  motion.velocity = {0, 0, 0.01};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"block"}, {0, 0, 0.01});
   const double mass = 7800 * length * width * 0.1, omega = std::sqrt(1e5 / mass);
   scene.time.end = 2.2 * 2 * M_PI / omega;
   scene.parts[0].hourglass_coefficient = scene.parts[1].hourglass_coefficient = 0.05;

@@ -24,14 +24,9 @@ scene::Scene joined(const std::string& to, double gap, bool tied) {
   set_hourglass(scene.parts[1], scene::HourglassType::stiffness, 0.05);
   scene.ties[0].max_distance = 2 * gap + 1e-3;
   if (!tied) scene.ties.clear();
-  scene::Connector seat;
-  seat.name = "seat";
-  seat.from = "ground";
-  seat.to = to;
-  seat.stiffness = stiffness;
+  scene::Connector& seat = add_spring(scene, "ground", to, stiffness);
   seat.spread = {3, 2};
   seat.area = scene::Box{{{0.01, 0.005, -1}, {0.055, 0.05, 1}}};
-  scene.connectors.push_back(seat);
   return scene;
 }
 
@@ -88,7 +83,7 @@ TEST_CASE("tied blocks settle on a connector under the tie: it bears the load, a
   for (const char* to : {"fine.z_min", "coarse.z_max"}) {
     scene::Scene scene = joined(to, 1e-3, true);
     const Vec3 applied{3e2, -2e2, -2e3};
-    add_force(scene, "fine.z_max", applied, "");
+    add_force(scene, "fine.z_max", applied);
     scene.settle.active = true;
     scene.settle.method = scene::SettleMethod::newton;
     scene.settle.tolerance = 1e-8;

@@ -50,8 +50,8 @@ Vec3 moved(const Model& model, const char* rail) {
 /// Displacements of both rails under forces on both.
 std::array<Vec3, 2> under(const Vec3& near, const Vec3& far, const std::string& sleeper = "") {
   scene::Scene scene = track(true, sleeper);
-  add_force(scene, loaded("track_rail"), near, "");
-  add_force(scene, loaded("track_far_rail"), far, "");
+  add_force(scene, loaded("track_rail"), near);
+  add_force(scene, loaded("track_far_rail"), far);
   Model model;
   settle_under_load(scene, model);
   return {moved(model, "track_rail"), moved(model, "track_far_rail")};
@@ -64,7 +64,7 @@ Vec3 mirrored(const Vec3& a) { return {a[0], -a[1], a[2]}; }
 TEST_CASE("a whole track under equal loads is two halves; under opposite ones it is softer") {
   const Vec3 load{0, 3e3, -force};
   scene::Scene half = track(false);
-  add_force(half, loaded("track_rail"), load, "");
+  add_force(half, loaded("track_rail"), load);
   Model model;
   settle_under_load(half, model);
   const Vec3 of_half = moved(model, "track_rail");
@@ -89,7 +89,7 @@ TEST_CASE("a whole track under equal loads is two halves; under opposite ones it
 
 TEST_CASE("a whole track on laterally springy ballast yields as that does") {
   scene::Scene scene = track(true, "ballast_lateral_stiffness = 20e6\n");
-  for (const char* rail : {"track_rail", "track_far_rail"}) add_force(scene, loaded(rail), {0, force, 0}, "");
+  for (const char* rail : {"track_rail", "track_far_rail"}) add_force(scene, loaded(rail), {0, force, 0});
   Model model;
   settle_under_load(scene, model);
   double aside = 0;

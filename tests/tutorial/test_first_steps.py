@@ -16,21 +16,16 @@ from PIL import Image
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "output"))
-from typed import SOURCE, Desk, sections  # noqa: E402
+from typed import SOURCE, DeskTest, sections  # noqa: E402
 
 
-class FirstSteps(unittest.TestCase):
+class FirstSteps(DeskTest):
+    made = {"read_drop.py", "look.py"}
+
     @classmethod
     def setUpClass(cls):
-        cls.desk = Desk()
-        cls.before = set(os.listdir(cls.desk.folder))
-        cls.addClassCleanup(cls.desk.close)
+        super().setUpClass()
         cls.said = cls.desk.type("Your own mesh")  # what it computes the other tasks look at
-
-    @classmethod
-    def tearDownClass(cls):
-        more = set(os.listdir(cls.desk.folder)) - cls.before - {"results", "read_drop.py", "look.py"}
-        assert not more, f"beside results/ lie {more}"
 
     def drop(self):
         return h5py.File(self.desk.path("results", "drop", "drop.h5"), "r")

@@ -10,20 +10,11 @@ import numpy as np
 from PIL import Image
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from typed import Desk  # noqa: E402
+from typed import DeskTest  # noqa: E402
 
 
-class Rolling(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.desk = Desk()
-        cls.before = set(os.listdir(cls.desk.folder))
-        cls.addClassCleanup(cls.desk.close)
-
-    @classmethod
-    def tearDownClass(cls):
-        more = set(os.listdir(cls.desk.folder)) - cls.before - {"results", "frictions.py"}
-        assert not more, f"beside results/ lie {more}"
+class Rolling(DeskTest):
+    made = {"frictions.py"}
 
     def patches(self, run):
         """Rows of the largest patch, in their order."""

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import unittest
 
 SOURCE = os.environ.get("RAILWAVE_SOURCE_DIR", os.path.abspath(os.path.join(os.path.dirname(__file__), "..", "..")))
 BIN = os.environ.get("RAILWAVE_BIN_DIR") or os.path.join(SOURCE, "build", "release", "bin")
@@ -101,3 +102,20 @@ class Desk:
 
     def close(self):
         self._folder.cleanup()
+
+
+class DeskTest(unittest.TestCase):
+    """Tests that type at one desk, beside whose results/ nothing is left but `made`."""
+
+    made = set()
+
+    @classmethod
+    def setUpClass(cls):
+        cls.desk = Desk()
+        cls.addClassCleanup(cls.desk.close)
+        cls.before = set(os.listdir(cls.desk.folder))
+
+    @classmethod
+    def tearDownClass(cls):
+        more = set(os.listdir(cls.desk.folder)) - cls.before - {"results"} - cls.made
+        assert not more, f"beside results/ lie {more}"

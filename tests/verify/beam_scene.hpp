@@ -4,6 +4,7 @@
 #include "model/beams/beams.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 /// Scenes with beams, and what the tests measure on them.
 namespace railwave::verify {
@@ -38,31 +39,22 @@ inline scene::Scene beam_scene(const Vec3& tip, double radius, int divisions, do
   return scene;
 }
 
+/// A cube with a bolt through it: a shank under tension between two points above and below, each with a beam to every
+/// node of the cube's face there.
+inline scene::Scene bolted_cube(double pretension, double end) {
+  scene::Scene scene = block_scene({0.08, 0.08, 0.08}, {4, 4, 4}, end);
+  scene.points = {massless("head", {0.04, 0.04, 0.1}), massless("nut", {0.04, 0.04, -0.02})};
+  scene::Beam shank = round_beam("nut", "head", 0.012, 4);
+  shank.name = "shank";
+  shank.pretension = pretension;
+  scene.beams = {shank, round_beam("head", "block.z_max", 0.01, 1), round_beam("nut", "block.z_min", 0.01, 1)};
+  scene.beams[1].name = "washer_above";
+  scene.beams[2].name = "washer_below";
+  return scene;
+}
+
 inline void clamp(scene::Scene& scene, const std::string& point) {
-  scene::Constraint held;
-  held.name = "held_" + point;
-  held.target = point;
-  held.fixed = held.fixed_rotation = {true, true, true};
-  scene.constraints.push_back(held);
-}
-
-inline scene::Load force_on(const std::string& target, const Vec3& force) {
-  scene::Load load;
-  load.name = "force";
-  load.type = scene::LoadType::nodal_force;
-  load.target = target;
-  load.force = force;
-  return load;
-}
-
-inline scene::Load torque_on(const std::string& target, double moment, const Vec3& axis) {
-  scene::Load load;
-  load.name = "torque";
-  load.type = scene::LoadType::torque;
-  load.target = target;
-  load.moment = moment;
-  load.axis = axis;
-  return load;
+  hold(scene, point, {true, true, true}).fixed_rotation = {true, true, true};
 }
 
 inline int node_of(const Model& model, const std::string& point) { return model.assembly.node_sets.at(point).front(); }

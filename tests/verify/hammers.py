@@ -1,12 +1,10 @@
 """What the tests of hammer tests share: cases as text, run and read as a user would."""
 import csv
-import os
 import pathlib
 import subprocess
 import sys
 
-PROGRAM = os.path.join(os.environ["RAILWAVE_BIN_DIR"], "railwave")
-failures = []
+from figures import PROGRAM, conclude, failures, show  # noqa: F401
 
 STEEL = """
 [materials.steel]
@@ -53,16 +51,3 @@ def peaks(printed):
         for words in lines
         if words[:1] == ["peak"]
     ]
-
-
-def show(what, figure, limit):
-    """One line for one figure."""
-    verdict = "ok" if figure <= limit else "FAILED"
-    print(f"{what:80s} {figure:10.3e}  (at most {limit:g})  {verdict}")
-    if not figure <= limit:
-        failures.append(what)
-
-
-def conclude():
-    if failures:
-        sys.exit("not reached: " + "; ".join(failures))

@@ -85,6 +85,14 @@ inline Vec3 mean(const Model& model, NodeField field, const std::vector<int>& no
   return (1 / mass) * sum;
 }
 
+/// Of all components of all nodes; 1e300 if any is no number.
+inline double largest_speed(const Model& model) {
+  double largest = 0;
+  for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
+    largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : 1e300;
+  return largest;
+}
+
 inline double largest_stress(const Model& model) {
   double largest = 0;
   for (double s : element_stress(model, model.nodes, all_elements(model)).values)

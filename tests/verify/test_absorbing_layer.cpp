@@ -253,11 +253,7 @@ TEST_CASE("layers that cannot work are refused, and such as work badly are repor
   CHECK_THAT(complaint(0.5), ContainsSubstring("leaves nothing of part block undamped"));
   scene::Scene scene = bar.scene();
   scene.absorbing_layers[0].length = 0.01;
-  scene::InitialMotion motion;
-  motion.name = "go";
-  motion.parts = {"block"};
-  motion.velocity = {1, 0, 0};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"block"}, {1, 0, 0}).name = "go";
   Model model;
   build_model(scene, model);
   std::string all;

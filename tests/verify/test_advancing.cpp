@@ -46,12 +46,9 @@ TEST_CASE("nodes that blocks advance at once move as all others do, bit by bit")
   blocks.gap = 1e-6;
   scene::Scene scene = blocks.scene(1e-4);
   hold(scene, "lower.z_min", {true, true, true});
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {3, 1, -2};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {3, 1, -2});
   add_torque(scene, "upper.z_max", 40, {0, 1, 0});
-  add_ground_spring(scene, "upper.z_max", {1e6, 2e6, 3e6}).damping = {10, 20, 30};
+  add_spring(scene, "ground", "upper.z_max", {1e6, 2e6, 3e6}, {10, 20, 30});
   for (auto hourglass : {scene::HourglassType::viscous, scene::HourglassType::stiffness})
     for (auto precision :
          {scene::Precision::double_precision, scene::Precision::mixed, scene::Precision::single_precision}) {

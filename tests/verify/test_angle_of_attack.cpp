@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -68,19 +69,8 @@ TEST_CASE("an angle of attack turns a part about the vertical through its origin
 TEST_CASE("spin and torque of a part with an angle of attack are about its own axle, and it travels straight on") {
   scene::Scene scene = roller_on_plate(angle);
   scene.contacts.clear();
-  scene::InitialMotion roll;
-  roll.name = "roll";
-  roll.parts = {"roller"};
-  roll.velocity = {10, 0, 0};
-  roll.angular_velocity = {0, 100, 0};
-  scene.initial_motions.push_back(roll);
-  scene::Load drive;
-  drive.name = "drive";
-  drive.type = scene::LoadType::torque;
-  drive.target = "roller.bore";
-  drive.moment = 1000;
-  drive.axis = {0, 1, 0};
-  scene.loads.push_back(drive);
+  add_motion(scene, {"roller"}, {10, 0, 0}, {0, 100, 0});
+  add_torque(scene, "roller.bore", 1000, {0, 1, 0});
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);

@@ -119,12 +119,7 @@ TEST_CASE("a beam that spins about its axis for many turns stays free of stress"
   const auto axes = oblique_axes();
   const double turning = 2000;  // rad/s
   scene::Scene scene = beam_scene(0.5 * axes[0], 0.02, 6, 20 * 2 * M_PI / turning);
-  scene::InitialMotion motion;
-  motion.parts = {"root", "tip"};
-  motion.velocity = {5, 0, -3};
-  motion.angular_velocity = turning * axes[0];
-  motion.centre = 0.25 * axes[0];
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"root", "tip"}, {5, 0, -3}, turning * axes[0]).centre = 0.25 * axes[0];
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);
@@ -137,11 +132,7 @@ TEST_CASE("a beam that spins about its axis for many turns stays free of stress"
 TEST_CASE("a beam that spins like a propeller is stretched by rho omega^2 (L^2 - s^2) / 2 A and keeps its spin") {
   const double length = 1, radius = 0.02, turning = 300;
   scene::Scene scene = beam_scene({length, 0, 0}, radius, 16, 3 * 2 * M_PI / turning);
-  scene::InitialMotion motion;
-  motion.parts = {"root", "tip"};
-  motion.angular_velocity = {0, 0, turning};
-  motion.centre = Vec3{length / 2, 0, 0};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"root", "tip"}, {0, 0, 0}, {0, 0, turning}).centre = Vec3{length / 2, 0, 0};
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);

@@ -12,10 +12,9 @@ namespace {
 
 constexpr double radius = 0.03, length = 1.2;
 
-/// A cantilever along the first of the oblique axes, settled under a load at its tip.
-void settle_cantilever(scene::Scene& scene, const scene::Load& load, Model& model) {
+/// A cantilever, settled under its loads.
+void settle_cantilever(scene::Scene& scene, Model& model) {
   clamp(scene, "root");
-  scene.loads.push_back(load);
   scene.settle.active = true;
   scene.settle.tolerance = 1e-7;
   scene.settle.max_steps = 400000;
@@ -41,7 +40,8 @@ TEST_CASE("a cantilever of one element or ten bends as Timoshenko's under a forc
   for (int divisions : {1, 10}) {
     scene::Scene scene = beam_scene(length * axes[0], radius, divisions, 1e-3);
     Model model;
-    settle_cantilever(scene, force_on("tip", force * axes[1]), model);
+    add_force(scene, "tip", force * axes[1]);
+    settle_cantilever(scene, model);
     CHECK_THAT(dot(displacement(model, "tip"), axes[1]),
                WithinRel(force * std::pow(length, 3) / (3 * EI) + force * length / shear, 1e-3));
     CHECK_THAT(dot(rotation(model, "tip"), axes[2]), WithinRel(force * length * length / (2 * EI), 1e-3));
@@ -59,7 +59,8 @@ TEST_CASE("a moment at the tip bends a beam to an arc of a circle, even a quarte
   const double angle = M_PI / 2, moment = EI * angle / length;
   scene::Scene scene = beam_scene(length * axes[0], radius, 16, 1e-3);
   Model model;
-  settle_cantilever(scene, torque_on("tip", moment, axes[2]), model);
+  add_torque(scene, "tip", moment, axes[2]);
+  settle_cantilever(scene, model);
   CHECK_THAT(dot(rotation(model, "tip"), axes[2]), WithinRel(angle, 1e-5));
   // Chords are shorter than arcs by a part in 24 of an element's squared angle.
   const Vec3 u = displacement(model, "tip");
@@ -73,13 +74,15 @@ TEST_CASE("a torque about a beam twists it by M L / (G J), a pull stretches it b
   {
     scene::Scene scene = beam_scene(length * axes[0], radius, 10, 1e-3);
     Model model;
-    settle_cantilever(scene, torque_on("tip", 500, axes[0]), model);
+    add_torque(scene, "tip", 500, axes[0]);
+    settle_cantilever(scene, model);
     CHECK_THAT(dot(rotation(model, "tip"), axes[0]), WithinRel(500 * length / twist, 1e-5));
     CHECK_THAT(norm(displacement(model, "tip")), WithinAbs(0, 1e-9 * length));
   }
   scene::Scene scene = beam_scene(length * axes[0], radius, 10, 1e-3);
   Model model;
-  settle_cantilever(scene, force_on("tip", 1e5 * axes[0]), model);
+  add_force(scene, "tip", 1e5 * axes[0]);
+  settle_cantilever(scene, model);
   CHECK_THAT(dot(displacement(model, "tip"), axes[0]),
              WithinRel(1e5 * length / (210e9 * M_PI * radius * radius), 1e-5));
 }
@@ -96,7 +99,8 @@ TEST_CASE("a rectangle bends along its height and across it, each with its own s
     Model model;
     Vec3 load{0, 0, 0};
     load[direction] = force;
-    settle_cantilever(scene, force_on("tip", load), model);
+    add_force(scene, "tip", load);
+    settle_cantilever(scene, model);
     const double I = direction == 2 ? width * std::pow(height, 3) / 12 : height * std::pow(width, 3) / 12;
     const double shear = 13 / 15.3 * (210e9 / 2.6) * width * height;
     CHECK_THAT(displacement(model, "tip")[direction],

@@ -47,24 +47,9 @@ scene::Scene spoked_ring(double end) {
   spokes.count = 4;
   spokes.orientation = Vec3{0, 1, 0};
   scene.beams.push_back(spokes);
-  scene.loads.push_back(torque_on("axle", 2000, {0, 1, 0}));
+  add_torque(scene, "axle", 2000, {0, 1, 0});
   scene.time.end = end;
   scene.output.history_interval = end / 10;
-  return scene;
-}
-
-/// A cube with a bolt through it: a shank under tension between two points above and below, each with a beam to every
-/// node of the cube's face there.
-scene::Scene bolted_cube(double pretension, double end) {
-  scene::Scene scene = block_scene({0.08, 0.08, 0.08}, {4, 4, 4}, end);
-  scene.points = {massless("head", {0.04, 0.04, 0.1}), massless("nut", {0.04, 0.04, -0.02})};
-  scene::Beam shank = round_beam("nut", "head", 0.012, 4);
-  shank.name = "shank";
-  shank.pretension = pretension;
-  scene.beams = {shank, round_beam("head", "block.z_max", 0.01, 1), round_beam("nut", "block.z_min", 0.01, 1)};
-  scene.beams[1].name = "washer_above";
-  scene.beams[2].name = "washer_below";
-  scene.output.history_interval = end / 100;
   return scene;
 }
 
@@ -116,13 +101,7 @@ TEST_CASE("the account of a spoked ring closes, in every precision, and the axle
 TEST_CASE("a ring that rolls with its spokes feels no more in them than rotation asks for") {
   scene::Scene scene = spoked_ring(1e-3);
   scene.loads.clear();
-  scene::InitialMotion roll;
-  roll.name = "roll";
-  roll.parts = {"ring", "axle"};
-  roll.velocity = {24, 0, 0};
-  roll.angular_velocity = {0, 60, 0};
-  roll.centre = Vec3{0, 0, 0};
-  scene.initial_motions.push_back(roll);
+  add_motion(scene, {"ring", "axle"}, {24, 0, 0}, {0, 60, 0}).centre = Vec3{0, 0, 0};
   scene.settle.active = true;
   scene.settle.tolerance = 1e-4;
   scene.settle.max_steps = 100000;
@@ -151,6 +130,7 @@ TEST_CASE("a bolt has its pretension when all has settled, and a millisecond lat
   for (const auto& [control, bound] :
        {std::pair{scene::HourglassType::stiffness, 1e-3}, {scene::HourglassType::viscous, 1e-2}}) {
     scene::Scene scene = bolted_cube(12500, 1e-3);
+    scene.output.history_interval = 1e-5;
     set_hourglass(scene.parts[0], control, control == scene::HourglassType::viscous ? 0.1 : 0.05);
     scene.settle.active = true;
     scene.settle.tolerance = 1e-5;
@@ -172,7 +152,8 @@ TEST_CASE("a bolt has its pretension when all has settled, and a millisecond lat
 }
 
 TEST_CASE("without settling a bolt begins with its pretension as it lies, and loses some to what it presses together") {
-  const scene::Scene scene = bolted_cube(12500, 2e-4);
+  scene::Scene scene = bolted_cube(12500, 2e-4);
+  scene.output.history_interval = 2e-6;
   Model model;
   build_model(scene, model);
   compute_forces(model);

@@ -18,10 +18,7 @@ scene::Scene leaving_blocks() {
   blocks.upper_divisions = blocks.lower_divisions = {3, 3, 3};
   scene::Scene scene = blocks.scene(4e-5);
   scene.contacts[0].penalty_scale = 5;
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {0, 0, 50};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {0, 0, 50});
   scene.solver.step_estimate = scene::StepEstimate::global;
   scene.solver.renew_steps = 40;
   scene.output.history_interval = 1e-6;

@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -9,30 +10,12 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-double largest_speed(const Model& model) {
-  double largest = 0;
-  for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
-    largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : 1e300;
-  return largest;
-}
-
 /// A ball of 2 kg on `count` springs side by side between it and the ground.
 scene::Scene ball_on_springs(int count, double stiffness, double damping) {
   scene::Scene scene;
   scene.path = "ball";
-  scene::PointMass ball;
-  ball.name = "ball";
-  ball.mass = 2;
-  scene.points.push_back(ball);
-  for (int k = 0; k < count; ++k) {
-    scene::Connector connector;
-    connector.name = "spring";
-    connector.from = "ground";
-    connector.to = "ball";
-    connector.stiffness = {stiffness, 0, 0};
-    connector.damping = {damping, 0, 0};
-    scene.connectors.push_back(connector);
-  }
+  add_point(scene, "ball", 2, {0, 0, 0});
+  for (int k = 0; k < count; ++k) add_spring(scene, "ground", "ball", {stiffness, 0, 0}, {damping, 0, 0});
   scene.time.end = 1;
   return scene;
 }
@@ -68,15 +51,10 @@ TEST_CASE("a connector on a block's single node is stable at the step chosen") {
     scene::Scene scene = block_scene({0.03, 0.03, 0.03}, {3, 3, 3}, 1e-3);
     Assembly assembly = assemble(scene);
     assembly.node_sets["block.corner"] = {0};
-    scene::Connector connector;
-    connector.name = "spring";
-    connector.from = "ground";
-    connector.to = "block.corner";
     // As stiff as the corner's mass and the elements' step allow, times the share.
     const double omega = 2 / (0.01 / steel().dilatational_speed());
     const double k = share * omega * omega * 7800 * 1e-6 / 8;
-    connector.stiffness = {k, k, k};
-    scene.connectors.push_back(connector);
+    add_spring(scene, "ground", "block.corner", {k, k, k});
     Model model;
     build_model(scene, assembly, model);
     set_velocity(model, [](const Vec3& x, int) {

@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -10,40 +11,15 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-scene::PointMass point(const std::string& name, double mass, const Vec3& position) {
-  scene::PointMass made;
-  made.name = name;
-  made.mass = mass;
-  made.position = position;
-  return made;
-}
-
-scene::Connector connector(const std::string& from, const std::string& to, const Vec3& stiffness, const Vec3& damping) {
-  scene::Connector made;
-  made.name = from + " to " + to;
-  made.from = from;
-  made.to = to;
-  made.stiffness = stiffness;
-  made.damping = damping;
-  return made;
-}
-
 /// A point mass "ball" on a connector to the ground; `steps` steps in one second.
 scene::Scene ball_scene(double mass, const Vec3& stiffness, const Vec3& damping, int steps) {
   scene::Scene scene;
   scene.path = "ball";
-  scene.points.push_back(point("ball", mass, {1, 2, 3}));
-  scene.connectors.push_back(connector("ground", "ball", stiffness, damping));
+  add_point(scene, "ball", mass, {1, 2, 3});
+  add_spring(scene, "ground", "ball", stiffness, damping);
   scene.time.end = 1;
   scene.time.step = 1.0 / steps;
   return scene;
-}
-
-void start(scene::Scene& scene, const std::string& what, const Vec3& velocity) {
-  scene::InitialMotion motion;
-  motion.parts = {what};
-  motion.velocity = velocity;
-  scene.initial_motions.push_back(motion);
 }
 
 /// Displacement of the ball along `axis` at every step.
@@ -63,7 +39,7 @@ TEST_CASE("a mass on a spring swings with sqrt(k/m) along each of the connector'
     const double omega = std::sqrt(stiffness[a] / 2.0);
     scene::Scene scene = ball_scene(2.0, stiffness, {0, 0, 0}, static_cast<int>(200 * omega / (2 * M_PI)));
     scene.connectors[0].axes = axes;
-    start(scene, "ball", 0.1 * axes[a]);
+    add_motion(scene, {"ball"}, 0.1 * axes[a]);
     Model model;
     build_model(scene, model);
     const auto along = displacement_along(model, axes[a]);
@@ -83,7 +59,7 @@ TEST_CASE("a dashpot stops a mass exponentially, and damps a spring by its logar
   {
     scene::Scene scene = ball_scene(2.0, {0, 0, 0}, {6, 0, 0}, 2000);
     scene.connectors[0].axes = axes;
-    start(scene, "ball", 0.5 * axes[0] + 0.2 * axes[1]);
+    add_motion(scene, {"ball"}, 0.5 * axes[0] + 0.2 * axes[1]);
     Model model;
     build_model(scene, model);
     displacement_along(model, axes[0]);
@@ -93,7 +69,7 @@ TEST_CASE("a dashpot stops a mass exponentially, and damps a spring by its logar
   }
   const double mass = 2, omega = 2 * M_PI * 10, ratio = 0.03;
   scene::Scene scene = ball_scene(mass, {0, 0, mass * omega * omega}, {0, 0, 2 * ratio * mass * omega}, 5000);
-  start(scene, "ball", {0, 0, 0.1});
+  add_motion(scene, {"ball"}, {0, 0, 0.1});
   Model model;
   build_model(scene, model);
   const auto u = displacement_along(model, {0, 0, 1});
@@ -122,9 +98,10 @@ TEST_CASE("a preload that carries the weight leaves a mass at rest") {
 TEST_CASE("two masses on a spring keep their momentum and swing with the reduced mass") {
   scene::Scene scene;
   scene.path = "pair";
-  scene.points = {point("a", 1.0, {0, 0, 0}), point("b", 3.0, {1, 0, 0})};
-  scene.connectors = {connector("a", "b", {3e3, 3e3, 3e3}, {0.5, 0, 0})};
-  start(scene, "a", {1, 2, 0});
+  add_point(scene, "a", 1.0, {0, 0, 0});
+  add_point(scene, "b", 3.0, {1, 0, 0});
+  add_spring(scene, "a", "b", {3e3, 3e3, 3e3}, {0.5, 0, 0});
+  add_motion(scene, {"a"}, {1, 2, 0});
   scene.time.end = 1;
   scene.time.step = 5e-4;
   Model model;
@@ -148,7 +125,7 @@ TEST_CASE("springs and dashpots balance the energy account") {
   scene.connectors[0].axes = oblique_axes();
   scene.connectors[0].preload = {5, -3, 4};
   scene.gravity = {0, 0, -9.81};
-  start(scene, "ball", {0.3, 0.2, -0.4});
+  add_motion(scene, {"ball"}, {0.3, 0.2, -0.4});
   for (const Vec3& damping : {Vec3{0, 0, 0}, Vec3{4, 10, 6}}) {
     scene.connectors[0].damping = damping;
     Model model;
@@ -177,9 +154,9 @@ TEST_CASE("a block on a soft spring swings as a mass, whichever set the spring h
   for (const std::string set : {"block", "block.z_min"}) {
     scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-2);
     const double mass = 7800 * 1e-3, stiffness = 7.8e6;
-    scene.connectors.push_back(connector("ground", set, {0, 0, stiffness}, {0, 0, 0}));
+    add_spring(scene, "ground", set, {0, 0, stiffness});
     scene.time.step_scale = 0.5;
-    start(scene, "block", {0, 0, 1e-2});
+    add_motion(scene, {"block"}, {0, 0, 1e-2});
     Model model;
     build_model(scene, model);
     set_initial_motion(model, model.nodes, model.beams);

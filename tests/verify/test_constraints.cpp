@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -9,14 +10,6 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
-
-scene::Constraint constraint(const std::string& target, std::array<bool, 3> fixed) {
-  scene::Constraint made;
-  made.name = "held";
-  made.target = target;
-  made.fixed = fixed;
-  return made;
-}
 
 const double slope = M_PI / 6;
 /// Down the slope, across, normal to it.
@@ -28,7 +21,7 @@ const std::array<Vec3, 3> slope_axes{
 TEST_CASE("a block whose foot is held normal to a slope of 30 degrees slides with g sin 30") {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 5e-3);
   scene.gravity = {0, 0, -9.81};
-  scene.constraints.push_back(constraint("block", {false, true, true}));
+  hold(scene, "block", {false, true, true});
   scene.constraints[0].axes = slope_axes;
   Model model;
   build_model(scene, model);
@@ -51,11 +44,11 @@ TEST_CASE("constraints on one node combine: what is left is the direction that n
   scene.gravity = {1, 2, -9.81};
   scene.materials[0].youngs_modulus = 1;  // or the rounding of the stress would be seen
   // Normals that are not at right angles; a third, on the top alone, leaves those nodes nothing.
-  scene.constraints.push_back(constraint("block", {false, false, true}));
+  hold(scene, "block", {false, false, true});
   scene.constraints[0].axes = slope_axes;
-  scene.constraints.push_back(constraint("block", {true, false, false}));
+  hold(scene, "block", {true, false, false});
   scene.constraints[1].axes = oblique_axes();
-  scene.constraints.push_back(constraint("block.z_max", {true, true, true}));
+  hold(scene, "block.z_max", {true, true, true});
   Model model;
   build_model(scene, model);
   compute_forces(model);
@@ -79,7 +72,7 @@ TEST_CASE("a node held in three directions, given one by one, never moves by a b
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-4);
   scene.gravity = {1, 2, -9.81};
   for (int i = 0; i < 3; ++i) {
-    scene.constraints.push_back(constraint("block.z_min", {i == 0, i == 1, i == 2}));
+    hold(scene, "block.z_min", {i == 0, i == 1, i == 2});
     scene.constraints.back().axes = i == 0 ? slope_axes : oblique_axes();
   }
   Model model;
@@ -94,12 +87,9 @@ TEST_CASE("a node held in three directions, given one by one, never moves by a b
 TEST_CASE("a constrained direction keeps the velocity that it began with") {
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-3);
   scene.gravity = {0, 0, -9.81};
-  scene.constraints.push_back(constraint("block", {false, false, true}));
+  hold(scene, "block", {false, false, true});
   scene.constraints[0].axes = slope_axes;
-  scene::InitialMotion motion;
-  motion.parts = {"block"};
-  motion.velocity = 3.0 * slope_axes[2];
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"block"}, 3.0 * slope_axes[2]);
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);

@@ -30,10 +30,7 @@ Throw thrown(double damping, const std::vector<std::array<double, 2>>& growth, d
   hold(scene, "lower.z_min", {true, true, true});
   // Stiffness control stores what it takes; the loss of a viscous one is booked to first order only.
   for (scene::Part& part : scene.parts) set_hourglass(part, scene::HourglassType::stiffness, 0.05);
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {friction > 0 ? 3.0 : 0.0, 0, -2};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {friction > 0 ? 3.0 : 0.0, 0, -2});
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);

@@ -20,7 +20,7 @@ scene::Scene pressed(scene::ContactAlgorithm algorithm, int sweeps) {
   scene.time.step_scale = 0.6;
   hold(scene, "lower.z_min", {true, true, true});
   const double weight = 7800 * 0.04 * 0.04 * 0.01 * 1e6;
-  add_force(scene, "upper", {0, 0, -weight}, "");
+  add_force(scene, "upper", {0, 0, -weight});
   add_ramp(scene, "pull", 0, 1e-4);
   add_force(scene, "upper", {0.9 * 0.3 * weight, 0, 0}, "pull");
   scene.settle.active = true;

@@ -57,11 +57,7 @@ TEST_CASE("how often the contact window is laid out changes no bit of an impact 
   TwoBlocks blocks = small_on_large();
   blocks.gap = 1e-4;
   scene::Scene scene = blocks.scene(3e-4);  // 18 mm, so that the window is laid out more than once
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {60, 10, -8};
-  motion.angular_velocity = {0, 500, 100};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {60, 10, -8}, {0, 500, 100});
   check_window_is_unseen(scene);
 }
 
@@ -85,11 +81,8 @@ TEST_CASE("slaves outside the window are too far from every segment to touch it"
   blocks.upper_size = {0.12, 0.01, 0.005};  // its ends hang over
   blocks.upper_divisions = {50, 5, 2};
   scene::Scene scene = blocks.scene(3e-4);
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {30, 0, -20};
-  motion.angular_velocity = {0, 800, 0};  // one end meets the lower block, the other rises
-  scene.initial_motions.push_back(motion);
+  // One end meets the lower block, the other rises.
+  add_motion(scene, {"upper"}, {30, 0, -20}, {0, 800, 0});
   Model model;
   build_model(scene, model);
   set_initial_motion(model, model.nodes, model.beams);

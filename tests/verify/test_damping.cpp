@@ -24,10 +24,7 @@ struct Bar {
     scene.materials[0].poissons_ratio = 0;
     frequency = M_PI / (2 * length) * std::sqrt(scene.materials[0].youngs_modulus / scene.materials[0].density);
     scene.time.end = periods * 2 * M_PI / frequency;
-    scene::Constraint constraint;
-    constraint.target = "block.z_min";
-    constraint.fixed = {false, false, true};
-    scene.constraints.push_back(constraint);
+    hold(scene, "block.z_min", {false, false, true});
   }
 };
 
@@ -110,11 +107,8 @@ TEST_CASE("mass damping slows a body that flies, in every precision, and the acc
     scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {4, 4, 4}, 5e-4);
     scene.solver.precision = precision;
     scene.parts[0].mass_damping = 1000;
-    scene::InitialMotion motion;
-    motion.parts = {"block"};
-    motion.velocity = {3, -30, 12};
-    motion.angular_velocity = {20, 5, -9};
-    scene.initial_motions.push_back(motion);
+    const Vec3 start{3, -30, 12};
+    add_motion(scene, {"block"}, start, {20, 5, -9});
     Model model;
     build_model(scene, model);
     set_initial_motion(model, model.nodes, model.beams);
@@ -126,7 +120,7 @@ TEST_CASE("mass damping slows a body that flies, in every precision, and the acc
       speed = mean(model, NodeField::velocity, all_nodes(model));
       if (model.step == 0) first = last;
     });
-    for (int i = 0; i < 3; ++i) CHECK_THAT(speed[i], WithinRel(motion.velocity[i] * std::exp(-0.5), 2e-3));
+    for (int i = 0; i < 3; ++i) CHECK_THAT(speed[i], WithinRel(start[i] * std::exp(-0.5), 2e-3));
     INFO("precision " << static_cast<int>(precision) << ", imbalance "
                       << (balance_total(last) - balance_total(first)) / first.kinetic);
     CHECK_THAT(balance_total(last) / first.kinetic, WithinRel(1.0, 1e-4));
@@ -140,11 +134,7 @@ TEST_CASE("a body that turns feels nothing of stiffness damping") {
     scene.solver.precision = precision;
     scene.parts[0].stiffness_damping = 1e-6;
     scene.settle.active = false;
-    scene::InitialMotion motion;
-    motion.parts = {"block"};
-    motion.velocity = {30, 0, 0};
-    motion.angular_velocity = {0, 60, 0};
-    scene.initial_motions.push_back(motion);
+    add_motion(scene, {"block"}, {30, 0, 0}, {0, 60, 0});
     Model model;
     build_model(scene, model);
     set_initial_motion(model, model.nodes, model.beams);

@@ -88,14 +88,7 @@ TEST_CASE("strain is zero to rounding under a turn, and exact where it is tiny")
 
 TEST_CASE("listed elements have the stress that fields have, bit for bit, of every group and precision") {
   for (const auto precision : {scene::Precision::double_precision, scene::Precision::mixed}) {
-    scene::Scene scene = TwoBlocks{}.scene(1e-5);
-    scene.contacts.clear();
-    scene.solver.precision = precision;
-    scene.materials.push_back(steel());
-    scene.materials[1].name = "yielding";
-    scene.materials[1].yield_stress = 1e12;
-    scene.materials[1].tangent_modulus = 1e9;
-    scene.parts[0].material = "yielding";
+    scene::Scene scene = blocks_of_two_materials(precision);
     scene.output.history_sets.clear();
     for (const scene::Part& part : scene.parts) {
       const Assembly assembly = assemble(scene);
@@ -151,23 +144,9 @@ TEST_CASE("a scene that asks for no stress or strain has no arrays for it") {
 
 TEST_CASE("a bar pulled slowly past yield: stress, strain and plastic strain inside it follow the uniaxial law") {
   const double yield = 400e6, tangent = 21e9, E = 210e9;
-  scene::Scene scene = block_scene({0.02, 0.01, 0.01}, {4, 2, 2}, 2.5e-3);
-  scene.materials[0].yield_stress = yield;
-  scene.materials[0].tangent_modulus = tangent;
-  hold(scene, "block.x_min", {true, false, false});
-  hold(scene, "block.y_min", {false, true, false});
-  hold(scene, "block.z_min", {false, false, true});
-  scene.curves.push_back({});
-  scene.curves[0].name = "on";
-  scene.curves[0].type = scene::CurveType::cosine_ramp;
-  scene.curves[0].duration = 2.5e-3;
-  scene::Load load;
-  load.name = "pull";
-  load.type = scene::LoadType::traction;
-  load.target = "block.x_max";
-  load.traction = {500e6, 0, 0};
-  load.curve = "on";
-  scene.loads.push_back(load);
+  scene::Scene scene = yielding_bar(yield, tangent, 2.5e-3);
+  add_ramp(scene, "on", 0, 2.5e-3);
+  add_traction(scene, "block.x_max", {500e6, 0, 0}, "on");
   probe(scene, "inside", "block", {0.011, 0.004, 0.006});
   Model model;
   build_model(scene, model);

@@ -86,7 +86,7 @@ Ride ride(double damping, scene::ContactNormals normals) {
   scene.contacts[0].normals = normals;
   hold(scene, "lower", {true, true, true});
   hold(scene, "upper", {true, true, false});
-  add_force(scene, "upper", {0, 0, -load}, "");
+  add_force(scene, "upper", {0, 0, -load});
   scene.time.step_scale = 0.6;
   scene.settle.active = true;
   scene.settle.tolerance = 1e-6;

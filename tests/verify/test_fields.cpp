@@ -16,14 +16,7 @@ constexpr double bend = 1e-2;  // 1/m: strain over the distance from the plane x
 
 /// Two blocks stretched along x, more so the farther out, the upper one of a material that yields.
 void build_stretched_blocks(scene::Precision precision, Model& model) {
-  scene::Scene scene = TwoBlocks{}.scene(1e-5);
-  scene.contacts.clear();
-  scene.solver.precision = precision;
-  scene.materials.push_back(steel());
-  scene.materials[1].name = "yielding";
-  scene.materials[1].yield_stress = 1e12;
-  scene.materials[1].tangent_modulus = 1e9;
-  scene.parts[0].material = "yielding";
+  scene::Scene scene = blocks_of_two_materials(precision);
   set_hourglass(scene.parts[1], scene::HourglassType::stiffness, 0.05);
   build_model(scene, model);
   set_position(model, [](const Vec3& x, int) { return Vec3{x[0] + 0.5 * bend * x[0] * x[0], x[1], x[2]}; });

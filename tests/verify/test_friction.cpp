@@ -21,7 +21,7 @@ scene::Scene pulled_block(scene::ContactAlgorithm algorithm, double share, std::
   scene::Scene scene = blocks.scene(5e-4);
   hold(scene, "lower.z_min", {true, true, true});
   const double mass = 7800 * 0.04 * 0.04 * 0.01;
-  add_force(scene, "upper", {0, 0, -mass * pressing}, "");
+  add_force(scene, "upper", {0, 0, -mass * pressing});
   scene.time.step_scale = 0.6;  // edge and corner nodes bear the whole contact spring on a part of the mass
   add_ramp(scene, "pull", 0, ramp_end);
   add_force(scene, "upper", {share * friction * mass * pressing, 0, 0}, "pull");

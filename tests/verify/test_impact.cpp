@@ -19,10 +19,7 @@ scene::Scene falling_block(const TwoBlocks& blocks, double speed, double end) {
   // goes with the step squared.
   scene.time.step_scale = 0.5;
   for (scene::Part& part : scene.parts) part.hourglass = scene::HourglassType::stiffness;
-  scene::InitialMotion motion;
-  motion.parts = {"upper"};
-  motion.velocity = {0, 0, -speed};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {0, 0, -speed});
   return scene;
 }
 

@@ -15,13 +15,8 @@ constexpr double hardening = 210e9 * tangent_modulus / (210e9 - tangent_modulus)
 
 /// A bar, free to contract, with materials that harden by the share beta.
 scene::Scene bar(double beta, double end) {
-  scene::Scene scene = block_scene({0.02, 0.01, 0.01}, {4, 2, 2}, end);
-  scene.materials[0].yield_stress = yield_stress;
-  scene.materials[0].tangent_modulus = tangent_modulus;
+  scene::Scene scene = yielding_bar(yield_stress, tangent_modulus, end);
   scene.materials[0].hardening_beta = beta;
-  hold(scene, "block.x_min", {true, false, false});
-  hold(scene, "block.y_min", {false, true, false});
-  hold(scene, "block.z_min", {false, false, true});
   return scene;
 }
 
@@ -36,13 +31,7 @@ scene::Scene pulled_and_pushed(double beta) {
     const double value = t < 1.0 / 3 ? 0.5 * (1 - std::cos(3 * M_PI * t)) : std::cos(1.5 * M_PI * (t - 1.0 / 3));
     scene.curves[0].points.push_back({3e-3 * t, value});
   }
-  scene::Load load;
-  load.name = "pull";
-  load.type = scene::LoadType::traction;
-  load.target = "block.x_max";
-  load.traction = {480e6, 0, 0};
-  load.curve = "cycle";
-  scene.loads.push_back(load);
+  add_traction(scene, "block.x_max", {480e6, 0, 0}, "cycle");
   return scene;
 }
 

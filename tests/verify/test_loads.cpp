@@ -2,6 +2,7 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -9,14 +10,6 @@ using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
-
-scene::Load load(scene::LoadType type, const std::string& target) {
-  scene::Load made;
-  made.name = "load";
-  made.type = type;
-  made.target = target;
-  return made;
-}
 
 /// A block turned as a whole into axes askew to the global ones, with warped insides.
 Assembly tilted_block(const scene::Scene& scene) {
@@ -55,8 +48,7 @@ void check_vector(const Vec3& found, const Vec3& wanted, double tolerance) {
 TEST_CASE("a nodal force's total is shared over its set by mass") {
   scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 2, 2}, 1e-4);
   scene.materials[0].youngs_modulus = 1;  // or the rounding of the stress would be seen
-  scene.loads.push_back(load(scene::LoadType::nodal_force, "block.x_max"));
-  scene.loads[0].force = {100, -200, 300};
+  add_force(scene, "block.x_max", {100, -200, 300});
   Model model;
   build_model(scene, model);
   compute_forces(model);
@@ -73,8 +65,7 @@ TEST_CASE("a nodal force's total is shared over its set by mass") {
 
 TEST_CASE("the centre of mass moves by F/m, whatever the body's deformation") {
   scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 2, 2}, 2e-3);
-  scene.loads.push_back(load(scene::LoadType::nodal_force, "block.x_max"));
-  scene.loads[0].force = {1e4, -2e4, 3e4};
+  add_force(scene, "block.x_max", {1e4, -2e4, 3e4});
   Model model;
   build_model(scene, model);
   const auto nodes = all_nodes(model);
@@ -91,7 +82,7 @@ TEST_CASE("traction and pressure push with their area times stress on a tilted b
   const double area = 0.2 * 0.1;
   for (auto type : {scene::LoadType::traction, scene::LoadType::pressure}) {
     scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 4, 2}, 1e-4);
-    scene.loads.push_back(load(type, "block.x_max"));
+    add_load(scene, type, "block.x_max");
     scene.loads[0].traction = {1e5, -3e5, 2e5};
     scene.loads[0].pressure = 4e5;
     Model model;
@@ -104,10 +95,8 @@ TEST_CASE("traction and pressure push with their area times stress on a tilted b
 
 TEST_CASE("a pressure all round a warped body has neither resultant nor moment") {
   scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 3, 3}, 1e-4);
-  for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
-    scene.loads.push_back(load(scene::LoadType::pressure, std::string("block.") + side));
-    scene.loads.back().pressure = 1e6;
-  }
+  for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
+    add_pressure(scene, std::string("block.") + side, 1e6);
   Assembly assembly = tilted_block(scene);
   warp(assembly, 0.03, 0.2, 3);
   Model model;
@@ -119,8 +108,7 @@ TEST_CASE("a pressure all round a warped body has neither resultant nor moment")
 
 TEST_CASE("a pressure turns with its surface") {
   scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 2, 2}, 1e-4);
-  scene.loads.push_back(load(scene::LoadType::pressure, "block.z_max"));
-  scene.loads[0].pressure = 1e6;
+  add_pressure(scene, "block.z_max", 1e6);
   Model model;
   build_model(scene, model);
   set_position(model, [](const Vec3& x, int) { return turned(oblique_axes(), x); });
@@ -131,9 +119,7 @@ TEST_CASE("a pressure turns with its surface") {
 TEST_CASE("a torque changes the angular momentum by M t about its axis and has no resultant") {
   const Vec3 axis = oblique_axes()[1];
   scene::Scene scene = block_scene({0.3, 0.2, 0.1}, {3, 2, 2}, 1e-3);
-  scene.loads.push_back(load(scene::LoadType::torque, "block"));
-  scene.loads[0].moment = 2e3;
-  scene.loads[0].axis = 5.0 * axis;  // any length
+  add_torque(scene, "block", 2e3, 5.0 * axis);  // any length
   Model model;
   build_model(scene, model);
   // The body flies and has gone far: the axis goes with it.
@@ -169,12 +155,8 @@ TEST_CASE("the work of every kind of load becomes energy of the body") {
     const bool on_nodes = type == scene::LoadType::nodal_force || type == scene::LoadType::torque;
     scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {3, 3, 3}, 2e-3);
     scene.parts[0].hourglass = scene::HourglassType::stiffness;
-    scene.curves.push_back({});
-    scene.curves[0].name = "on";
-    scene.curves[0].type = scene::CurveType::cosine_ramp;
-    scene.curves[0].duration = 1e-3;
-    scene.loads.push_back(load(type, on_nodes ? "block" : "block.x_min"));
-    scene.loads[0].curve = "on";
+    add_ramp(scene, "on", 0, 1e-3);
+    add_load(scene, type, on_nodes ? "block" : "block.x_min", "on");
     scene.loads[0].force = {3e4, 1e4, 0};
     scene.loads[0].traction = {3e6, 1e6, 0};
     scene.loads[0].pressure = 3e6;

@@ -210,7 +210,7 @@ scene::Scene loaded_block(double end) {
   set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
   let_out(scene, "block.x_max");
   let_out(scene, "block.x_min");
-  add_force(scene, "block.z_max", {2e4, 5e3, -1e4}, "");
+  add_force(scene, "block.z_max", {2e4, 5e3, -1e4});
   scene.settle.active = true;
   scene.settle.tolerance = 1e-7;
   scene.settle.max_steps = 100000;
@@ -254,7 +254,7 @@ TEST_CASE("without settling ends hold nothing: a load pushes them away at force 
   Bar bar;
   scene::Scene scene = bar.scene();
   scene.time.end = 1e-3;
-  add_force(scene, "block.x_max", {100, 0, 0}, "");
+  add_force(scene, "block.x_max", {100, 0, 0});
   Model model;
   build_model(scene, model);
   march(model, model.step_count, [] {});

@@ -19,24 +19,10 @@ struct PullPoint {
 /// with the imbalance of energies over the work done.
 std::vector<PullPoint> pull(scene::Precision precision, double& imbalance, double& plastic) {
   const double length = 0.02;
-  scene::Scene scene = block_scene({length, 0.01, 0.01}, {4, 2, 2}, 2.5e-3);
+  scene::Scene scene = yielding_bar(yield, tangent, 2.5e-3);
   scene.solver.precision = precision;
-  scene.materials[0].yield_stress = yield;
-  scene.materials[0].tangent_modulus = tangent;
-  hold(scene, "block.x_min", {true, false, false});
-  hold(scene, "block.y_min", {false, true, false});
-  hold(scene, "block.z_min", {false, false, true});
-  scene.curves.push_back({});
-  scene.curves[0].name = "on";
-  scene.curves[0].type = scene::CurveType::cosine_ramp;
-  scene.curves[0].duration = 2.5e-3;
-  scene::Load load;
-  load.name = "pull";
-  load.type = scene::LoadType::traction;
-  load.target = "block.x_max";
-  load.traction = {600e6, 0, 0};
-  load.curve = "on";
-  scene.loads.push_back(load);
+  add_ramp(scene, "on", 0, 2.5e-3);
+  add_traction(scene, "block.x_max", {600e6, 0, 0}, "on");
   Model model;
   build_model(scene, model);
   std::vector<PullPoint> points;

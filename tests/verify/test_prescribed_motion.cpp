@@ -4,6 +4,7 @@
 
 #include "case/error.hpp"
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -100,12 +101,7 @@ TEST_CASE("the work of a prescribed motion is in the account: a bar stretched sl
 TEST_CASE("a prescribed displacement is met at the end of every step, and other directions stay free") {
   scene::Scene scene = block_scene({0.05, 0.05, 0.05}, {2, 2, 2}, 3e-4);
   const auto axes = oblique_axes();
-  scene::Curve ramp;
-  ramp.name = "ramp";
-  ramp.type = scene::CurveType::cosine_ramp;
-  ramp.start = 5e-5;
-  ramp.duration = 2e-4;
-  scene.curves.push_back(ramp);
+  add_ramp(scene, "ramp", 5e-5, 2e-4);
   // Both ends, so that the block follows without turning.
   for (const char* end : {"block.z_min", "block.z_max"}) {
     scene::PrescribedMotion moved = motion(end, {0, 0, 0}, {0, 0, 0});
@@ -144,11 +140,7 @@ TEST_CASE("a prescribed displacement is met at the end of every step, and other 
 
 TEST_CASE("a bar pulled along one direction by a displacement is free to thin, and its work is what theory says") {
   scene::Scene scene = block_scene({0.02, 0.02, 0.1}, {2, 2, 10}, 6e-4);
-  scene::Constraint foot;
-  foot.name = "foot";
-  foot.target = "block.z_min";
-  foot.fixed = {false, false, true};
-  scene.constraints.push_back(foot);
+  hold(scene, "block.z_min", {false, false, true});
   scene.curves.push_back(curve({{0, 0}, {3e-4, 1}}));
   scene.prescribed_motions.push_back(motion("block.z_max", {0, 0, 0}, {0, 0, 0}));
   scene.prescribed_motions[0].displacement = {0, 0, 50e-6};

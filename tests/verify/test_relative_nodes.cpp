@@ -48,11 +48,7 @@ scene::Scene flying_block(scene::HourglassType hourglass) {
   set_hourglass(scene.parts[0], hourglass, 0.05);
   scene.solver.precision = scene::Precision::single_precision;
   scene.parts[0].position = {0.4, -0.3, 0.2};
-  scene::InitialMotion motion;
-  motion.parts = {"block"};
-  motion.velocity = {28, -3, 5};
-  motion.angular_velocity = {20, 100, -35};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"block"}, {28, -3, 5}, {20, 100, -35});
   return scene;
 }
 

@@ -51,12 +51,7 @@ TEST_CASE("a bar under traction settles to its uniaxial stress, whatever its den
   for (double density : {7800.0, 100.0}) {
     scene::Scene scene = hanging_bar(1e-7);
     scene.materials[0].density = density;
-    scene::Load load;
-    load.name = "pull";
-    load.type = scene::LoadType::traction;
-    load.target = "block.z_min";
-    load.traction = {0, 0, -21e6};
-    scene.loads.push_back(load);
+    add_traction(scene, "block.z_min", {0, 0, -21e6});
     Model model;
     found.push_back(lengthening(scene, model));
     CHECK_THAT(found.back(), WithinRel(0.5 * 21e6 / 210e9, 1e-3));
@@ -77,10 +72,7 @@ TEST_CASE("a body that will rotate settles under its centrifugal field") {
   scene.parts[0].position = {5, 3, 0};
   scene.settle.active = true;
   scene.settle.tolerance = 1e-5;
-  scene::InitialMotion motion;
-  motion.parts = {"block"};
-  motion.angular_velocity = {0, 0, 300};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"block"}, {0, 0, 0}, {0, 0, 300});
   Model model;
   build_model(scene, model);
   const SettleReport report = settle_whole(model);

@@ -90,7 +90,7 @@ struct Pulled {
     scene.time.step_scale = 0.6;
     hold(scene, "lower", {true, true, true});
     hold(scene, "plate", {true, true, false});
-    add_force(scene, "plate", {0, 0, -pressing}, "");
+    add_force(scene, "plate", {0, 0, -pressing});
     add_ramp(scene, "pull", 0, ramp);
     add_force(scene, "upper", {share * 2 * friction * pressing, 0, 0}, "pull");
     scene.settle.active = true;

@@ -59,13 +59,9 @@ struct Dragged {
     moving.target = "lower";
     moving.velocity = {belt, 0, 0};
     made.prescribed_motions.push_back(moving);
-    add_force(made, "upper", {0, 0, -pressing}, "");
-    scene::Connector held;
-    held.name = "spring";
-    held.from = "ground";
-    held.to = "upper.z_min";  // at the belt: above it the pull would lean on the front edge, which then creeps first
-    held.stiffness = {spring, 0, 0};
-    made.connectors.push_back(held);
+    add_force(made, "upper", {0, 0, -pressing});
+    // At the belt: above it the pull would lean on the front edge, which then creeps first.
+    add_spring(made, "ground", "upper.z_min", {spring, 0, 0});
     made.settle.active = true;
     made.settle.tolerance = 1e-6;
     made.output.history_sets = {"upper"};

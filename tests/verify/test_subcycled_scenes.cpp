@@ -44,11 +44,7 @@ Sliding slide(bool subcycling) {
   scene.solver.subcycling = subcycling;
   add_ramp(scene, "press", 0, 1e-4);
   add_force(scene, "upper.z_max", {0, 0, -2e4}, "press");
-  scene::InitialMotion motion;
-  motion.name = "slide";
-  motion.parts = {"upper"};
-  motion.velocity = {20, 0, 0};
-  scene.initial_motions.push_back(motion);
+  add_motion(scene, {"upper"}, {20, 0, 0});
   Model model;
   build_model(scene, model);
   Recorder recorder;

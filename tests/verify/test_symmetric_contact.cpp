@@ -27,7 +27,7 @@ void build_resting(Model& model, bool symmetric, std::array<int, 3> upper, std::
   scene.time.step_scale = 0.6;
   for (scene::Part& part : scene.parts) part.hourglass = scene::HourglassType::stiffness;
   hold(scene, "lower.z_min", {true, true, true});
-  add_force(scene, "upper", {0, 0, -7800 * 0.04 * 0.04 * 0.02 * pressing}, "");
+  add_force(scene, "upper", {0, 0, -7800 * 0.04 * 0.04 * 0.02 * pressing});
   if (friction > 0) {
     add_ramp(scene, "pull", 0, 2e-4);
     add_force(scene, "upper", {1.1 * friction * 7800 * 0.04 * 0.04 * 0.02 * pressing, 0, 0}, "pull");
@@ -154,7 +154,7 @@ TEST_CASE("a block in a corner presses on floor and wall with its two loads, tho
   for (scene::Part& part : scene.parts) part.hourglass = scene::HourglassType::stiffness;
   hold(scene, "lower.z_min", {true, true, true});
   hold(scene, "wall.x_min", {true, true, true});
-  add_force(scene, "upper", {-2e4, 0, -3e4}, "");
+  add_force(scene, "upper", {-2e4, 0, -3e4});
   scene.settle.active = true;
   scene.settle.tolerance = 1e-5;
   Model model;

@@ -32,13 +32,6 @@ void shake(Model& model, double size) {
   });
 }
 
-double largest_speed(const Model& model) {
-  double largest = 0;
-  for (double v : node_field(model, model.ties, NodeField::velocity, all_nodes(model)).values)
-    largest = std::isfinite(v) ? std::max(largest, std::fabs(v)) : 1e300;
-  return largest;
-}
-
 }  // namespace
 
 TEST_CASE("an element's stable step is its smallest height over the speed of dilatational waves") {

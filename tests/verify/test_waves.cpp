@@ -4,6 +4,7 @@
 
 #include "source_folder.hpp"
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 using namespace railwave;
 using namespace railwave::verify;
@@ -53,13 +54,7 @@ void check_speed(double ratio, const Bar& bar) {
 double relative_speed(scene::Scene scene, Wave wave) {
   const Bar bar = find_bar(assemble(scene));
   const int moved = wave == Wave::shear ? (bar.axis + 1) % 3 : bar.axis;
-  if (wave != Wave::bar) {
-    scene::Constraint held;
-    held.name = "held";
-    held.target = scene.parts[0].name;
-    for (int i = 0; i < 3; ++i) held.fixed[i] = i != moved;
-    scene.constraints.push_back(held);
-  }
+  if (wave != Wave::bar) hold(scene, scene.parts[0].name, {moved != 0, moved != 1, moved != 2});
   const double speed = theory(wave, scene.materials[0]);
   scene.time.end = 7 * 2 * M_PI / (bar.wave_number() * speed);
   Model model;

@@ -41,12 +41,7 @@ struct TiedBlocks {
       hold(made, std::string(part) + ".y_min", {false, true, false});
     }
     hold(made, "coarse.z_min", {false, false, true});
-    scene::Load load;
-    load.name = "pull";
-    load.type = scene::LoadType::traction;
-    load.target = "fine.z_max";
-    load.traction = {0, 0, 1e6};
-    made.loads.push_back(load);
+    add_traction(made, "fine.z_max", {0, 0, 1e6});
     return made;
   }
 };

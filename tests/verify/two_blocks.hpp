@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/verify/march.hpp"
+#include "tests/verify/scene_entries.hpp"
 
 namespace railwave::verify {
 
@@ -41,47 +42,6 @@ struct TwoBlocks {
   }
 };
 
-inline void hold(scene::Scene& scene, const std::string& target, std::array<bool, 3> fixed) {
-  scene::Constraint held;
-  held.name = "held " + target;
-  held.target = target;
-  held.fixed = fixed;
-  scene.constraints.push_back(held);
-}
-
-inline scene::Load& add_force(scene::Scene& scene, const std::string& target, const Vec3& force,
-                              const std::string& curve) {
-  scene::Load load;
-  load.name = "force on " + target;
-  load.type = scene::LoadType::nodal_force;
-  load.target = target;
-  load.force = force;
-  load.curve = curve;
-  scene.loads.push_back(load);
-  return scene.loads.back();
-}
-
-inline scene::Load& add_torque(scene::Scene& scene, const std::string& target, double moment, const Vec3& axis) {
-  scene::Load load;
-  load.name = "torque on " + target;
-  load.type = scene::LoadType::torque;
-  load.target = target;
-  load.moment = moment;
-  load.axis = axis;
-  scene.loads.push_back(load);
-  return scene.loads.back();
-}
-
-inline scene::Connector& add_ground_spring(scene::Scene& scene, const std::string& target, const Vec3& stiffness) {
-  scene::Connector spring;
-  spring.name = "spring of " + target;
-  spring.from = "ground";
-  spring.to = target;
-  spring.stiffness = stiffness;
-  scene.connectors.push_back(spring);
-  return scene.connectors.back();
-}
-
 /// Two blocks with friction, damping, a torque, a force and a spring: most of what a step can have.
 inline scene::Scene busy_blocks(TwoBlocks blocks = {}) {
   blocks.friction = 0.3;
@@ -89,18 +49,22 @@ inline scene::Scene busy_blocks(TwoBlocks blocks = {}) {
   hold(scene, "lower.z_min", {true, true, true});
   scene.parts[1].stiffness_damping = 1e-8;
   add_torque(scene, "upper.z_max", 40, {0, 0, 1});
-  add_force(scene, "upper.z_max", {0, 0, -1e4}, "");
-  add_ground_spring(scene, "upper.z_max", {1e6, 2e6, 3e6});
+  add_force(scene, "upper.z_max", {0, 0, -1e4});
+  add_spring(scene, "ground", "upper.z_max", {1e6, 2e6, 3e6});
   return scene;
 }
 
-inline void add_ramp(scene::Scene& scene, const std::string& name, double start, double duration) {
-  scene::Curve curve;
-  curve.name = name;
-  curve.type = scene::CurveType::cosine_ramp;
-  curve.start = start;
-  curve.duration = duration;
-  scene.curves.push_back(curve);
+/// Two blocks without contact, the upper one of a material whose yield stress is beyond all stresses of the tests.
+inline scene::Scene blocks_of_two_materials(scene::Precision precision) {
+  scene::Scene scene = TwoBlocks{}.scene(1e-5);
+  scene.contacts.clear();
+  scene.solver.precision = precision;
+  scene.materials.push_back(steel());
+  scene.materials[1].name = "yielding";
+  scene.materials[1].yield_stress = 1e12;
+  scene.materials[1].tangent_modulus = 1e9;
+  scene.parts[0].material = "yielding";
+  return scene;
 }
 
 inline double mass_of(const Model& model, const std::string& set) {

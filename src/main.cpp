@@ -28,7 +28,7 @@
 namespace railwave {
 namespace {
 
-/// Exit codes, as the README tells them.
+/// Exit codes, listed in docs/commands.md.
 enum ExitCode { done = 0, failed = 1, wrong_input = 2, run_ended_early = 3, out_of_time = 4, interrupted = 130 };
 
 struct Arguments {
@@ -46,7 +46,7 @@ struct Arguments {
   double wall_time = 0;  ///< s; 0: no limit
 };
 
-/// Reads the case and tells at once what is odd about it: what follows may take minutes.
+/// Reads the case and prints its warnings at once: what follows may take minutes.
 scene::Scene read_and_warn(const Arguments& arguments) {
   std::vector<std::string> warnings;
   scene::Scene scene = read_case(arguments.case_file, arguments.overrides, &warnings);
@@ -209,7 +209,7 @@ int dispatch(int argc, char** argv) {
   int code = done;
 
   const auto add_case = [&](CLI::App* command) {
-    command->add_option("case", arguments.case_file, "case file (TOML); docs/case-file.md tells its keys")->required();
+    command->add_option("case", arguments.case_file, "case file (TOML); docs/case-file.md lists its keys")->required();
     command
         ->add_option("--set", arguments.overrides,
                      "section.key=value in place of what the case file says; may be repeated")
@@ -226,7 +226,7 @@ int dispatch(int argc, char** argv) {
   run_command->add_option("--wall-time", arguments.wall_time,
                           "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
   run_command->callback([&] { code = run_case(arguments); });
-  CLI::App* check_command = app.add_subcommand("check", "check a case and tell what its run would be");
+  CLI::App* check_command = app.add_subcommand("check", "check a case and describe its run");
   add_case(check_command);
   check_command->callback([&] { code = check_case(arguments); });
   CLI::App* mesh =

@@ -51,9 +51,10 @@ bool parse_override_value(const std::string& text, const std::string& whole, Nod
 void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints,
                      Complaints& remarks);
 
-/// What of a case its static state can depend on, one line for each value, however the file was laid out: all but the
-/// title, [time], [output], how the time loop steps, and the velocities of initial and prescribed motions and the
-/// latter's displacements. Mesh files stand by their names.
+/// The values of a case on which its settled state can depend, one line each; blanks and remarks of the file do not
+/// matter. Left out are the title, [time], [checkpoint], [monitor], [output], probes, element sets, absorbing layers,
+/// the choice of the time loop's steps, and the velocities and displacements of initial and prescribed motions: the
+/// list is `without` in static_text.cpp. Mesh files count by their names.
 std::string static_text(const Node& root);
 
 }  // namespace railwave::case_file

@@ -3,7 +3,8 @@
 #include "case/complaints.hpp"
 #include "case/scene.hpp"
 
-/// What a case says in short, put into the scene at length.
+/// Turns the short forms of a case file (tracks, hammers, probes, curves from files) into the entries that they stand
+/// for.
 namespace railwave::case_file {
 
 /// Where sleepers are along a track, by x.
@@ -19,8 +20,8 @@ std::vector<SleeperPlace> sleeper_places(const scene::Track& track);
 /// are.
 scene::Sleeper sleeper_of(const scene::Scene& scene, const std::string& name);
 
-/// Adds to the scene the materials, meshes, parts, connectors and constraints that its tracks stand for, under the
-/// names that the section's help tells. Complains about names that are taken, and tracks without sleepers.
+/// Adds to the scene the materials, meshes, parts, connectors and constraints that its tracks stand for. Their names
+/// are those that the help of [tracks] lists. Complains about names that are taken, and tracks without sleepers.
 void expand_tracks(scene::Scene& scene, Complaints& complaints);
 
 /// Gives the meshes of fishplates and rail pads the parameters of the rail's mesh that each names; complains where that
@@ -32,8 +33,8 @@ void fit_to_rails(scene::Scene& scene, Complaints& complaints);
 /// to the scene's static text, so that a changed file settles anew.
 void read_curves(scene::Scene& scene, Complaints& complaints);
 
-/// Adds to the scene the node sets, curves, loads and history sets that its hammers and probes stand for, under the
-/// names that their sections' help tells. Complains about names that are taken.
+/// Adds to the scene the node sets, curves, loads and history sets that its hammers and probes stand for. Their names
+/// are those that the help of [hammers] and [probes] lists. Complains about names that are taken.
 void expand_hammers(scene::Scene& scene, Complaints& complaints);
 
 }  // namespace railwave::case_file

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "case/read_value.hpp"
-#include "case/suggest.hpp"
 
 namespace railwave::case_file {
 namespace {

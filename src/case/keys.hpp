@@ -18,7 +18,7 @@ const Section* find_section(const std::string& name);
 /// The section that had that name in earlier versions, or null.
 const Section* find_renamed_section(const std::string& former_name);
 
-/// The warning of such a name.
+/// The warning about a section under its former name.
 std::string renamed_text(const Section& section);
 
 /// Names of all sections that have one.

@@ -19,11 +19,10 @@ Section connector_section() {
       key("preload", &Connector::preload, "force on `to` when nothing has moved yet, along the axes").in("N"),
       key("axes", &Connector::axes, "the three directions, each a unit vector"),
       key("spread", &Connector::spread,
-          "cells along the first and the second of the axes, over the area in which the ends face each other along the "
-          "third; the ends "
-          "are surfaces then (or ground), stiffness, damping and preload are totals of which each cell has an equal "
-          "share, between the "
-          "means over the cell of both surfaces' motions, so that rotations are resisted too")
+          "cells along the first and the second of the axes, over the area in which the ends face each other along "
+          "the third; the ends are surfaces then (or ground), stiffness, damping and preload are totals of which "
+          "each cell has an equal share, between the means over the cell of both surfaces' motions, so that "
+          "rotations are resisted too")
           .within(between(1, 1000))
           .otherwise("one, between the mean motions by mass of the ends"),
       key("area", &Connector::area, "bounds of that area").in("m").otherwise("where the ends overlap"),
@@ -72,26 +71,23 @@ Section contact_section() {
           .within(at_least(0)),
       key("algorithm", &Contact::algorithm,
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the "
-          "next step, "
-          "nor slips where friction holds it")
+          "next step, nor slips where friction holds it")
           .one_of({"penalty", "multiplier"}),
       key("normals", &Contact::normals,
-          "`facet`: each face of the master is as its nodes make it and presses along its own normal; `smooth`: it is "
-          "curved such that the "
-          "normal is continuous, at nodes the mean of the faces around; faces that meet at more than 30 degrees keep "
-          "their edge")
+          "`facet`: each face of the master is as its nodes make it and presses along its own normal; `smooth`: it "
+          "is curved such that the normal is continuous, at nodes the mean of the faces around; faces that meet at "
+          "more than 30 degrees keep their edge")
           .one_of({"facet", "smooth"}),
       key("sweeps", &Contact::sweeps,
-          "iterations of the multipliers in a step; what they leave is made good in the next; of several contacts the "
-          "most counts")
+          "iterations of the multipliers in a step; the residual is corrected in the next step; where several "
+          "contacts give it, the largest number counts for all")
           .within(between(2, 100)),
       key("penalty_scale", &Contact::penalty_scale, "multiplies the penalty stiffness")
           .within(between(1e-6, 1e6))
           .mostly(between(1e-3, 100)),
       key("penalty_growth", &Contact::penalty_growth,
           "pairs [penetration in m, factor on the penalty's stiffness there], with increasing penetration; straight "
-          "lines between, "
-          "constant before and after; the force is the integral")
+          "lines between, constant before and after; the force is the integral")
           .pairs_of({"penetration in m", "factor", between(0, 1), between(1e-6, 1e6)})
           .otherwise("the penalty is linear"),
       key("damping", &Contact::damping,
@@ -101,9 +97,8 @@ Section contact_section() {
           "the master's nodes against the slave's faces as well, each with half the stiffness; neither surface then "
           "cuts into the other"),
       key("bridged_gap", &Contact::bridged_gap,
-          "cracks, slots and gaps between faces of the master that are no wider are crossed: what slides or rolls over "
-          "one presses on the nearer "
-          "side as if that went on")
+          "cracks, slots and gaps between faces of the master that are no wider are crossed: what slides or rolls "
+          "over one presses on the nearer side as if that went on")
           .in("m")
           .within(at_least(0))
           .otherwise("one face of the slave, of its smallest ones; or four of them, but not over 1 mm"),
@@ -146,9 +141,8 @@ Section curve_section() {
           .only({"table"}),
       key("file", &Curve::file,
           "CSV with such pairs, one in a line, of a measured blow for instance: two columns, time in s and factor, "
-          "separated by commas, semicolons, "
-          "tabs or blanks, with decimal points; lines of names may stand before the first number, remarks begin with "
-          "#; all else is refused")
+          "separated by commas, semicolons, tabs or blanks, with decimal points; lines of names may stand before the "
+          "first number, remarks begin with #; all else is refused")
           .path()
           .otherwise("none: give `points`")
           .only({"table"}),
@@ -268,12 +262,11 @@ Section non_reflecting_section() {
   using scene::NonReflecting;
   auto section = named_section(
       "non_reflecting", "non-reflecting end", &Scene::non_reflecting,
-      "Surfaces where bodies go on without end: dashpots of the part's own wave impedances (rho C_d along "
-      "the normal, rho C_s across) let plane waves of the continuum out. A slender bar's own waves are slower, and "
-      "come back in part "
-      "((C_d - c) / (C_d + c) at least, 7 % in steel, bending more): [absorbing_layers.NAME] before the same end takes "
-      "these too. While the scene settles their nodes are held, and "
-      "what held them then acts on them as a constant force during the run.");
+      "Surfaces where bodies go on without end: dashpots of the part's own wave impedances (rho C_d along the "
+      "normal, rho C_s across) let plane waves of the continuum out. A slender bar's own waves are slower, and come "
+      "back in part ((C_d - c) / (C_d + c) at least, 7 % in steel, bending more): [absorbing_layers.NAME] before the "
+      "same end takes these too. While the scene settles their nodes are held, and what held them then acts on them "
+      "as a constant force during the run.");
   section.keys = {key("target", &NonReflecting::target, "where waves leave").names(surface).needed()};
   return section;
 }

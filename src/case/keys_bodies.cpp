@@ -73,15 +73,14 @@ Section material_section() {
           "von Mises stress at which the material begins to flow, with linear hardening beyond")
           .in("Pa")
           .within(above(0))
-          .otherwise("elastic without end"),
+          .otherwise("no yield"),
       key("tangent_modulus", &Material::tangent_modulus,
           "slope of true stress over logarithmic strain beyond yield, under tension; below youngs_modulus")
           .in("Pa")
           .within(at_least(0)),
       key("hardening_beta", &Material::hardening_beta,
           "share of the hardening that widens the yield surface; the rest moves it: 1 is isotropic, 0 kinematic "
-          "(Prager), "
-          "between is mixed")
+          "(Prager), between is mixed")
           .within(between(0, 1)),
       key("isotropic_saturation", &Material::isotropic_saturation,
           "Q of a flow stress that grows, or with Q < 0 falls, by Q (1 - exp(-b p)) with the equivalent plastic "
@@ -111,9 +110,9 @@ Section part_section() {
       key("position", &Part::position, "where the mesh's own origin is put").in("m"),
       key("mirror", &Part::mirror, "the mesh is mirrored at its plane y = 0; its sets keep their names"),
       key("angle_of_attack", &Part::angle_of_attack,
-          "the mesh is turned by this angle about the vertical axis through its origin, from x to y: a wheel at y > 0 "
-          "then steers to its flange. Boxes of "
-          "[node_sets] see it unturned; angular velocities of [initial_motion] and axes of torques on it turn along")
+          "the mesh is turned by this angle about the vertical axis through its origin, from x to y: a wheel at y > "
+          "0 then steers to its flange. Boxes of [node_sets] see it unturned; angular velocities of [initial_motion] "
+          "and axes of torques on it turn along")
           .in("rad")
           .within(between(-0.2, 0.2)),
       key("hourglass", &Part::hourglass,
@@ -124,15 +123,14 @@ Section part_section() {
           .within(between(0, 1))
           .otherwise("0.05; 0.1 viscous"),
       key("mass_damping", &Part::mass_damping,
-          "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows rigid "
-          "motion "
-          "too: not for bodies that roll or travel")
+          "Rayleigh's alpha: a force of alpha times mass and velocity against each node's velocity, which slows "
+          "rigid motion too: not for bodies that roll or travel")
           .in("1/s")
           .within(at_least(0)),
       key("stiffness_damping", &Part::stiffness_damping,
           "Rayleigh's beta: viscous stress of beta times the elastic stress of the strain rate; a mode of angular "
-          "frequency w is "
-          "damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - beta")
+          "frequency w is damped by beta w/2 of critical; shortens the stable step from dt to sqrt(dt^2 + beta^2) - "
+          "beta")
           .in("s")
           .within(at_least(0)),
       key("linear_bulk_viscosity", &Part::linear_bulk_viscosity,

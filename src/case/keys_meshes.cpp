@@ -78,10 +78,10 @@ std::vector<Key> wheel_keys(Mesh MeshSource::*wheel) {
       length("zone_width", &Wheel::zone_width, "width of the contact band").within(between(1e-4, 0.15)),
       any("zone_layers", &Wheel::zone_layers, "layers of zone_size below the running surface").within(between(1, 20)),
       position("path_start", &Wheel::path_start,
-               "arc where the way begins that the wheel rolls over; surface `tread` reaches as far")
-          .otherwise("no way beyond the zone"),
-      length("path_length", &Wheel::path_length, "rolled arc length of that way"),
-      length("path_size", &Wheel::path_size, "largest element size along the tread on that way, outside the zone")
+               "arc where the path begins that the wheel rolls over; surface `tread` reaches as far")
+          .otherwise("no path beyond the zone"),
+      length("path_length", &Wheel::path_length, "rolled arc length of that path"),
+      length("path_size", &Wheel::path_size, "largest element size along the tread on that path, outside the zone")
           .within(between(1e-4, 0.2)),
       any("growth", &Wheel::growth, "largest ratio of neighbouring element sizes").within(between(1.05, 2)),
       length("coarse_size", &Wheel::coarse_size, "largest element size along the tread, far from the zone")
@@ -107,9 +107,8 @@ std::vector<Key> wheelset_keys() {
           .within(above_up_to(0, 10))
           .mostly(between(0.5, 3)),
       any("axle", &Wheelset::axle,
-          "pairs [y in m, radius in m] from the axle's middle at y = 0 outwards, straight lines between; from its last "
-          "but one the surface is "
-          "`journal`; within the hub the axle fills the bore")
+          "pairs [y in m, radius in m] from the axle's middle at y = 0 outwards, straight lines between; from its "
+          "last but one the surface is `journal`; within the hub the axle fills the bore")
           .in("m")
           .pairs_of({"y in m", "radius in m", between(0, 10), between(0.02, 10)})
           .otherwise("[[0, 0.08], [0.61, 0.08], [0.89, 0.0675], [1.1, 0.0675]]"),

@@ -1,16 +1,16 @@
 #include "case/keys.hpp"
 
-// What a run is monitored for.
+// Checks of the running solution and their limits.
 namespace railwave::case_file {
 
 Section monitor_section() {
   using scene::Monitor;
-  auto section = single_section("monitor", &scene::Scene::monitor,
-                                "What a run is monitored for, some 64 times and at its beginning more often. Beyond a "
-                                "limit it warns, once for each kind, and tells "
-                                "where, when and the likely cause; beyond a fatal one it stops, writes its last state, "
-                                "and the culprit's surroundings beside the "
-                                "results as NAME.fault.h5 and .xdmf. docs/monitor.md tells more.");
+  auto section = single_section(
+      "monitor", &scene::Scene::monitor,
+      "Checks of the solution while it runs: some 64 in a run, more often at its beginning. A value beyond its limit "
+      "brings a warning, once for each kind, with place, time and likely cause. A value beyond a fatal limit stops "
+      "the run, which then writes its last state and, beside the results, the elements around the fault as "
+      "NAME.fault.h5 and .xdmf. See docs/monitor.md.");
   section.former_name = "watch";
   section.keys = {
       key("active", &Monitor::active,
@@ -20,7 +20,7 @@ Section monitor_section() {
           "far; rigid travel does not count")
           .within(above(0)),
       key("fatal_energy_error", &Monitor::fatal_energy_error,
-          "the same, a gain or a loss, at which the run stops: a run that completes has an account below this")
+          "the same, a gain or a loss, at which the run stops: a run that completes has stayed below it")
           .within(above(0)),
       key("kinetic_growth", &Monitor::kinetic_growth,
           "kinetic energy beyond what the run was given, over what deformation has held and dissipated so far")
@@ -52,7 +52,8 @@ Section monitor_section() {
       key("chatter", &Monitor::chatter, "times that a contact node was seen to open and to close again")
           .within(at_least(1)),
       key("box", &Monitor::box,
-          "half the edge of the box about a fatal fault that is written; 0 is six times the element's size")
+          "half the edge of the box around a fatal fault whose elements are written; 0 is six times the element's "
+          "size")
           .in("m")
           .within(at_least(0)),
   };

@@ -36,16 +36,15 @@ std::vector<Key> rail_keys(scene::RailMesh Entry::*rail) {
       length("section_size", &Rail::section_size, "largest element size across the head's surface; at least zone_size")
           .within(between(0.002, 0.012)),
       position("path_start", &Rail::path_start,
-               "x where the way begins that a wheel rolls over; surface `head` reaches as far")
+               "x where the path begins that a wheel rolls over; surface `head` reaches as far")
           .otherwise("zone_start"),
       position("path_end", &Rail::path_end, "x where it ends").otherwise("zone_end"),
-      length("path_size", &Rail::path_size, "largest element size along the head on that way, outside the zone")
+      length("path_size", &Rail::path_size, "largest element size along the head on that path, outside the zone")
           .within(between(1e-4, 0.2)),
       any("web_columns", &Rail::web_columns, "elements through the web's thickness").within(between(1, 9)),
       any("height_map", &Rail::height_map,
-          "measured surface: a CSV file with the columns x, y, dz in m, a height for each place of a grid of x and y; "
-          "nodes of the "
-          "running surface within the grid move up by dz, those below by less")
+          "measured surface: a CSV file with the columns x, y, dz in m, a height for each place of a grid of x and "
+          "y; nodes of the running surface within the grid move up by dz, those below by less")
           .path()
           .otherwise("the nominal surface"),
       length("height_map_depth", &Rail::height_map_depth,

@@ -28,17 +28,16 @@ Section settle_section() {
   section.keys = {
       key("active", &Settle::active, "`false` leaves it out, as if the section were absent").otherwise("true"),
       key("method", &Settle::method,
-          "`newton` is quick and moves point masses too; `relaxation` lets the scene swing out, point masses held; "
-          "`automatic` is "
-          "Newton's method, and relaxation from the start again where that does not settle")
+          "`newton` is quick and moves point masses too; `relaxation` damps the motion of the scene until it rests, "
+          "with point masses held; `automatic` is Newton's method, and relaxation from the start where that does not "
+          "converge")
           .one_of({"automatic", "newton", "relaxation"}),
       key("tolerance", &Settle::tolerance, "residual over applied force at which it counts as settled")
           .within(inside(0, 1)),
       key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),
       key("friction", &Settle::friction,
           "`false`: contacts are frictionless while the scene settles, and the run begins without shear. With "
-          "friction, which a slope "
-          "needs, some of what shear the way into equilibrium happened to bring about stays"),
+          "friction, which a slope needs, part of the shear remains that arose on the way into equilibrium"),
       key("cache", &Settle::cache,
           "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads "
           "begins with it"),
@@ -62,14 +61,14 @@ Section time_section() {
 
 Section checkpoint_section() {
   using scene::Checkpoint;
-  auto section = single_section("checkpoint", &Scene::checkpoint,
-                                "What is kept of a run so that `railwave run CASE --restart` goes on where it was "
-                                "stopped or killed; without this "
-                                "section too.");
+  auto section = single_section(
+      "checkpoint", &Scene::checkpoint,
+      "The state of a run is saved from time to time, so that `railwave run CASE --restart` goes on where the run "
+      "was stopped or killed. Without this section it is saved too, at the default interval.");
   section.keys = {
       key("interval", &Checkpoint::interval,
-          "between checkpoints, by the clock on the wall; 0 is none but the one where the run is stopped from outside "
-          "or its `--wall-time` is spent")
+          "wall-clock time between checkpoints; 0 is none but the one where the run is stopped from outside or its "
+          "`--wall-time` is spent")
           .in("s")
           .within(at_least(0))
           .mostly(at_least(0)),
@@ -86,24 +85,20 @@ Section solver_section() {
   auto section = single_section("solver", &Scene::solver, "How the time loop computes: its numbers and its steps.");
   section.keys = {
       key("precision", &Solver::precision,
-          "numbers of the step: `mixed` computes the elements in single precision and moves the nodes in double; "
-          "`float` keeps "
-          "the nodes in single precision too, as what the rigid motion with which each part begins leaves of their "
-          "motion, and "
-          "contact, loads, constraints and the energy account in double: for bodies that go on much as they begin, as "
-          "rounding "
-          "grows with the way between")
+          "floating-point numbers of the step: `mixed` computes the elements in single precision and moves the nodes "
+          "in double; `float` keeps the nodes in single precision too, as displacements and velocities relative to "
+          "the rigid motion with which their part begins, and contact, loads, constraints and the energy account in "
+          "double: for bodies that keep that rigid motion, as rounding grows with the distance from it")
           .one_of({"double", "mixed", "float"}),
       key("step_estimate", &Solver::step_estimate,
           "what the stable step is taken from: each element's height over the wave speed, each element's highest "
           "eigenvalue (safe for bodies one element thick), or the whole scene's highest frequency (the longest step)")
           .one_of({"element", "eigenvalue", "global"}),
       key("subcycling", &Solver::subcycling,
-          "coarse regions take 2, 4, ... 32 steps of the finest at once, in buffered levels; what touches or is loaded "
-          "keeps "
-          "the finest step; outputs fall on whole cycles of the levels, so their intervals are rounded to these; "
-          "settling "
-          "goes on without; not with `step_estimate = \"global\"`"),
+          "coarse regions take longer steps, 2, 4, ... 32 times the finest, with layers of buffer elements between "
+          "the levels; what is in contact or loaded takes the finest step. Outputs fall on whole cycles, which are "
+          "as long as the longest step: their intervals are rounded to it. Settling does not use it; not with "
+          "`step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")
           .within(at_least(0)),
   };
@@ -119,11 +114,9 @@ Section output_section() {
           .otherwise("results/NAME/NAME.h5, NAME being the case file's name without .toml; the folder is made"),
       key("history_interval", &Output::history_interval,
           "between samples of the histories, evenly spaced to the last; 0 is every step. The step is shortened, by a "
-          "tenth at most, so that whole "
-          "steps make an interval; where the run is no whole number of intervals, these are shortened so that it is. "
-          "An interval of few steps, "
-          "a given `time.step` and a step that is renewed have samples at the nearest steps. Times in the results are "
-          "true in any case")
+          "tenth at most, so that whole steps make an interval; where the run is no whole number of intervals, these "
+          "are shortened so that it is. An interval of few steps, a given `time.step` and a step that is renewed "
+          "have samples at the nearest steps. Times in the results are true in any case")
           .in("s")
           .within(at_least(0)),
       key("field_interval", &Output::field_interval,
@@ -135,10 +128,9 @@ Section output_section() {
           .one_of(names_of(fields_for(FieldRow::fields))),
       key("history_sets", &Output::history_sets,
           "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by "
-          "mass; of an element set "
-          "stress and strain, and plastic strain where the material yields, mean by volume")
+          "mass; of an element set stress and strain, and plastic strain where the material yields, mean by volume")
           .names(node_set | element_set | point),
-      key("progress_interval", &Output::progress_interval, "between lines of progress, by the clock on the wall")
+      key("progress_interval", &Output::progress_interval, "wall-clock time between lines of progress")
           .in("s")
           .within(above(0))
           .mostly(above(0)),

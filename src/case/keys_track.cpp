@@ -27,8 +27,7 @@ Section node_set_section() {
           .within(at_least(0)),
       key("surface", &NodeSet::surface,
           "only nodes of this surface of the part, such as z_max; its faces with all four nodes in the set are a "
-          "surface of the set's "
-          "name too")
+          "surface of the set's name too")
           .otherwise("nodes inside count too"),
   };
   section.rule = check_node_set;
@@ -79,9 +78,9 @@ Section sleeper_section() {
       key("fastening_spread", &Sleeper::fastening_spread, "cells along and across the rail over which it is spread")
           .within(between(1, 100)),
       key("pad", &Sleeper::pad,
-          "springs: springs and dashpots between foot and sleeper. solid: bodies `NAME_pad_1` ... there, tied to both, "
-          "of the vertical fastening_stiffness; "
-          "connectors have what the pad's shear lacks of the horizontal one, and what its damping lacks")
+          "springs: springs and dashpots between foot and sleeper. solid: bodies `NAME_pad_1` ... there, tied to "
+          "both, of the vertical fastening_stiffness; connectors have what the pad's shear lacks of the horizontal "
+          "one, and what its damping lacks")
           .one_of({"springs", "solid"}),
       key("pad_modulus", &Sleeper::pad_modulus,
           "Young's modulus of the pad; fastening_stiffness and fastening_damping are then those of clips beside it, by "
@@ -129,11 +128,9 @@ std::vector<Key> joint_keys() {
   return {
       key("fishplates", &Track::fishplates,
           "a joint at the gap: fishplates `NAME_fishplate_left` (towards -y) and `NAME_fishplate_right` over both "
-          "rails, and bolts, beams "
-          "`NAME_bolt_1` ..., from a point beyond one plate to one beyond the other, `NAME_bolt_1_left` and "
-          "`NAME_bolt_1_right`; beams of the "
-          "points' names spread each head over the nodes `bolt_1` of the plate. Bolts don't touch the web; plates have "
-          "stiffness hourglass control"),
+          "rails, and bolts, beams `NAME_bolt_1` ..., from a point beyond one plate to one beyond the other, "
+          "`NAME_bolt_1_left` and `NAME_bolt_1_right`; beams of the points' names spread each head over the nodes "
+          "`bolt_1` of the plate. Bolts don't touch the web; plates have stiffness hourglass control"),
       key("fishplate_fit", &Track::fishplate_fit,
           "glued to the rails, or in contact; ties and contacts have the plates' names, behind the gap with _2")
           .one_of({"tie", "contact"}),
@@ -180,16 +177,14 @@ Section track_section() {
           "names"),
       key("both_rails", &Track::both_rails,
           "whole sleepers on whole beds of ballast, and the other rail too, mirrored at the centre plane: its parts, "
-          "connectors and so on are `NAME_far_rail`, "
-          "`NAME_far_fastening_1` and so on. The middle of each sleeper's underside is held along y, unless the "
-          "ballast has a lateral stiffness"),
+          "connectors and so on are `NAME_far_rail`, `NAME_far_fastening_1` and so on. The middle of each sleeper's "
+          "underside is held along y, unless the ballast has a lateral stiffness"),
       key("hourglass", &Track::hourglass,
           "how hourglass modes of rails and sleepers are resisted; plates and pads have stiffness in any case")
           .one_of({"viscous", "stiffness"}),
       key("rail_distance", &Track::rail_distance,
-          "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards -y "
-          "unless the inclination is negative, "
-          "or the track mirrored")
+          "from the middle of the rail's foot to the track's centre plane, which lies where the rail leans: towards "
+          "-y unless the inclination is negative, or the track mirrored")
           .in("m")
           .within(above(0)),
       key("sleeper", &Track::sleeper, "kind of the regular sleepers").names(sleeper),

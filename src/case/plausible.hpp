@@ -32,7 +32,7 @@ std::string oddity(const Key& key, double number);
 /// A table of the limits by unit, in Markdown.
 std::string unit_limits_markdown();
 
-/// Warns of what is odd about a whole scene, where no single key tells: wheels faster than any train.
+/// Warns of values that are odd for the scene, though each key alone allows them: wheels faster than any train.
 void remark_on_scene(const scene::Scene& scene, Complaints& remarks);
 
 }  // namespace railwave::case_file

@@ -10,13 +10,9 @@ namespace railwave::case_file {
 namespace {
 
 bool is_wheel(const scene::Scene& scene, const std::string& part_name) {
-  const auto part =
-      std::find_if(scene.parts.begin(), scene.parts.end(), [&](const auto& one) { return one.name == part_name; });
-  if (part == scene.parts.end()) return false;
-  const auto mesh =
-      std::find_if(scene.meshes.begin(), scene.meshes.end(), [&](const auto& one) { return one.name == part->mesh; });
-  return mesh != scene.meshes.end() &&
-         (mesh->type == scene::MeshType::wheel || mesh->type == scene::MeshType::wheelset);
+  const scene::Part* part = find_entry(scene.parts, part_name);
+  const scene::MeshSource* mesh = part ? find_entry(scene.meshes, part->mesh) : nullptr;
+  return mesh && (mesh->type == scene::MeshType::wheel || mesh->type == scene::MeshType::wheelset);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "case/error.hpp"
 #include "case/keys.hpp"
 #include "case/read_value.hpp"
@@ -27,7 +29,9 @@ std::string key_help(const Key& key) {
 }
 
 std::string section_help(const Section& section) {
-  auto text = fmt::format("{}{}\n  {}\n\n", title(section), section.required ? " (required)" : "", section.help);
+  const auto formerly = section.former_name.empty() ? "" : ", formerly [" + section.former_name + "]";
+  auto text =
+      fmt::format("{}{}{}\n  {}\n\n", title(section), formerly, section.required ? " (required)" : "", section.help);
   for (const auto& key : section.keys) text += key_help(key);
   return text;
 }
@@ -40,14 +44,22 @@ std::string all_sections() {
   return text + "Ask for a section (parts), a key (hourglass) or both (parts.hourglass).\n";
 }
 
+/// With the section's present name in place of a former one.
+std::string in_present_names(const std::string& topic) {
+  const auto end = std::min(topic.find('.'), topic.size());
+  const auto* section = find_renamed_section(topic.substr(0, end));
+  return section ? section->name + topic.substr(end) : topic;
+}
+
 }  // namespace
 
 std::string case_help(const std::string& topic) {
   if (topic.empty()) return all_sections();
-  if (const auto* section = find_section(topic)) return section_help(*section);
-  const auto dot = topic.find('.');
-  const auto wanted_section = dot == std::string::npos ? "" : topic.substr(0, dot);
-  const auto wanted_key = dot == std::string::npos ? topic : topic.substr(topic.rfind('.') + 1);
+  const auto name = in_present_names(topic);
+  if (const auto* section = find_section(name)) return section_help(*section);
+  const auto dot = name.find('.');
+  const auto wanted_section = dot == std::string::npos ? "" : name.substr(0, dot);
+  const auto wanted_key = dot == std::string::npos ? name : name.substr(name.rfind('.') + 1);
   std::string text;
   auto names = section_names();
   for (const auto& section : sections()) {

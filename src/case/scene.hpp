@@ -16,6 +16,14 @@ namespace railwave::scene {
 
 using Box = std::array<Vec3, 2>;  ///< lowest and highest corner
 
+/// The entry of that name, or null.
+template <class Entry>
+const Entry* find_entry(const std::vector<Entry>& entries, const std::string& name) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
 struct Material : Place {
   double youngs_modulus = 0;  ///< Pa
   double poissons_ratio = 0;
@@ -302,7 +310,7 @@ struct Solver {
   bool elements_in_single() const { return precision != Precision::double_precision; }
 };
 
-/// What a run is monitored for: beyond a limit it warns, beyond a fatal one it stops.
+/// Limits of the checks of a running solution: beyond one the run warns, beyond a fatal one it stops.
 struct Monitor {
   bool active = true;
   double energy_error = 0.05;       ///< of the balance, over what deformation has held and dissipated

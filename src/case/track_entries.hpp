@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,13 +10,6 @@
 #include "case/scene.hpp"
 
 namespace railwave::case_file {
-
-template <class Entry>
-const Entry* find_entry(const std::vector<Entry>& entries, const std::string& name) {
-  const auto found =
-      std::find_if(entries.begin(), entries.end(), [&](const auto& entry) { return entry.name == name; });
-  return found == entries.end() ? nullptr : &*found;
-}
 
 /// m: the sides of a box that bounds nothing.
 inline constexpr double unbounded = 1e3;

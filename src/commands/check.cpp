@@ -90,7 +90,7 @@ void describe_places(const AssembledScene& assembled, std::ostream& out) {
 /// Where waves leave, and which do not.
 void describe_ends(const AssembledScene& assembled, const AbsorbingLayers& absorbing, std::ostream& out) {
   for (const std::string& line : describe_absorbing_layers(assembled, absorbing)) out << line << '\n';
-  for (const std::string& line : describe_slender_ends(assembled, absorbing)) out << "note: " << line << '\n';
+  report("note", describe_slender_ends(assembled, absorbing), out);
 }
 
 /// Small overlaps of contacts, as cases have that press bodies together by their places: the deep ones are doubts.
@@ -108,8 +108,7 @@ void describe_motions(const Model& model, std::ostream& out) {
       out << fmt::format("[initial_motion.{}] rolls at [{:.6g}, {:.6g}, {:.6g}] rad/s\n", motion.name, w[0], w[1],
                          w[2]);
     }
-  for (const std::string& doubt : scene_doubts(model, model.contacts, model.absorbing, model.step_size))
-    out << "warning: " << doubt << '\n';
+  report("warning", scene_doubts(model, model.contacts, model.absorbing, model.step_size), out);
 }
 
 void describe_tasks(const std::string& title, const std::vector<std::string>& lines, std::ostream& out) {

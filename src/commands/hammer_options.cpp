@@ -14,10 +14,10 @@ void add_response_command(CLI::App& app, ResponseRequest& request, const std::fu
       ->allow_extra_args(false);
   command->add_option("--quantity", request.quantity, "accelerance (default), mobility or receptance");
   command->add_option("--window", request.window, "none (default) or exponential");
-  command->add_option("--window-end", request.window_end,
-                      "what the exponential window comes down to at the end; default 0.05");
+  command->add_option("--window-end", request.window_end, "value of the exponential window at its end; default 0.05");
   command->add_option("--resolution", request.resolution, "largest distance of two lines, Hz; default 1");
-  command->add_option("--prominence", request.prominence, "of peaks and troughs that are reported, dB; default 3");
+  command->add_option("--prominence", request.prominence,
+                      "least prominence of peaks and troughs in the report, dB; default 3");
   command->add_option("--from", request.from, "Hz; default 20");
   command->add_option("--to", request.to, "Hz; default: where the force's spectrum is 20 dB down");
   command->add_option("--csv", request.csv, "also write all lines as CSV");
@@ -44,8 +44,7 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
   command->add_option("--to", request.to, "Hz; default 5000");
   command->add_option("--resolution", request.resolution, "largest distance of two lines, Hz; default 1");
   command->add_option("--window", request.window, "none (default) or exponential");
-  command->add_option("--window-end", request.window_end,
-                      "what the exponential window comes down to at the end; default 0.05");
+  command->add_option("--window-end", request.window_end, "value of the exponential window at its end; default 0.05");
   command->add_option("--csv", request.csv, "also write the rates, and the levels along the row, as CSV");
   command->add_option("--hdf5", request.hdf5, "also write them as HDF5: a file of its own");
   command->add_flag("--overwrite", request.overwrite,

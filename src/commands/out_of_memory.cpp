@@ -1,4 +1,3 @@
-
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>

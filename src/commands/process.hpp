@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// What the process has and how it ends: its stack and memory, signals, a child that reads files.
+/// The process of the program: its stack and memory, signals, how it ends, a child process that reads files.
 namespace railwave {
 
 /// Bytes that a thread of this program needs at least: 128 kB were enough for every command when it was measured.
@@ -20,14 +20,14 @@ inline constexpr std::size_t smallest_stack = 512 << 10;
 /// @return what `program` returned
 int with_enough_stack(const std::function<int()>& program);
 
-/// Makes little memory do the same on every machine, and nothing worse than a message: one heap for all threads, unless
-/// MALLOC_ARENA_MAX says otherwise (the C library would map up to 64 MB of address space for each), and a main stack
-/// that need not grow any more, which the system would answer by SIGSEGV. Ends the program with a message and exit code
-/// 1 where not even that can be had. Before the libraries begin, which happens before main(), steady_memory.cpp
-/// looks whether they will have enough.
+/// Makes a lack of memory end in a message on every machine: one heap for all threads, unless MALLOC_ARENA_MAX says
+/// otherwise (the C library would map up to 64 MB of address space for each), and a main stack that need not grow any
+/// more, because the system answers a stack that cannot grow by SIGSEGV. Ends the program with a message and exit code
+/// 1 where there is not even memory for that. steady_memory.cpp also checks before main() that the libraries will have
+/// enough to start.
 void steady_memory();
 
-/// Whether steady_memory() has been called: before, no exception may be thrown.
+/// Whether steady_memory() has been called: before that no exception may be thrown.
 bool has_begun() noexcept;
 
 /// Says so and ends the program with exit code 1. Allocates nothing.
@@ -50,23 +50,24 @@ class NoSuddenExit {
   NoSuddenExit& operator=(const NoSuddenExit&) = delete;
 };
 
-/// SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 (schedulers send these before a job's time is up) end the
-/// program in good order. Those that whoever started it has it ignore stay ignored (nohup, jobs in a shell's
-/// background). SIGPIPE and SIGXFSZ are ignored: what is written then is refused with EPIPE and EFBIG.
-/// From now on such a signal takes away what was half written, says so and ends the program with exit code 130.
+// Signals that stop the program: SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1 and SIGUSR2 (schedulers send these before a
+// job's time is up). One that was ignored when the program started stays ignored (nohup, jobs in a shell's background).
+// SIGPIPE and SIGXFSZ are ignored: writing then fails with EPIPE or EFBIG.
+
+/// From now on a stopping signal removes half-written files, prints a message and ends the program with exit code 130.
 void end_on_signals();
 
-/// From now on such a signal is a wish to stop (request_stop()), which the run's loop looks at.
+/// From now on a stopping signal calls request_stop(): the time loop stops cleanly after the step.
 void stop_on_signals();
 
-/// From now on such a signal is passed on to a child, which ends in good order itself; this process waits for it. 0: no
-/// longer.
+/// From now on a stopping signal is passed on to a child, as SIGTERM; the child stops cleanly, and this process waits.
+/// @param child 0: none any more
 void pass_signals_to(pid_t child);
 
-/// Whether there was such a wish.
+/// Whether a stopping signal came after stop_on_signals().
 bool was_signalled();
 
-/// Runs a command that reads results files in a process of its own: HDF5 may crash, or go round in circles, in a
+/// Runs a command that reads results files in a process of its own, because HDF5 may crash, or loop without end, in a
 /// damaged file. To be called before any other thread is started and before HDF5 or Kokkos are used. The child prints
 /// and writes what the command does; this process waits for it, and where a signal ended it says on stderr which files
 /// are damaged and what to do.

@@ -4,7 +4,7 @@
 
 namespace railwave {
 
-/// Kokkos knows so many threads at most: it has tables of a fixed length and looks nowhere whether they suffice.
+/// Kokkos can use so many threads at most: its tables have a fixed length, which it does not check.
 inline constexpr int most_threads = 512;
 
 /// Kokkos for as long as this lives, with as many threads as the user asked for: KOKKOS_NUM_THREADS, else

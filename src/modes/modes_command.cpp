@@ -28,7 +28,7 @@ std::string name_of(const Mode& mode) {
   return fmt::format("{} ({},{})", text_of(mode.round->kind), mode.round->circles, mode.round->diameters);
 }
 
-/// @param several parts: the table tells which one moves most
+/// @param several whether there are several parts: the table then names the one that moves most
 void print(const scene::Scene& scene, const std::vector<Mode>& modes, bool several, std::ostream& out) {
   out << fmt::format("{:>5} {:>11} {:>11}    {}\n", "mode", "Hz", "modal kg",
                      several ? fmt::format("{:<24}moves most", "name") : "name");

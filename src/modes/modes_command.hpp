@@ -28,7 +28,7 @@ struct ModesRequest {
   bool overwrite = false;                  ///< files of others too
 };
 
-/// Prints a table of the modes of a scene, and writes the files asked for; docs/modes.md tells what they hold. Kokkos
+/// Prints a table of the modes of a scene, and writes the files asked for; docs/modes.md describes them. Kokkos
 /// must be up. Returns the exit code 0; throws InputError for a request that cannot be served.
 int modes_command(const scene::Scene& scene, const ModesRequest& request, std::ostream& out);
 

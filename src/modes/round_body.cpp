@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <map>
+#include <numeric>
 
 namespace railwave {
 namespace {
@@ -24,11 +26,6 @@ constexpr double least_swing = 0.03;  ///< of its largest value: what lies below
 
 Eigen::Vector3d vector(const Vec3& a) { return {a[0], a[1], a[2]}; }
 
-const scene::MeshSource& mesh_of(const scene::Scene& scene, const scene::Part& part) {
-  return *std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                       [&](const auto& mesh) { return mesh.name == part.mesh; });
-}
-
 /// By angle.
 void sort_ring(std::vector<int>& nodes, std::vector<double>& angle) {
   std::vector<std::size_t> order(nodes.size());
@@ -42,34 +39,33 @@ void sort_ring(std::vector<int>& nodes, std::vector<double>& angle) {
   }
 }
 
-/// Along the radius and the axis.
-struct Place {
-  double radius, along;
-};
-
-/// The first of the nodes that are in one ring, by union and find.
+/// The node that stands for all those of a ring: union and find.
 int first_of(std::vector<int>& parent, int node) {
   while (parent[node] != node) node = parent[node] = parent[parent[node]];
   return node;
 }
 
-/// Nodes of rings: those in one place, and those that edges round the axis lead to, for a wheel's nodes lie the farther
-/// outside their circle the wider its cells are there (mesh/body_balance.hpp).
-std::vector<std::vector<int>> nodes_of_rings(const std::vector<Eigen::Vector3d>& local, const std::vector<Place>& place,
-                                             double unit, const std::vector<std::array<int, 2>>& edges) {
+/// Nodes of each ring: those of one radius and height, and those that edges round the axis join to them, because the
+/// radius of a wheel's ring grows a little with the width of its cells (mesh/body_balance.hpp).
+/// @param local place of each node: two directions across the axis, then along it; m
+/// @param unit m, within which places count as the same
+std::vector<std::vector<int>> nodes_of_rings(const std::vector<Eigen::Vector3d>& local, double unit,
+                                             const std::vector<std::array<int, 2>>& edges) {
+  std::vector<double> radius;
+  for (const Eigen::Vector3d& x : local) radius.push_back(x.head<2>().norm());
   std::vector<int> parent(local.size());
-  for (std::size_t k = 0; k < parent.size(); ++k) parent[k] = static_cast<int>(k);
+  std::iota(parent.begin(), parent.end(), 0);
   const auto unite = [&](int a, int b) { parent[first_of(parent, a)] = first_of(parent, b); };
   std::map<std::pair<long, long>, int> found;
   for (std::size_t k = 0; k < local.size(); ++k) {
-    // A corner of the lattice of places might part a ring: the lattice's origin lies off all round numbers.
-    const auto cell =
-        std::make_pair(std::lround(place[k].radius / unit + 0.31), std::lround(place[k].along / unit + 0.37));
+    // Places count as the same in one cell of a lattice; its origin is off round numbers, so that no cell border runs
+    // through a ring.
+    const auto cell = std::make_pair(std::lround(radius[k] / unit + 0.31), std::lround(local[k][2] / unit + 0.37));
     unite(static_cast<int>(k), found.try_emplace(cell, static_cast<int>(k)).first->second);
   }
   for (const auto& [a, b] : edges)
-    if (std::fabs(place[a].along - place[b].along) <= unit &&
-        std::fabs(place[a].radius - place[b].radius) <= most_slope * (local[a] - local[b]).norm())
+    if (std::fabs(local[a][2] - local[b][2]) <= unit &&
+        std::fabs(radius[a] - radius[b]) <= most_slope * (local[a] - local[b]).norm())
       unite(a, b);
   std::map<int, std::vector<int>> rings;
   for (std::size_t k = 0; k < parent.size(); ++k)
@@ -79,15 +75,52 @@ std::vector<std::vector<int>> nodes_of_rings(const std::vector<Eigen::Vector3d>&
   return nodes;
 }
 
+/// Nodes at the ends of each edge of each element, counted from the part's first node.
+std::vector<std::array<int, 2>> edges_of(const Assembly& assembly, const Assembly::PartRange& range) {
+  std::vector<std::array<int, 2>> edges;
+  for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
+    for (const auto& side : hexahedron_face_corners)
+      for (int i = 0; i < 4; ++i)
+        edges.push_back({assembly.elements[e][side[i]] - range.first_node,
+                         assembly.elements[e][side[(i + 1) % 4]] - range.first_node});
+  return edges;
+}
+
 }  // namespace
 
 const char* text_of(RoundName::Kind kind) {
   return kind == RoundName::Kind::axial ? "axial" : kind == RoundName::Kind::radial ? "radial" : "circumferential";
 }
 
+std::optional<RoundBody::Ring> RoundBody::ring_of(const std::vector<int>& nodes,
+                                                  const std::vector<Eigen::Vector3d>& local, const double* mass) {
+  const int count = static_cast<int>(nodes.size());
+  if (count < fewest_nodes) return {};
+  Ring ring;
+  double least = std::numeric_limits<double>::max(), most = 0;
+  for (int k : nodes) {
+    const double radius = local[k].head<2>().norm();
+    ring.nodes.push_back(k);
+    ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
+    ring.mass += mass[k];
+    ring.radius += radius / count;
+    least = std::min(least, radius);
+    most = std::max(most, radius);
+  }
+  if (most - least > most_spread * ring.radius) return {};
+  sort_ring(ring.nodes, ring.angle);
+  for (int k = 0; k < count; ++k) {
+    const double before = k > 0 ? ring.angle[k - 1] : ring.angle.back() - 2 * M_PI;
+    const double behind = k + 1 < count ? ring.angle[k + 1] : ring.angle.front() + 2 * M_PI;
+    if ((behind - ring.angle[k]) / (2 * M_PI) > widest_gap) return {};
+    ring.share.push_back((behind - before) / (4 * M_PI));
+  }
+  return ring;
+}
+
 std::optional<RoundBody> RoundBody::of_part(const AssembledScene& assembled, int number) {
   const scene::Part& part = assembled.scene.parts[number];
-  const bool along_z = mesh_of(assembled.scene, part).type == scene::MeshType::cylinder;
+  const bool along_z = find_entry(assembled.scene.meshes, part.mesh)->type == scene::MeshType::cylinder;
   RoundBody body(part.position, turned_with(part, along_z ? Vec3{0, 0, 1} : Vec3{0, 1, 0}));
   const Eigen::Vector3d axis = vector(body.axis_).normalized();
   const Eigen::Vector3d across = axis.unitOrthogonal();
@@ -101,41 +134,14 @@ std::optional<RoundBody> RoundBody::of_part(const AssembledScene& assembled, int
     reach = std::max(reach, local.back().head<2>().norm());
     total += assembled.mass[n];
   }
-  std::vector<Place> place;
-  for (const Eigen::Vector3d& x : local) place.push_back({x.head<2>().norm(), x[2]});
-  std::vector<std::array<int, 2>> edges;
-  for (int e = range.first_element; e < range.first_element + range.element_count; ++e)
-    for (const auto& side : hexahedron_face_corners)
-      for (int i = 0; i < 4; ++i)
-        edges.push_back({assembled.assembly.elements[e][side[i]] - range.first_node,
-                         assembled.assembly.elements[e][side[(i + 1) % 4]] - range.first_node});
   double in_rings = 0;
-  for (const auto& nodes : nodes_of_rings(local, place, same_place * reach, edges)) {
-    const int count = static_cast<int>(nodes.size());
-    if (count < fewest_nodes) continue;
-    Ring ring;
-    double least = reach, most = 0;
-    for (int k : nodes) {
-      ring.nodes.push_back(range.first_node + k);
-      ring.angle.push_back(std::atan2(local[k][1], local[k][0]));
-      ring.mass += assembled.mass[range.first_node + k];
-      ring.radius += place[k].radius / count;
-      least = std::min(least, place[k].radius);
-      most = std::max(most, place[k].radius);
-    }
-    if (most - least > most_spread * ring.radius) continue;
-    sort_ring(ring.nodes, ring.angle);
-    double widest = 0;
-    for (int k = 0; k < count; ++k) {
-      const double before = k > 0 ? ring.angle[k - 1] : ring.angle.back() - 2 * M_PI;
-      const double behind = k + 1 < count ? ring.angle[k + 1] : ring.angle.front() + 2 * M_PI;
-      ring.share.push_back((behind - before) / (4 * M_PI));
-      widest = std::max(widest, (behind - ring.angle[k]) / (2 * M_PI));
-    }
-    if (widest > widest_gap) continue;
-    in_rings += ring.mass;
-    body.most_orders_ = std::max(body.most_orders_, std::min(count / 2 - 1, highest_order));
-    body.rings_.push_back(ring);
+  for (const auto& nodes : nodes_of_rings(local, same_place * reach, edges_of(assembled.assembly, range))) {
+    std::optional<Ring> ring = ring_of(nodes, local, &assembled.mass[range.first_node]);
+    if (!ring) continue;
+    for (int& n : ring->nodes) n += range.first_node;
+    in_rings += ring->mass;
+    body.most_orders_ = std::max(body.most_orders_, std::min(static_cast<int>(nodes.size()) / 2 - 1, highest_order));
+    body.rings_.push_back(std::move(*ring));
   }
   if (in_rings < least_share * total) return {};
   std::sort(body.rings_.begin(), body.rings_.end(), [](const Ring& a, const Ring& b) { return a.radius < b.radius; });

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <complex>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "model/assembled_scene.hpp"
@@ -43,6 +42,11 @@ class RoundBody {
     std::vector<int> nodes;
     std::vector<double> angle, share;  ///< rad; of the way round
   };
+
+  /// Nothing unless the nodes go all the way round at about one radius.
+  /// @param nodes, local, mass of the part: numbers from its first node on; places about the axis, m; kg
+  static std::optional<Ring> ring_of(const std::vector<int>& nodes, const std::vector<Eigen::Vector3d>& local,
+                                     const double* mass);
 
   RoundBody(const Vec3& centre, const Vec3& axis) : centre_(centre), axis_(axis) {}
   int circles(const std::vector<std::complex<double>>& amplitude) const;

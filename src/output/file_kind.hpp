@@ -15,8 +15,7 @@ struct FileKind {
   /// - hdf5: how the root's attribute `format` begins;
   /// - text: what stands among its first bytes;
   /// - table (CSV, which has no room for a mark): the first columns of its heading, separated by commas; a unit, as in
-  /// `time [s]`, counts where
-  ///   it is reported here.
+  ///   `time [s]`, must agree where one is given here.
   std::string mark;
   std::string more;  ///< table: what each further column's name contains, which has a unit if the first has one; empty:
                      ///< there is none

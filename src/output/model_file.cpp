@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "model/time_step/stable_step.hpp"
-#include "output/atomic_file.hpp"
 #include "output/grid_writer.hpp"
 #include "output/results_writer.hpp"
 

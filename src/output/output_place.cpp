@@ -36,8 +36,8 @@ std::optional<Identity> identity(const std::string& path) {
   return facts ? std::optional<Identity>({facts->st_dev, facts->st_ino}) : std::nullopt;
 }
 
-/// Files that may be replaced whatever they are, see give(). Time and length are reported too: a new file may get the
-/// number of one that is gone. The thread that writes results asks for them as well.
+/// Files that may be replaced whatever they are, see give(). They are recognised by time and length too, because a new
+/// file may get the inode number of one that is gone. The thread that writes results reads the list as well.
 struct GivenFiles {
   using File = std::tuple<dev_t, ino_t, time_t, long, off_t>;
   static File file_of(const struct stat& facts) {

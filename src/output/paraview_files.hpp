@@ -36,8 +36,8 @@ void remove_fault_file(const std::string& path);
 /// for each part that has elements in the box about the fault: parts/NAME with coordinates (undeformed, m),
 /// connectivity, every field of case/field_table.hpp that output.fields may name, and by element its number in the
 /// model (element) and whether the fault names it (culprit: 1). The box's half edge is monitor.box, or six times the
-/// culprit's size; a fault without a place has no file. An older run's files of that name are removed. Where none can
-/// be made that is reported on stderr: the fault itself matters more.
+/// culprit's size; a fault without a place has no file. An older run's files of that name are removed. If it
+/// cannot be written, that is reported on stderr only: the fault itself matters more.
 /// @return whether it was written
 bool write_fault_file(const AssembledScene& assembled, const ElementModel& elements, const NodalState& nodal,
                       const Ties& ties, const Fault& fault, const std::string& path);

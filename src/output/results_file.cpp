@@ -44,13 +44,6 @@ class ModelFields : public FieldSource {
   const Model& model_;
 };
 
-template <class Entry>
-const Entry* named(const std::vector<Entry>& entries, const std::string& name) {
-  for (const Entry& entry : entries)
-    if (entry.name == name) return &entry;
-  return nullptr;
-}
-
 LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
   const bool torque = load.type == scene::LoadType::torque;
   Vec3 direction = torque                                      ? load.axis
@@ -61,10 +54,10 @@ LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
       std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]);
   if (length > 0)
     for (double& one : direction) one /= length;
-  return {load.name, load.target, torque, named(scene.hammers, load.name) != nullptr, direction};
+  return {load.name, load.target, torque, find_entry(scene.hammers, load.name) != nullptr, direction};
 }
 
-/// Mean by mass of a set's nodes, m: where it is of which the history tells the displacement.
+/// Mean by mass of the undeformed places of a set's nodes, m: the set's displacements in the history count from it.
 Vec3 undeformed_position(const NodalState& nodal, const Ties& ties, const LoadModel& loads, int set) {
   const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
   const auto all = to_host(loads.sets.nodes);

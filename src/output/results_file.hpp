@@ -10,9 +10,9 @@
 
 namespace railwave {
 
-/// Writes what the time loop tells into scene.output.file and its XDMF companion, while the loop goes on: the loop
-/// waits for the device's copies only. When the disk refuses something the loop is asked to stop, and the next call
-/// throws it.
+/// Writes the results of the time loop into scene.output.file and its XDMF companion while the loop goes on: the loop
+/// waits for copies from the device only. When writing fails the loop is asked to stop, and the next call throws the
+/// error.
 class ResultsFile : public RunObserver, public Checkpoints {
  public:
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the
@@ -59,7 +59,7 @@ ResultsSize results_size(const RunDescription& description, const AssembledScene
 /// Throws InputError when a file of that size can't fit into `available` bytes however well its fields are compressed.
 void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene, double available);
 
-/// Bytes that the file system of the file's folder has free; infinity where it doesn't tell.
+/// Bytes that the file system of the file's folder has free; infinity where that is not known.
 double free_bytes_at(const std::string& path);
 
 }  // namespace railwave

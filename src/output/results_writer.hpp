@@ -112,7 +112,7 @@ void check_results_place(const std::string& path);
 /// Path of the XDMF companion: results.h5 -> results.xdmf.
 std::string xdmf_path(const std::string& results_path);
 
-/// Tells what can't wait for the run's summary, from whichever thread.
+/// Prints a warning on stderr at once, instead of in the run's summary. Any thread may call it.
 inline void report_at_once(const std::string& what) {
   std::fputs(("railwave: warning: " + what + "\n").c_str(), stderr);
 }

@@ -191,9 +191,8 @@ std::vector<std::vector<ChannelPlace>> of_history_sets(const std::string& text, 
                        ? fmt::format("there is no history of a set '{}'{}; {}", entry,
                                      row.of_nodes() ? "" : " with its " + place.quantity, suggestion(entry, sets))
                    : row.of_nodes() ? "the run wrote the history of no set; the case names them in output.history_sets"
-                                    : "the run wrote the stress or strain of no set; the case asks for it by [probes] "
-                                      "with quantities, or by element sets in "
-                                      "output.history_sets");
+                                    : "the run wrote the stress or strain of no set; the case asks for it by "
+                                      "[probes] with quantities, or by element sets in output.history_sets");
   }
   if (entries.size() == 1) return channels;
   std::vector<ChannelPlace> all;

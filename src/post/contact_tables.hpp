@@ -12,7 +12,7 @@ FileKind patch_table_kind();
 FileKind node_table_kind();
 FileKind cut_table_kind();
 
-/// What `railwave contact` writes of one contact: docs/results-file.md tells the columns.
+/// What `railwave contact` writes of one contact: docs/results-file.md lists the columns.
 class ContactTables {
  public:
   ContactTables();

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "post/field_vectors.hpp"
-#include "post/surface_mesh.hpp"
 
 namespace railwave {
 

@@ -1,7 +1,6 @@
 #include "post/patch_identities.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace railwave {

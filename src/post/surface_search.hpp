@@ -2,6 +2,7 @@
 
 #include "model/sets/point_search.hpp"
 #include "post/facet.hpp"
+#include "post/surface_mesh.hpp"
 
 namespace railwave {
 

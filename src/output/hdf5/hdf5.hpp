@@ -59,7 +59,7 @@ class Dataset {
   std::vector<T> read_row(hsize_t row) const;
 
  private:
-  Shape extent() const;  ///< shape() without a look at memory
+  Shape extent() const;  ///< shape() without checking for free memory
   Handle id_;
   std::string name_;
 };
@@ -71,7 +71,8 @@ struct Storage {
   bool compressed = false;
 };
 
-/// What tells that values were damaged: a checksum with each of their chunks, or one of the whole file (see seal()).
+/// How damaged values are recognised: by a checksum with each of their chunks, or by one of the whole file (seal() in
+/// output/atomic_file.hpp).
 enum class Check { by_chunk, by_seal };
 
 /// A group, or a file's root.
@@ -175,7 +176,7 @@ class File {
   bool extends_ = false;
 };
 
-/// HDF5 may go round in circles in a damaged file. From now on a call of the readers may take so many seconds of
+/// HDF5 may loop without end in a damaged file. From now on a call of the readers may take so many seconds of
 /// processor time; one that takes longer ends the process by SIGPROF. For processes that do nothing but read.
 /// @param seconds 0: no limit, as at the start
 void limit_calls(double seconds);

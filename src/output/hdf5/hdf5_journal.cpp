@@ -121,9 +121,8 @@ herr_t complain(const JournalledFile& file, const char* doing) {
   return -1;
 }
 
-/// Once the system has refused something the file is left as it was flushed last. HDF5, which knows no way back, is
-/// assured that all goes well when it writes more and when it closes, so that it closes in peace; every later flush
-/// fails as the first did.
+/// Once the system has refused a write the file is left as it was flushed last. HDF5 cannot undo its writes, so further
+/// ones, and closing, report success to it and do nothing; every later flush fails as the first did.
 herr_t give_up(JournalledFile& file, const char* doing) {
   file.failed = errno;
   const herr_t result = complain(file, doing);

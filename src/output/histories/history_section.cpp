@@ -108,9 +108,9 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
   }
   if (beams.empty()) return;
   const hdf5::Group beam_groups = history.create_group("beam");
-  for (const auto& [name, elements] : beams) {
+  for (const auto& [name, count] : beams) {
     const hdf5::Group group = beam_groups.create_group(name);
-    const hdf5::Shape row{static_cast<hsize_t>(elements), 3};
+    const hdf5::Shape row{static_cast<hsize_t>(count), 3};
     beams_.push_back({{group.create_growing<double>("force", row, blocks), {}},
                       {group.create_growing<double>("moment", row, blocks), {}}});
   }

@@ -197,7 +197,7 @@ TEST_CASE("beams that cannot be laid, and rotations where there are none, are re
   scene.points.push_back(massless("lonely", {0, 1, 0}));
   scene.points.back().mass = 1;
   scene.loads[0].target = "lonely";
-  refused(scene, "[loads.torque] target: 'lonely' is one node", "[beams.NAME]");
+  refused(scene, "[loads.load on axle] target: 'lonely' is one node", "[beams.NAME]");
   scene = spoked_ring(1e-4);
   scene.constraints.push_back({});
   scene.constraints.back().target = "ring.tread";

@@ -36,6 +36,7 @@ const std::vector<Section>& sections() {
       solver_section(),
       monitor_section(),
       output_section(),
+      output_window_section(),
   };
   return all;
 }

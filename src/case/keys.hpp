@@ -33,6 +33,7 @@ Section time_section();
 Section checkpoint_section();
 Section solver_section();
 Section output_section();
+Section output_window_section();
 
 Section monitor_section();  // keys_monitor.cpp
 

@@ -139,4 +139,30 @@ Section output_section() {
   return section;
 }
 
+Section output_window_section() {
+  using scene::OutputWindow;
+  auto section = named_section(
+      "output_windows", "output window", &Scene::output_windows,
+      "Parts of the run in which fields are written more often: while a wheel crosses a joint, say. What is written, "
+      "and where, is as in `[output]`; these outputs are added to those of `output.field_interval`.");
+  section.keys = {
+      key("start", &OutputWindow::start, "when the window begins; its first output is at the next step")
+          .in("s")
+          .within(at_least(0))
+          .needed(),
+      key("end", &OutputWindow::end, "no output of the window is later")
+          .in("s")
+          .within(above(0))
+          .otherwise("the run's"),
+      key("interval", &OutputWindow::interval,
+          "between outputs, rounded to whole steps (with `solver.subcycling` to whole cycles); 0 is every step. Times "
+          "in the results are true in any case")
+          .in("s")
+          .within(at_least(0))
+          .needed(),
+  };
+  section.rule = check_output_window;
+  return section;
+}
+
 }  // namespace railwave::case_file

@@ -330,4 +330,9 @@ void check_output(void* entry, EntryCheck& check) {
   }
 }
 
+void check_output_window(void* entry, EntryCheck& check) {
+  const auto& window = *static_cast<scene::OutputWindow*>(entry);
+  if (window.end) at_most(check, {"start", window.start}, {"end", *window.end});
+}
+
 }  // namespace railwave::case_file

@@ -40,6 +40,7 @@ void check_prescribed(void* entry, EntryCheck& check);
 void check_tie(void* entry, EntryCheck& check);
 void check_time(void* entry, EntryCheck& check);
 void check_output(void* entry, EntryCheck& check);
+void check_output_window(void* entry, EntryCheck& check);
 
 /// Rules that bind a rail mesh's keys, in each section that has them.
 void check_rail(const scene::RailMesh& rail, EntryCheck& check);

@@ -106,6 +106,21 @@ void check_prescribed_motions(const scene::Scene& scene, Complaints& complaints)
   }
 }
 
+void check_output_windows(const scene::Scene& scene, Complaints& complaints) {
+  for (const scene::OutputWindow& window : scene.output_windows) {
+    if (window.start > scene.time.end)
+      complaints.add({window.line},
+                     fmt::format("[output_windows.{}]: starts at {} s, after the run's end (time.end = {} s); let it "
+                                 "start earlier, or the run end later",
+                                 window.name, window.start, scene.time.end));
+    if (scene.output.field_sets.empty() && scene.contacts.empty())
+      complaints.add({window.line},
+                     fmt::format("[output_windows.{}]: nothing would be written; name output.field_sets and "
+                                 "output.fields",
+                                 window.name));
+  }
+}
+
 }  // namespace
 
 void check_scene(const scene::Scene& scene, Complaints& complaints) {
@@ -115,6 +130,7 @@ void check_scene(const scene::Scene& scene, Complaints& complaints) {
   check_ties_and_contacts(scene, complaints);
   check_initial_motions(scene, complaints);
   check_prescribed_motions(scene, complaints);
+  check_output_windows(scene, complaints);
 }
 
 }  // namespace railwave::case_file

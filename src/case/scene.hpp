@@ -341,6 +341,13 @@ struct Output {
   double progress_interval = 5;  ///< wall seconds between progress lines
 };
 
+/// Part of a run in which fields are written besides those of Output::field_interval.
+struct OutputWindow : Place {
+  double start = 0;           ///< s
+  std::optional<double> end;  ///< s; absent: the run's
+  double interval = 0;        ///< s; 0: every step
+};
+
 /// What is under the rail at one place: half a sleeper, its fastening and its ballast. Absent: as `base` has it.
 struct Sleeper : Place {
   enum class Base { concrete, timber };
@@ -433,6 +440,7 @@ struct Scene {
   Solver solver;
   Monitor monitor;
   Output output;
+  std::vector<OutputWindow> output_windows;
 };
 
 }  // namespace railwave::scene

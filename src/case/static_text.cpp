@@ -9,11 +9,12 @@ namespace railwave::case_file {
 namespace {
 
 /// * stands for any name.
-constexpr std::array<const char*, 18> without = {".title",
+constexpr std::array<const char*, 19> without = {".title",
                                                  ".time",
                                                  ".checkpoint",
                                                  ".monitor",
                                                  ".output",
+                                                 ".output_windows",
                                                  ".solver.step_estimate",
                                                  ".solver.subcycling",
                                                  ".solver.renew_steps",

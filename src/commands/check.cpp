@@ -13,6 +13,7 @@
 #include "model/contact/initial_overlap.hpp"
 #include "model/sets/place_sets.hpp"
 #include "model/time_step/stable_step.hpp"
+#include "output/results_file.hpp"
 #include "solve/plan.hpp"
 #include "solve/statics/settle.hpp"
 
@@ -61,7 +62,7 @@ void describe_step(const Model& model, std::ostream& out) {
     out << "  " << line << '\n';
   out << fmt::format("  used {:.4g} s; {} steps to t = {:.4g} s\n", model.step_size, model.step_count,
                      model.scene.time.end);
-  for (const std::string& line : describe_output_times(model.scene.output, model, model.subcycling.cycle()))
+  for (const std::string& line : describe_output_times(model.scene, model, model.subcycling.cycle()))
     out << "  " << line << '\n';
   for (const std::string& line : describe_subcycling(model.scene, model.subcycling))
     out << "  subcycling: " << line << '\n';
@@ -151,6 +152,7 @@ void describe_run(Model& model, std::ostream& out) {
   const double megabytes = static_cast<double>(device_bytes(model)) / 1e6;
   out << fmt::format("Memory: {:.4g} MB of arrays, {:.0f} bytes an element\n", megabytes,
                      1e6 * megabytes / static_cast<double>(model.element_count()));
+  out << describe(ResultsFile(model.scene, model.assembly, RAILWAVE_VERSION).size(model, model)) << '\n';
   out << fmt::format("Runs on: {}, blocks of {} elements, {} in a pack\n", ExecutionSpace::name(), elements_of_block,
                      lane_count<double>);
   const StepPlans plans(model);

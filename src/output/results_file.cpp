@@ -112,8 +112,12 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.sets = resolve_output_sets(scene, assembly);
 }
 
+ResultsSize ResultsFile::size(const AssembledScene& assembled, const StepSizes& sizes) const {
+  return results_size(description_, assembled, sizes);
+}
+
 void ResultsFile::check_disk_space(const AssembledScene& assembled, const StepSizes& sizes) const {
-  check_results_disk_space(results_size(description_, assembled, sizes), assembled.scene, free_bytes_at(path_));
+  check_results_disk_space(size(assembled, sizes), assembled.scene, free_bytes_at(path_));
 }
 
 void ResultsFile::begin(const Model& model) {

@@ -10,6 +10,13 @@
 
 namespace railwave {
 
+/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
+/// aren't.
+struct ResultsSize {
+  double field_outputs = 0, samples = 0;      ///< how many of each
+  double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed
+};
+
 /// Writes the results of the time loop into scene.output.file and its XDMF companion while the loop goes on: the loop
 /// waits for copies from the device only. When writing fails the loop is asked to stop, and the next call throws the
 /// error.
@@ -18,6 +25,8 @@ class ResultsFile : public RunObserver, public Checkpoints {
   /// Touches no file yet, but throws InputError for output sets that are not in the assembly: to be made before the
   /// run's long preparations. Whether files can be made is HeldPlaces' matter.
   ResultsFile(const scene::Scene& scene, const Assembly& assembly, const std::string& program_version);
+
+  ResultsSize size(const AssembledScene& assembled, const StepSizes& sizes) const;
 
   /// Throws InputError when what the run will write can't fit onto the disk.
   void check_disk_space(const AssembledScene& assembled, const StepSizes& sizes) const;
@@ -47,14 +56,10 @@ class ResultsFile : public RunObserver, public Checkpoints {
   std::unique_ptr<BackgroundWriter> writer_;
 };
 
-/// What the results file of a run will hold. Fields and contacts are compressed on the way to the disk, histories
-/// aren't.
-struct ResultsSize {
-  double field_outputs = 0, samples = 0;      ///< how many of each
-  double field_bytes = 0, history_bytes = 0;  ///< of all of them, uncompressed
-};
-
 ResultsSize results_size(const RunDescription& description, const AssembledScene& assembled, const StepSizes& sizes);
+
+/// A line for `railwave check`.
+std::string describe(const ResultsSize& size);
 
 /// Throws InputError when a file of that size can't fit into `available` bytes however well its fields are compressed.
 void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene, double available);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -60,18 +61,34 @@ double times_of(double interval, double end, double steps) {
   return 2 + (interval > 0 ? std::min(end / interval, steps) : steps);
 }
 
+double times_of_window(const scene::OutputWindow& window, double end, double step) {
+  const double length = std::fmin(end, window.end.value_or(end)) - window.start;
+  return 1 + length / std::fmax(window.interval, step);
+}
+
 }  // namespace
 
 ResultsSize results_size(const RunDescription& description, const AssembledScene& assembled, const StepSizes& sizes) {
   const scene::Output& output = assembled.scene.output;
+  const auto& output_windows = assembled.scene.output_windows;
   const auto steps = static_cast<double>(sizes.step_count);
   const double end = assembled.scene.time.end;
   ResultsSize size;
   size.field_outputs = output.field_interval > 0 ? times_of(sizes.output_times.fields, end, steps) : 2;
+  for (const scene::OutputWindow& window : output_windows)
+    size.field_outputs += times_of_window(window, end, sizes.step_size);
   size.samples = times_of(sizes.output_times.history, end, steps);
   size.field_bytes = 8 * size.field_outputs * values_of_output(description, assembled.assembly);
   size.history_bytes = 8 * size.samples * values_of_sample(description);
   return size;
+}
+
+std::string describe(const ResultsSize& size) {
+  return fmt::format(
+      "Results: {:.0f} outputs of fields and contacts, {} each, {} before compression; {:.0f} samples of "
+      "histories, {} each, {}",
+      size.field_outputs, bytes_text(size.field_bytes / size.field_outputs), bytes_text(size.field_bytes), size.samples,
+      bytes_text(size.history_bytes / size.samples), bytes_text(size.history_bytes));
 }
 
 void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene, double available) {
@@ -79,6 +96,9 @@ void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene
   constexpr double least_share = 0.02;
   if (size.history_bytes + least_share * size.field_bytes <= available) return;
   const bool fields = least_share * size.field_bytes > size.history_bytes;
+  const std::string longer = !fields                        ? "history_interval"
+                             : scene.output_windows.empty() ? "field_interval"
+                                                            : "field_interval and interval of [output_windows]";
   throw InputError(fmt::format(
       "{}: [output] {} makes {:.3g} {} of {} each: {} before compression, but {} has {} free; give a longer {}, {}, "
       "end the run (time.end = {:.4g} s) earlier, "
@@ -86,9 +106,8 @@ void check_results_disk_space(const ResultsSize& size, const scene::Scene& scene
       scene.path, fields ? "field_interval" : "history_interval", fields ? size.field_outputs : size.samples,
       fields ? "outputs of fields" : "samples of histories",
       fields ? bytes_text(size.field_bytes / size.field_outputs) : bytes_text(size.history_bytes / size.samples),
-      bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available),
-      fields ? "field_interval" : "history_interval", fields ? "fewer field_sets or fields" : "fewer history_sets",
-      scene.time.end));
+      bytes_text(fields ? size.field_bytes : size.history_bytes), scene.output.file, bytes_text(available), longer,
+      fields ? "fewer field_sets or fields" : "fewer history_sets", scene.time.end));
 }
 
 double free_bytes_at(const std::string& path) {

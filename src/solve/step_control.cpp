@@ -17,6 +17,9 @@ namespace {
 /// Share by which the step must be able to grow before it does: every change moves the outputs by a part of a step.
 constexpr double worthwhile_gain = 0.01;
 
+/// Share of a time that rounding may take.
+constexpr double rounding = 1e-9;
+
 /// Steps between checks for slave nodes that touch although the estimate did not predict it.
 constexpr long steps_between_checks = 500;
 
@@ -101,8 +104,11 @@ bool StepControl::renew() {
   return changed;
 }
 
-EverySoOften::EverySoOften(double interval, double step, long cycle)
-    : interval_(interval), cycle_(cycle), every_(whole_cycles(interval, step, cycle)) {}
+EverySoOften::EverySoOften(double interval, double step, long cycle, double start)
+    : interval_(interval),
+      cycle_(cycle),
+      every_(whole_cycles(interval, step, cycle)),
+      next_(std::lround(std::ceil(start / (static_cast<double>(cycle) * step) * (1 - rounding))) * cycle) {}
 
 void EverySoOften::step_changed(long step, double old_size, double new_size) {
   const long missing = step < next_ ? next_ - step : (every_ - (step - next_) % every_) % every_;

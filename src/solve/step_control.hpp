@@ -68,7 +68,8 @@ class EverySoOften {
  public:
   /// @param interval s; 0: every cycle
   /// @param cycle steps: 1, or those between two instants at which all is in phase
-  EverySoOften(double interval, double step, long cycle = 1);
+  /// @param start s: due first at the first cycle that begins then or later
+  EverySoOften(double interval, double step, long cycle = 1, double start = 0);
   bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
   /// From `step` on; what is due at that very step stays due.
   void step_changed(long step, double old_size, double new_size);

@@ -82,7 +82,7 @@ class TimeLoop {
         doubts_(report_beginning()),
         in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
-        memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model, model),
+        memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
                 Monitor(model, model, model, model, model.contacts)},
         plans_(model) {

@@ -183,8 +183,17 @@ KINDS = {
             "hourglass_distortion = 1e-5\nvolume_ratio = 0.999\nenergy_error = 1e-4\nkinetic_growth = 1e-6\n"
         )
     ),
+    "windows": dict(
+        more=(
+            "[output_windows.landing]\nstart = 2.03e-4\nend = 4.1e-4\ninterval = 6e-6\n"
+            "[output_windows.late]\nstart = 3.9e-4\ninterval = 7e-5\n"
+        )
+    ),
     "global_step": dict(
-        more='[solver]\nstep_estimate = "global"\nrenew_steps = 97\n',
+        more=(
+            '[solver]\nstep_estimate = "global"\nrenew_steps = 97\n'
+            "[output_windows.landing]\nstart = 2.03e-4\nend = 4.1e-4\ninterval = 6e-6\n"
+        ),
         instead={"[0, 0, -1e5]": "[0, 0, -9.81]", "velocity = [2, 1, -2]": "velocity = [2, 1, -12]"},
     ),
 }

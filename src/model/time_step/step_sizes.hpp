@@ -45,6 +45,6 @@ struct StepSizes {
 void plan_steps(const scene::Scene& scene, long cycle, StepSizes& sizes);
 
 /// Lines that say how far apart the outputs are.
-std::vector<std::string> describe_output_times(const scene::Output& output, const StepSizes& sizes, long cycle);
+std::vector<std::string> describe_output_times(const scene::Scene& scene, const StepSizes& sizes, long cycle);
 
 }  // namespace railwave

@@ -43,15 +43,20 @@ class Body:
             return
         size = np.linalg.norm(np.ptp(self.nodes, axis=0))
         for output in outputs:
-            turn, _ = self._rigid(output)
-            middle = self.group["displacement"][output][self._every].mean(axis=0)
+            start, moved = self._known(output)
+            if len(start) < 3:
+                continue
+            turn, _ = rigid_motion(start, moved)
+            middle = (moved - start).mean(axis=0)
             angle = np.arccos(np.clip((np.trace(turn) - 1) / 2, -1, 1))
             if angle > TURNS or np.linalg.norm(middle) > TRAVELS * size:
                 self.travels = True
 
-    def _rigid(self, output):
-        moved = self.nodes[self._every] + self.group["displacement"][output][self._every]
-        return rigid_motion(self.nodes[self._every], moved)
+    def _known(self, output):
+        """Where nodes began and where they are: of a contact surface only those that were written then."""
+        start, displacement = self.nodes[self._every], self.group["displacement"][output][self._every]
+        known = np.isfinite(displacement).all(axis=1)
+        return start[known], start[known] + displacement[known]
 
     def corners(self, output, scale=1.0):
         """Of each face (n, 4, 3), the deformation magnified: all motion, or of a body that travels what is not
@@ -61,7 +66,7 @@ class Body:
         displacement = self.group["displacement"][output]
         place = self.nodes + displacement
         if scale != 1 and self.travels:
-            turn, shift = self._rigid(output)
+            turn, shift = rigid_motion(*self._known(output))
             rigid = self.nodes @ turn.T + shift
             place = rigid + scale * (place - rigid)
         elif scale != 1:

@@ -338,7 +338,8 @@ struct Output {
   std::vector<std::string> fields;  ///< names of case/field_table.hpp that serve fields
   std::vector<std::string>
       history_sets;  ///< `part.node_set` or point masses: mean motion; `part.element_set`: mean stress and strain
-  double progress_interval = 5;  ///< wall seconds between progress lines
+  std::optional<double> contact_margin;  ///< m; absent: contact surfaces are written whole
+  double progress_interval = 5;          ///< wall seconds between progress lines
 };
 
 /// Part of a run in which fields are written besides those of Output::field_interval.

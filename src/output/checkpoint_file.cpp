@@ -127,6 +127,7 @@ std::string checkpoint_key(const AssembledScene& assembled, const std::string& p
   hash.add(fmt::format("output {:.17g} {:.17g} {} {} {}", scene.output.history_interval, scene.output.field_interval,
                        fmt::join(scene.output.field_sets, ","), fmt::join(scene.output.fields, ","),
                        fmt::join(scene.output.history_sets, ",")));
+  if (scene.output.contact_margin) hash.add(fmt::format("contact margin {:.17g}", *scene.output.contact_margin));
   for (const scene::OutputWindow& window : scene.output_windows)
     hash.add(fmt::format("window {:.17g} {:.17g} {:.17g}", window.start, window.end.value_or(-1), window.interval));
   for (const auto& motion : scene.initial_motions) hash.add(fmt::format("{:.17g}", fmt::join(motion.velocity, ",")));

@@ -109,6 +109,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
     description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
+  description_.contact_margin = scene.output.contact_margin;
   description_.sets = resolve_output_sets(scene, assembly);
 }
 

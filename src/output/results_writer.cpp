@@ -154,7 +154,8 @@ void ResultsWriter::create_sections(const FieldSource& source) {
       field_sections_.emplace_back(fields_group, set, description_.fields);
   }
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
-    const ContactSection& section = contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i));
+    const ContactSection& section =
+        contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i), description_.contact_margin);
     const ContactNames& names = description_.contacts[i];
     const hdf5::Group group = contacts_group.group(names.name);
     group.group("slave").set_attribute("surface", names.slave);

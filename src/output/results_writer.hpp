@@ -45,7 +45,8 @@ struct RunDescription {
   std::vector<LoadNames> loads;
   std::vector<std::string> fields;  ///< names of case/field_table.hpp
   std::vector<OutputSet> sets;
-  std::string key;  ///< checkpoint_key(); empty: not known
+  std::optional<double> contact_margin = {};  ///< m, see scene::Output
+  std::string key;                            ///< checkpoint_key(); empty: not known
 };
 
 /// How much of a results file is there already where a run goes on.

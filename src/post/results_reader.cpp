@@ -63,6 +63,53 @@ ContactSide read_side(const hdf5::Group& group, std::size_t index) {
   return side;
 }
 
+/// The values of some entries, of which each has so many.
+template <class Value>
+std::vector<Value> picked(const std::vector<Value>& all, const std::vector<std::size_t>& entries,
+                          std::size_t components) {
+  std::vector<Value> result;
+  result.reserve(components * entries.size());
+  for (const std::size_t entry : entries)
+    result.insert(result.end(), all.begin() + static_cast<long>(components * entry),
+                  all.begin() + static_cast<long>(components * (entry + 1)));
+  return result;
+}
+
+/// Positions of the nodes of a side that have values: all, but where the case has output.contact_margin.
+std::vector<std::size_t> nodes_with_values(const ContactSide& side) {
+  std::vector<std::size_t> nodes;
+  for (std::size_t i = 0; i < side.nodes.size(); ++i)
+    if (!std::isnan(side.area[i])) nodes.push_back(i);
+  return nodes;
+}
+
+/// Leaves out the other nodes, and the facets that have one of them.
+void keep_nodes(ContactSide& side, const std::vector<std::size_t>& kept) {
+  std::vector<int> place(side.nodes.size(), -1);
+  for (std::size_t k = 0; k < kept.size(); ++k) place[kept[k]] = static_cast<int>(k);
+  std::vector<std::array<int, 4>> facets;
+  for (std::array<int, 4> facet : side.facets) {
+    for (int& corner : facet) corner = place[corner];
+    if (std::find(facet.begin(), facet.end(), -1) == facet.end()) facets.push_back(facet);
+  }
+  side.facets = std::move(facets);
+  side.nodes = picked(side.nodes, kept, 1);
+  side.area = picked(side.area, kept, 1);
+  for (auto* vectors : {&side.position, &side.velocity, &side.normal, &side.normal_force, &side.tangential_force})
+    *vectors = picked(*vectors, kept, 3);
+}
+
+void leave_out_nodes_without_values(ContactState& state) {
+  const auto slave = nodes_with_values(state.slave), master = nodes_with_values(state.master);
+  if (master.size() < state.master.nodes.size()) keep_nodes(state.master, master);
+  if (slave.size() == state.slave.nodes.size()) return;
+  keep_nodes(state.slave, slave);
+  state.gap = picked(state.gap, slave, 1);
+  state.slip_velocity = picked(state.slip_velocity, slave, 3);
+  state.slipping = picked(state.slipping, slave, 1);
+  if (!state.friction_now.empty()) state.friction_now = picked(state.friction_now, slave, 1);
+}
+
 }  // namespace
 
 ResultsReader::ResultsReader(const std::string& path) : path_(path) {
@@ -198,6 +245,7 @@ ContactState ResultsReader::contact_state(const std::string& contact, std::size_
     if (state.gap.size() != count || state.slip_velocity.size() != 3 * count || state.slipping.size() != count ||
         (!state.friction_now.empty() && state.friction_now.size() != count))
       throw std::runtime_error("an array has another length than the nodes");
+    leave_out_nodes_without_values(state);
     return state;
   } catch (const std::bad_alloc&) {
     throw;

@@ -184,6 +184,7 @@ KINDS = {
         )
     ),
     "windows": dict(
+        instead={"progress_interval = 0.5": "progress_interval = 0.5\ncontact_margin = 0.012"},
         more=(
             "[output_windows.landing]\nstart = 2.03e-4\nend = 4.1e-4\ninterval = 6e-6\n"
             "[output_windows.late]\nstart = 3.9e-4\ninterval = 7e-5\n"

@@ -1,9 +1,55 @@
 #include "output/fields/contact_section.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace railwave {
 namespace {
+
+void widen(scene::Box& box, const ContactSide& side, std::size_t node) {
+  for (int i = 0; i < 3; ++i) {
+    box[0][i] = std::min(box[0][i], side.position[3 * node + i]);
+    box[1][i] = std::max(box[1][i], side.position[3 * node + i]);
+  }
+}
+
+bool feels_force(const ContactSide& side, std::size_t node) {
+  for (std::size_t i = 3 * node; i < 3 * node + 3; ++i)
+    if (side.normal_force[i] != 0 || side.tangential_force[i] != 0) return true;
+  return false;
+}
+
+/// Around all nodes that touch, and by the margin wider; nothing is in it where none does.
+scene::Box box_of_contact(const ContactState& state, double margin) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  scene::Box box{{{far, far, far}, {-far, -far, -far}}};
+  for (const ContactSide* side : {&state.slave, &state.master})
+    for (std::size_t n = 0; n < side->nodes.size(); ++n)
+      if (feels_force(*side, n) || (side == &state.slave && state.slipping[n] != 0)) widen(box, *side, n);
+  for (int i = 0; i < 3; ++i) {
+    box[0][i] -= margin;
+    box[1][i] += margin;
+  }
+  return box;
+}
+
+/// The values, and not-a-number for nodes outside the box.
+std::vector<double> within(const std::optional<scene::Box>& box, const ContactSide& side, std::vector<double> values) {
+  if (!box || side.nodes.empty()) return values;
+  const std::size_t components = values.size() / side.nodes.size();
+  for (std::size_t n = 0; n < side.nodes.size(); ++n) {
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) {
+      const double x = side.position[3 * n + i];
+      inside = inside && x >= (*box)[0][i] && x <= (*box)[1][i];
+    }
+    if (!inside)
+      std::fill_n(values.begin() + static_cast<long>(n * components), components,
+                  std::numeric_limits<double>::quiet_NaN());
+  }
+  return values;
+}
 
 void append(hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t expected) {
   if (values.size() != expected) throw std::logic_error("a contact state has arrays of another length than its nodes");
@@ -52,22 +98,27 @@ ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, c
     *dataset = group.create_growing<double>(name, {count, 3}, each_time);
 }
 
-void ContactSection::Side::add(const ContactSide& state, const FieldSource& source) {
+void ContactSection::Side::add(const ContactSide& state, const FieldSource& source,
+                               const std::optional<scene::Box>& box) {
   if (state.nodes != nodes) throw std::logic_error("the nodes of a contact surface changed during the run");
   const std::size_t count = nodes.size();
-  append(area, state.area, count);
-  append(displacement, source.field(field_named("displacement"), nodes).values, 3 * count);
-  append(position, state.position, 3 * count);
-  append(velocity, state.velocity, 3 * count);
-  append(normal, state.normal, 3 * count);
+  const auto append_within = [&](hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t components) {
+    append(dataset, within(box, state, values), components * count);
+  };
+  append_within(area, state.area, 1);
+  append_within(displacement, source.field(field_named("displacement"), nodes).values, 3);
+  append_within(position, state.position, 3);
+  append_within(velocity, state.velocity, 3);
+  append_within(normal, state.normal, 3);
   append(normal_force, state.normal_force, 3 * count);
   append(tangential_force, state.tangential_force, 3 * count);
   append(pressure, nodal_pressure(state), count);
   append(shear, nodal_shear(state), 3 * count);
 }
 
-ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact)
-    : contact_(contact) {
+ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact,
+                               std::optional<double> margin)
+    : contact_(contact), margin_(margin) {
   const ContactState first = source.contact(contact);
   falling_friction_ = !first.friction_now.empty();
   const hdf5::Group group = contacts_group.create_group(first.name);
@@ -89,11 +140,13 @@ void ContactSection::add_values(const FieldSource& source, long step) {
   const std::size_t count = slave_.nodes.size();
   if (state.slipping.size() != count)
     throw std::logic_error("a contact state has arrays of another length than its nodes");
-  slave_.add(state.slave, source);
-  master_.add(state.master, source);
-  append(gap_, state.gap, count);
-  append(slip_velocity_, state.slip_velocity, 3 * count);
-  if (falling_friction_) append(friction_, state.friction_now, count);
+  std::optional<scene::Box> box;
+  if (margin_) box = box_of_contact(state, *margin_);
+  slave_.add(state.slave, source, box);
+  master_.add(state.master, source, box);
+  append(gap_, within(box, state.slave, state.gap), count);
+  append(slip_velocity_, within(box, state.slave, state.slip_velocity), 3 * count);
+  if (falling_friction_) append(friction_, within(box, state.slave, state.friction_now), count);
   const std::vector<signed char> slipping(state.slipping.begin(), state.slipping.end());
   slipping_.append(slipping.data(), 1);
   steps_.append(&step, 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "output/fields/field_snapshot.hpp"
@@ -11,7 +12,9 @@ namespace railwave {
 /// first state, whose nodes and facets hold for the whole run.
 class ContactSection {
  public:
-  ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact);
+  /// @param margin m, see scene::Output::contact_margin
+  ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact,
+                 std::optional<double> margin = {});
 
   /// Writes the state at one more output time, then its time: see ResultsWriter::flush().
   void add_values(const FieldSource& source, long step);
@@ -27,11 +30,13 @@ class ContactSection {
     hdf5::Dataset area, displacement, position, velocity, normal, normal_force, tangential_force, pressure, shear;
     Side() = default;
     Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source);
-    void add(const ContactSide& state, const FieldSource& source);
+    /// @param box outside of which nodes have no values
+    void add(const ContactSide& state, const FieldSource& source, const std::optional<scene::Box>& box);
   };
   const Side& side(bool slave) const { return slave ? slave_ : master_; }
 
   int contact_;
+  std::optional<double> margin_;
   bool falling_friction_;
   Side slave_, master_;
   hdf5::Dataset times_, steps_, gap_, slip_velocity_, slipping_, friction_;

@@ -20,11 +20,11 @@ import two_blocks  # noqa: E402
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 PICTURE = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "scripts" / "picture"
-MARGIN = 0.05  # m, more than the ring in which creepages are fitted
+MARGIN = 0.08  # m, more than the ring in which creepages are fitted
 
 # A block falls on a long plate, slides and jumps.
 SCENE = two_blocks.two_blocks(
-    ([0.4, 0.06, 0.01], [80, 12, 2]), ([0.02, 0.02, 0.01], [4, 4, 2]), [0.01, 0.02, 0.01002]
+    ([0.6, 0.06, 0.01], [120, 12, 2]), ([0.02, 0.02, 0.01], [4, 4, 2]), [0.01, 0.02, 0.01002]
 ) + """
 [initial_motion.slide]
 parts = ["upper"]

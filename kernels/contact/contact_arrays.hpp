@@ -86,8 +86,8 @@ struct alignas(16) WindowEntry {
   int unused;
 };
 
-/// Which slave nodes can touch until the window is laid out anew, ascending, and which of them can until the next
-/// check.
+/// The slave nodes that can touch before the window is built again, ascending, and those of them that can touch before
+/// the next check.
 struct ContactWindow {
   int count = 0;
   Array<WindowEntry*> entries;

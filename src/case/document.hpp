@@ -52,9 +52,9 @@ void apply_overrides(const std::vector<std::string>& overrides, Node& root, Comp
                      Complaints& remarks);
 
 /// The values of a case on which its settled state can depend, one line each; blanks and remarks of the file do not
-/// matter. Left out are the title, [time], [checkpoint], [monitor], [output], probes, element sets, absorbing layers,
-/// the choice of the time loop's steps, and the velocities and displacements of initial and prescribed motions: the
-/// list is `without` in static_text.cpp. Mesh files count by their names.
+/// matter. Left out are the title, [time], [checkpoint], [monitor], [output] and its windows, probes, element sets,
+/// absorbing layers, the choice of the time loop's steps, and the velocities and displacements of initial and
+/// prescribed motions: the list is `without` in static_text.cpp. Mesh files count by their names.
 std::string static_text(const Node& root);
 
 }  // namespace railwave::case_file

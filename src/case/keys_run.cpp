@@ -132,11 +132,9 @@ Section output_section() {
           .names(node_set | element_set | point),
       key("contact_margin", &Output::contact_margin,
           "contact surfaces are written only within this distance of a box around the nodes that touch, which goes "
-          "with "
-          "the contact; the other nodes have no values (not-a-number), forces, pressure and shear apart, which are "
-          "zero "
-          "there. Results stay small where outputs are many. `railwave contact` fits creepages in a ring around the "
-          "patch and needs some three times its length")
+          "with the contact; the other nodes have no values (not-a-number), forces, pressure and shear apart, which "
+          "are zero there. Results stay small where outputs are many. `railwave contact` fits creepages in a ring "
+          "around the patch and needs some three times its length")
           .in("m")
           .within(above(0))
           .otherwise("the whole surfaces"),

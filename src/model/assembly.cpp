@@ -169,10 +169,8 @@ Vec3 turned_with(const scene::Part& part, const Vec3& v) {
 }
 
 Vec3 turned_with_part_of(const scene::Scene& scene, const std::string& name, const Vec3& v) {
-  const std::string own = part_of_name(name);
-  for (const scene::Part& part : scene.parts)
-    if (part.name == own) return turned_with(part, v);
-  return v;
+  const scene::Part* part = find_entry(scene.parts, part_of_name(name));
+  return part != nullptr ? turned_with(*part, v) : v;
 }
 
 std::string unknown_set(const scene::Scene& scene, const scene::Place& entry, const std::string& key,

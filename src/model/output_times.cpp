@@ -93,21 +93,25 @@ void plan_steps(const scene::Scene& scene, long cycle, StepSizes& sizes) {
 
 std::vector<std::string> describe_output_times(const scene::Scene& scene, const StepSizes& sizes, long cycle) {
   const scene::Output& output = scene.output;
-  const auto line = [&](const std::string& what, double interval, double asked, bool ends_only) {
+  const auto spacing = [&](double interval, double asked) {
     const long every = whole_cycles(interval, sizes.step_size, cycle);
-    if (ends_only || every >= sizes.step_count) return fmt::format("{} at the beginning and the end", what);
     const double apart = static_cast<double>(every) * sizes.step_size;
     return fmt::format(
-        "{} every {:.6g} s ({} step{}){}", what, apart, every, every == 1 ? "" : "s",
+        "every {:.6g} s ({} step{}){}", apart, every, every == 1 ? "" : "s",
         asked > 0 && std::fabs(apart - asked) > 1e-6 * asked ? fmt::format(", asked for: {:.6g} s", asked) : "");
+  };
+  const auto line = [&](const char* what, double interval, double asked, bool ends_only) {
+    if (ends_only || whole_cycles(interval, sizes.step_size, cycle) >= sizes.step_count)
+      return fmt::format("{} at the beginning and the end", what);
+    return fmt::format("{} {}", what, spacing(interval, asked));
   };
   std::vector<std::string> lines = {
       line("samples of histories", sizes.output_times.history, output.history_interval, false),
       line("outputs of fields", sizes.output_times.fields, output.field_interval, !(output.field_interval > 0))};
   for (const scene::OutputWindow& window : scene.output_windows)
-    lines.push_back(line(fmt::format("outputs of fields from {:.6g} to {:.6g} s ({}) besides", window.start,
-                                     window.end.value_or(scene.time.end), window.name),
-                         window.interval, window.interval, false));
+    lines.push_back(fmt::format("outputs of fields from {:.6g} to {:.6g} s ({}) besides {}", window.start,
+                                window.end.value_or(scene.time.end), window.name,
+                                spacing(window.interval, window.interval)));
   return lines;
 }
 

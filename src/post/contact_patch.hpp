@@ -66,7 +66,7 @@ ContactPatch contact_patch(const ContactSurfaces& surfaces, const std::vector<in
 /// Contact solution of one pair at one instant.
 struct ContactSolution {
   ContactPatch whole;                 ///< of all touching nodes together
-  std::vector<ContactPatch> patches;  ///< told apart, small ones too, the one with the largest normal force first
+  std::vector<ContactPatch> patches;  ///< each alone, small ones too, the one with the largest normal force first
   int stray_nodes = 0;                ///< in small patches beside the others; without others, beside the largest
   double stray_force = 0;             ///< N, sum of their normal forces
 };

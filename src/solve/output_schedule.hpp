@@ -54,7 +54,7 @@ class OutputSchedule {
     double end;  ///< s
   };
 
-  /// By a hundredth of a step an output may seem to be too late.
+  /// Rounding of the time stays far below a hundredth of a step.
   bool due(const Window& window) const {
     return window.outputs.due(nodal_.step) && nodal_.time <= window.end + 0.01 * sizes_.step_size;
   }

@@ -108,7 +108,7 @@ EverySoOften::EverySoOften(double interval, double step, long cycle, double star
     : interval_(interval),
       cycle_(cycle),
       every_(whole_cycles(interval, step, cycle)),
-      next_(std::lround(std::ceil(start / (static_cast<double>(cycle) * step) * (1 - rounding))) * cycle) {}
+      next_(static_cast<long>(std::ceil(start / (static_cast<double>(cycle) * step) * (1 - rounding))) * cycle) {}
 
 void EverySoOften::step_changed(long step, double old_size, double new_size) {
   const long missing = step < next_ ? next_ - step : (every_ - (step - next_) % every_) % every_;

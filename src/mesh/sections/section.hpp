@@ -102,7 +102,7 @@ void smooth_section(SectionMesh& section);
 /// Shifts boundary nodes along their normals so that the section's polygon has the area of the outline on which its
 /// nodes lie: each edge's area between chord and outline is shared by its two ends. Otherwise chords would reduce area
 /// and bending stiffness at every rounding. `outline` is closed, counter-clockwise and finely sampled;
-/// `kept[n]` tells which nodes have to stay on it.
+/// nodes with `kept[n]` stay on it.
 void match_outline_area(SectionMesh& section, const std::vector<Point2>& outline, const std::vector<char>& kept);
 
 /// Points on a closed curve, `spacing` apart.

@@ -5,7 +5,8 @@
 namespace railwave {
 
 SectionProperties section_properties(const Mesh& mesh, const std::vector<Face>& faces) {
-  // Green's theorem, edge by edge. All faces run the same way round; the sign of the total area tells which.
+  // Green's theorem, edge by edge. All faces run the same way round: counter-clockwise if the total area
+  // is positive.
   double area = 0, first_y = 0, first_z = 0, yy = 0, zz = 0, yz = 0;
   for (const Face& face : faces) {
     const auto nodes = mesh.face_nodes(face);

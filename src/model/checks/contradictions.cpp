@@ -260,8 +260,7 @@ double travel_of(const AssembledScene& assembled, const scene::PrescribedMotion&
 using HeldNodes = std::map<int, HeldDirections>;
 
 Vec3 doubled_area(const Assembly& assembly, const std::vector<int>& nodes, const std::array<int, 4>& face) {
-  const auto& x = assembly.nodes;
-  return cross(difference(x[nodes[face[2]]], x[nodes[face[0]]]), difference(x[nodes[face[3]]], x[nodes[face[1]]]));
+  return railwave::doubled_area(assembly.nodes, {nodes[face[0]], nodes[face[1]], nodes[face[2]], nodes[face[3]]});
 }
 
 /// Slave nodes of a pair that no force along their normals moves.

@@ -17,13 +17,13 @@ struct ContactPair {
   ContactLawArrays law;
   ContactWindow window;
   MultiplierArrays multipliers;  ///< of the second algorithm, see kernels/contact/contact_multiplier.hpp
-  Array<double*[3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was laid out
+  Array<double*[3]> slaves_at_layout, masters_at_layout;  ///< m, where the surfaces were when the window was built
   long next_check = -1;                                   ///< step at which the window is checked again
-  long next_near_check = -1;  ///< step at which the nodes that can touch are picked out of it again
-  bool boxed = false;         ///< the master's boxes hold until then
-  long layouts = 0;           ///< how often it was laid out
-  long checks = 0;            ///< how often it was checked, the host waiting
-  bool loaded = false;        ///< loads or connectors act on its nodes
+  long next_near_check = -1;                              ///< step at which its nodes that can touch are selected again
+  bool boxed = false;                                     ///< the master's boxes hold until then
+  long layouts = 0;                                       ///< how often the window was built
+  long checks = 0;                                        ///< how often it was checked, with the host waiting
+  bool loaded = false;                                    ///< loads or connectors act on its nodes
   bool has_springs() const { return !multipliers.active(); }
   bool own_master = true;     ///< no other forces than the pair's on slaves reach the master's nodes
   bool reversed = false;      ///< the second half of a symmetric contact: surfaces exchanged, reported with the first

@@ -94,10 +94,7 @@ std::vector<int> in_box(const Assembly& assembly, const std::vector<int>& candid
 }  // namespace
 
 Vec3 element_centre(const Assembly& assembly, int element) {
-  Vec3 centre{};
-  for (int n : assembly.elements[element])
-    for (int i = 0; i < 3; ++i) centre[i] += assembly.nodes[n][i] / 8;
-  return centre;
+  return hexahedron_centre(corners_of(assembly.nodes, assembly.elements[element]));
 }
 
 Vec3 natural_coordinates(const std::array<Vec3, 8>& corners, const Vec3& place) {

@@ -7,11 +7,8 @@
 namespace railwave {
 namespace {
 
-void widen(scene::Box& box, const ContactSide& side, std::size_t node) {
-  for (int i = 0; i < 3; ++i) {
-    box[0][i] = std::min(box[0][i], side.position[3 * node + i]);
-    box[1][i] = std::max(box[1][i], side.position[3 * node + i]);
-  }
+Vec3 position_of(const ContactSide& side, std::size_t node) {
+  return {side.position[3 * node], side.position[3 * node + 1], side.position[3 * node + 2]};
 }
 
 bool feels_force(const ContactSide& side, std::size_t node) {
@@ -21,12 +18,11 @@ bool feels_force(const ContactSide& side, std::size_t node) {
 }
 
 /// Around all nodes that touch, and by the margin wider; nothing is in it where none does.
-scene::Box box_of_contact(const ContactState& state, double margin) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  scene::Box box{{{far, far, far}, {-far, -far, -far}}};
+Bounds box_of_contact(const ContactState& state, double margin) {
+  Bounds box = no_bounds;
   for (const ContactSide* side : {&state.slave, &state.master})
     for (std::size_t n = 0; n < side->nodes.size(); ++n)
-      if (feels_force(*side, n) || (side == &state.slave && state.slipping[n] != 0)) widen(box, *side, n);
+      if (feels_force(*side, n) || (side == &state.slave && state.slipping[n] != 0)) widen(box, position_of(*side, n));
   for (int i = 0; i < 3; ++i) {
     box[0][i] -= margin;
     box[1][i] += margin;
@@ -35,19 +31,13 @@ scene::Box box_of_contact(const ContactState& state, double margin) {
 }
 
 /// The values, and not-a-number for nodes outside the box.
-std::vector<double> within(const std::optional<scene::Box>& box, const ContactSide& side, std::vector<double> values) {
+std::vector<double> within(const std::optional<Bounds>& box, const ContactSide& side, std::vector<double> values) {
   if (!box || side.nodes.empty()) return values;
   const std::size_t components = values.size() / side.nodes.size();
-  for (std::size_t n = 0; n < side.nodes.size(); ++n) {
-    bool inside = true;
-    for (int i = 0; i < 3; ++i) {
-      const double x = side.position[3 * n + i];
-      inside = inside && x >= (*box)[0][i] && x <= (*box)[1][i];
-    }
-    if (!inside)
+  for (std::size_t n = 0; n < side.nodes.size(); ++n)
+    if (!holds(*box, position_of(side, n)))
       std::fill_n(values.begin() + static_cast<long>(n * components), components,
                   std::numeric_limits<double>::quiet_NaN());
-  }
   return values;
 }
 
@@ -98,8 +88,7 @@ ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, c
     *dataset = group.create_growing<double>(name, {count, 3}, each_time);
 }
 
-void ContactSection::Side::add(const ContactSide& state, const FieldSource& source,
-                               const std::optional<scene::Box>& box) {
+void ContactSection::Side::add(const ContactSide& state, const FieldSource& source, const std::optional<Bounds>& box) {
   if (state.nodes != nodes) throw std::logic_error("the nodes of a contact surface changed during the run");
   const std::size_t count = nodes.size();
   const auto append_within = [&](hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t components) {
@@ -140,7 +129,7 @@ void ContactSection::add_values(const FieldSource& source, long step) {
   const std::size_t count = slave_.nodes.size();
   if (state.slipping.size() != count)
     throw std::logic_error("a contact state has arrays of another length than its nodes");
-  std::optional<scene::Box> box;
+  std::optional<Bounds> box;
   if (margin_) box = box_of_contact(state, *margin_);
   slave_.add(state.slave, source, box);
   master_.add(state.master, source, box);

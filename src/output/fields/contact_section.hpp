@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/sets/point_search.hpp"
 #include "output/fields/field_snapshot.hpp"
 #include "output/hdf5/hdf5.hpp"
 
@@ -31,7 +32,7 @@ class ContactSection {
     Side() = default;
     Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source);
     /// @param box outside of which nodes have no values
-    void add(const ContactSide& state, const FieldSource& source, const std::optional<scene::Box>& box);
+    void add(const ContactSide& state, const FieldSource& source, const std::optional<Bounds>& box);
   };
   const Side& side(bool slave) const { return slave ? slave_ : master_; }
 

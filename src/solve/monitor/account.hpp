@@ -24,10 +24,6 @@ double largest_energy(const EnergyAccount& energy);
 
 ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactPair>& contacts, std::size_t number);
 
-/// What each of the scene's loads comes to at the present instant, into `totals` when the sums are fetched.
-void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
-                       Reductions& sums);  // load_totals.cpp
-
 /// The energies and contacts of a history row at the present instant: what the monitor checks.
 /// @param by_part if not null: gets the energies of each part of the assembly
 HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);

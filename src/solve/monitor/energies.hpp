@@ -4,9 +4,12 @@
 #include "model/assembly.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/elements/element_model.hpp"
+#include "model/loads/load_model.hpp"
+#include "model/nodal_state.hpp"
 #include "solve/observer.hpp"
 
-/// What each module gives to the account at the present instant: all of it is added when the sums are fetched.
+/// What each module gives to the account and the histories at the present instant: all of it is added when the sums are
+/// fetched.
 namespace railwave {
 
 /// Elastic energy and plastic work of the elements, what their hourglass control stores or dissipates, and what their
@@ -26,5 +29,9 @@ void queue_pair_totals(const NodalState& nodal, const ContactPair& pair, Contact
 
 /// Adds the other half of a symmetric contact, which has the surfaces exchanged.
 void add_other_half(ContactTotals& totals, const ContactTotals& other);  // contact_energies.cpp
+
+/// What each of the scene's loads comes to at the present instant, into `totals` when the sums are fetched.
+void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
+                       Reductions& sums);  // load_totals.cpp
 
 }  // namespace railwave

@@ -1,5 +1,5 @@
 #include "kernels/support/vector3.hpp"
-#include "solve/monitor/account.hpp"
+#include "solve/monitor/energies.hpp"
 
 namespace railwave {
 namespace {

@@ -64,7 +64,10 @@ class MadeUp(unittest.TestCase):
         self.write("scripts/run", "#!/usr/bin/env bash\n" + "#" * 120 + "\n")
         self.write("README.md", "long " * 100)
         self.write("build/generated.cpp", "//" + "-" * 200)
+        self.write(".unpacked/library/header.hpp", "//" + "-" * 200)
         self.assert_faults()
+        self.write(".ci/run", "#!/usr/bin/env bash\n" + "#" * 121 + "\n")
+        self.assert_faults((".ci/run:2", "121 columns"))
 
     def test_long_lines(self):
         # As characters, not as bytes.

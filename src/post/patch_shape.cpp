@@ -129,7 +129,8 @@ EquivalentEllipse equivalent_ellipse(const ContactSide& side, const std::vector<
   const double size = std::hypot(difference, mixed);
   const bool first_is_larger = difference >= 0;
   const double half_sum = 0.5 * (moments(0, 0) + moments(1, 1));
-  const double larger = half_sum + 0.5 * size, smaller = std::max(0.0, half_sum - 0.5 * size);
+  // Of one node alone both are zero but for rounding.
+  const double larger = std::max(0.0, half_sum + 0.5 * size), smaller = std::max(0.0, half_sum - 0.5 * size);
   ellipse.semi_axis_along = std::sqrt(5 * (first_is_larger ? larger : smaller));
   ellipse.semi_axis_across = std::sqrt(5 * (first_is_larger ? smaller : larger));
   if (size > 1e-12 * half_sum) ellipse.turn = 0.5 * std::atan2(first_is_larger ? mixed : -mixed, std::fabs(difference));

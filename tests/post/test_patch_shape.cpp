@@ -75,6 +75,19 @@ TEST_CASE("a patch wider than long keeps its longitudinal semi-axis first") {
   CHECK_THAT(patch.ellipse.turn, WithinAbs(0.2, 0.03));
 }
 
+TEST_CASE("one node alone is a patch without size, wherever it lies") {
+  for (int k = 0; k < 100; ++k) {
+    ContactSide side;
+    side.nodes = {0, 1};
+    const double x = 0.1 * k + 1e-3 / (k + 1.0);
+    side.position = {x, 0.3 * x, 0.7 - x, x, 0.3 * x, 0.7 - x};
+    const LocalFrame frame = local_frame(Vector(x + 1e-9, 0.3 * x, 0.7 - x), Vector(0.1, 0.02 * k, 5), Vector(1, 0, 0));
+    const EquivalentEllipse ellipse = equivalent_ellipse(side, {0, 1}, {300.1 + k, 1e-3}, frame);
+    CHECK_THAT(ellipse.semi_axis_along, WithinAbs(0, 1e-6));
+    CHECK_THAT(ellipse.semi_axis_across, WithinAbs(0, 1e-6));
+  }
+}
+
 TEST_CASE("cuts through the centre carry linear fields exactly") {
   ContactState state = turned_patch(HertzContact{}, 0);
   press(

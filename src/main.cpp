@@ -172,6 +172,11 @@ void add_contact_options(CLI::App* command, ContactRequest& request) {
   command->add_option("--hdf5", request.hdf5,
                       "also write all of this, and the stresses of the facets, as HDF5: a file of its own");
   add_overwrite_option(command, request.overwrite);
+  command
+      ->add_option("--together", request.together,
+                   "NAME,NAME: contacts that are one contact solution, with patches in common, such as those of a "
+                   "wheel with the rails on both sides of a gap; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--from", request.from, "leave out output times before, s");
   command->add_option("--to", request.to, "leave out output times after, s");
   command

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "benchmarks/problems/problem.hpp"
+#include "model/contact/contact_state.hpp"
 #include "solve/statics/settle.hpp"
 
 namespace railwave::bench {

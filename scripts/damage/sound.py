@@ -87,6 +87,13 @@ fields = ["velocity"]
 """
 
 
+# Follows [output], with which CONTACT ends: nodes near the contact only; areas and normals are to be found.
+NEAR = """contact_margin = 0.012
+contact_fields = ["displacement", "velocity", "normal_force", "tangential_force", "slip_velocity", "slipping"]
+precision = "single"
+"""
+
+
 class Seed:
     """A sound file; `commands`: {name: words}, in which FILE is the damaged file and OUT a folder for what is
     written."""
@@ -157,6 +164,8 @@ def make(program, folder):
     for name, symmetric in (("contact", "false"), ("symmetric", "true")):
         path = run(program, folder, name, CONTACT.format(symmetric=symmetric))
         seeds.append(Seed(name, path, CONTACT_COMMANDS))
+    near = run(program, folder, "near", CONTACT.format(symmetric="false") + NEAR)
+    seeds.append(Seed("near", near, CONTACT_COMMANDS))
     hammer = run(program, folder, "hammer", HAMMER)
     seeds.append(Seed("hammer", hammer, HAMMER_COMMANDS))
     for name, commands in (("contact", CONTACT_COMMANDS), ("hammer", HAMMER_COMMANDS)):

@@ -3,10 +3,35 @@
 import os
 
 import h5py
+import numpy as np
 
 
 class BadFile(Exception):
     """The file cannot be used; the text says why, and what to do."""
+
+
+class NearNodes:
+    """A field of a contact surface of which only nodes near the contact are written (output.contact_margin), as if it
+    were written whole: zero of forces and stresses elsewhere, not-a-number of the rest."""
+
+    ZERO = ("normal_force", "tangential_force", "pressure", "shear", "slipping")
+
+    def __init__(self, side, name):
+        self._rows, self._node, self._values = side["rows"][:], side["near/node"], side[f"near/{name}"]
+        self._elsewhere = 0.0 if name in self.ZERO else np.nan
+        self.shape = (len(self._rows), len(side["nodes"]), *self._values.shape[1:])
+        self.ndim, self.dtype = len(self.shape), self._values.dtype
+        self.name, self.attrs = self._values.name, self._values.attrs
+
+    def __len__(self):
+        return len(self._rows)
+
+    def __getitem__(self, output):
+        output = range(len(self))[output]
+        first, last = (self._rows[output - 1] if output else 0), self._rows[output]
+        whole = np.full(self.shape[1:], self._elsewhere)
+        whole[self._node[first:last]] = self._values[first:last]
+        return whole
 
 
 class ContactSide:
@@ -16,15 +41,19 @@ class ContactSide:
 
     def __init__(self, group, side):
         self._side, self._time, self.name = group[side], group["time"], group[side].name
+        self._near = set(self._side["near"]) - {"node"} if "near" in self._side else set()
 
     def __getitem__(self, name):
+        if name in self._near:
+            return NearNodes(self._side, name)
         return self._time if name == "time" else self._side[self.ELSEWHERE.get(name, name)]
 
     def __contains__(self, name):
-        return name == "time" or self.ELSEWHERE.get(name, name) in self._side
+        return name in self._near or name == "time" or self.ELSEWHERE.get(name, name) in self._side
 
     def items(self):
-        return self._side.items()
+        own = [(name, data) for name, data in self._side.items() if name not in ("near", "rows")]
+        return own + [(name, self[name]) for name in sorted(self._near)]
 
 
 class Results:

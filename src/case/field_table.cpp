@@ -71,4 +71,38 @@ std::string fields_help(FieldRow::Use use) {
   return "Of nodes: " + listed(fields_for(use, node)) + ". Of elements: " + listed(fields_for(use, element));
 }
 
+const std::vector<ContactFieldRow>& contact_field_table() {
+  static const std::vector<ContactFieldRow> table{
+      {"area", 1, false, "a quarter of every facet around the node"},
+      {"position", 3, false, ""},
+      {"displacement", 3, false, "from the undeformed position"},
+      {"velocity", 3, false, ""},
+      {"normal", 3, false, "of the surface, outwards"},
+      {"normal_force", 3, false, ""},
+      {"tangential_force", 3, false, ""},
+      {"pressure", 1, false, "normal force over area"},
+      {"shear", 3, false, "tangential force over area"},
+      {"gap", 1, true, ""},
+      {"slip_velocity", 3, true, ""},
+      {"slipping", 1, true, "0 no contact, 1 sticks, 2 slips"},
+      {"friction", 1, true, "the coefficient that acts, where it falls with speed"},
+  };
+  return table;
+}
+
+std::vector<std::string> contact_field_names() {
+  std::vector<std::string> names;
+  for (const ContactFieldRow& row : contact_field_table()) names.emplace_back(row.name);
+  return names;
+}
+
+std::string contact_fields_help() {
+  std::string text;
+  for (const ContactFieldRow& row : contact_field_table()) {
+    text += (text.empty() ? "`" : "; `") + std::string(row.name) + '`';
+    if (*row.meaning != '\0') text += std::string(": ") + row.meaning;
+  }
+  return text;
+}
+
 }  // namespace railwave

@@ -40,6 +40,22 @@ const FieldRow& field_named(const std::string& name);
 
 std::vector<std::string> names_of(const std::vector<const FieldRow*>& rows);
 
+/// A quantity of the nodes of contact surfaces that a run may write. What computes it is in
+/// output/fields/contact_values.cpp, its unit in output/dataset_units.cpp.
+struct ContactFieldRow {
+  const char* name;  ///< in the case, and of the dataset in the results
+  int components;
+  bool of_slave_only;
+  const char* meaning;  ///< for the reference page; empty where the name says all
+};
+
+/// The one table of these.
+const std::vector<ContactFieldRow>& contact_field_table();
+std::vector<std::string> contact_field_names();
+
+/// "`area`; `position`; ...": the table for the help of a key.
+std::string contact_fields_help();
+
 /// "Of nodes: `displacement` (m): ...; ... Of elements: ...": the rows of one use for the help of a key.
 std::string fields_help(FieldRow::Use use);
 

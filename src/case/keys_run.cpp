@@ -130,14 +130,31 @@ Section output_section() {
           "whose histories are written: of a node set or point mass displacement, velocity and acceleration, mean by "
           "mass; of an element set stress and strain, and plastic strain where the material yields, mean by volume")
           .names(node_set | element_set | point),
+      key("history_beams", &Output::history_beams,
+          "beams whose section forces are written with the histories, by their names, such as bolts of a track's joint")
+          .otherwise("all"),
       key("contact_margin", &Output::contact_margin,
-          "contact surfaces are written only within this distance of a box around the nodes that touch, which goes "
-          "with the contact; the other nodes have no values (not-a-number), forces, pressure and shear apart, which "
-          "are zero there. Results stay small where outputs are many. `railwave contact` fits creepages in a ring "
-          "around the patch and needs some three times its length")
+          "of contact surfaces only the nodes are written that lie within this distance of a box around those that "
+          "touch; the box goes with the contact. Results stay small, and outputs quick, where these are many. "
+          "`railwave "
+          "contact` fits creepages in a ring around the patch, for which the margin needs some three times its length")
           .in("m")
           .within(above(0))
           .otherwise("the whole surfaces"),
+      key("contact_fields", &Output::contact_fields,
+          "what is written of contact surfaces. `railwave contact` needs `normal_force`, `tangential_force` and "
+          "`position` or `displacement`; from positions it finds areas and normals, where the margin is an element or "
+          "more; without `velocity` of both surfaces it takes `slip_velocity` for the micro-slip, and knows no "
+          "creepages. " +
+              contact_fields_help())
+          .one_of(contact_field_names())
+          .otherwise("all"),
+      key("contact_sides", &Output::contact_sides, "which surfaces of contacts are written")
+          .one_of({"slave", "master"}),
+      key("precision", &Output::precision,
+          "of the numbers that are written of fields and contacts: `single` has seven digits and takes half the room. "
+          "Histories are written in double precision")
+          .one_of({"double", "single"}),
       key("progress_interval", &Output::progress_interval, "wall-clock time between lines of progress")
           .in("s")
           .within(above(0))
@@ -151,8 +168,9 @@ Section output_window_section() {
   using scene::OutputWindow;
   auto section = named_section(
       "output_windows", "output window", &Scene::output_windows,
-      "Parts of the run in which fields are written more often: while a wheel crosses a joint, say. What is written, "
-      "and where, is as in `[output]`; these outputs are added to those of `output.field_interval`.");
+      "Parts of the run in which fields are written more often: while a wheel crosses a joint, say. What is written is "
+      "as in `[output]`; these outputs are added to those of `output.field_interval`. Where windows overlap, each set "
+      "and contact is written by all that have it.");
   section.keys = {
       key("start", &OutputWindow::start, "when the window begins; its first output is at the next step")
           .in("s")
@@ -168,6 +186,8 @@ Section output_window_section() {
           .in("s")
           .within(at_least(0))
           .needed(),
+      key("field_sets", &OutputWindow::field_sets, "which of `output.field_sets` are written").otherwise("all"),
+      key("contacts", &OutputWindow::contacts, "which contacts are written, by their names").otherwise("all"),
   };
   section.rule = check_output_window;
   return section;

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "case/suggest.hpp"
+
 // Entries of one case file that cannot all hold, as far as their names show it; model/checks/contradictions.cpp looks
 // at what the names mean.
 namespace railwave::case_file {
@@ -113,7 +115,18 @@ void check_output_windows(const scene::Scene& scene, Complaints& complaints) {
                      fmt::format("[output_windows.{}]: starts at {} s, after the run's end (time.end = {} s); let it "
                                  "start earlier, or the run end later",
                                  window.name, window.start, scene.time.end));
-    if (scene.output.field_sets.empty() && scene.contacts.empty())
+    const auto expect_known = [&](const char* key, const std::optional<std::vector<std::string>>& names,
+                                  const std::vector<std::string>& known) {
+      for (const std::string& name : names.value_or(std::vector<std::string>{}))
+        if (std::find(known.begin(), known.end(), name) == known.end())
+          complaints.add({window.line}, fmt::format("[output_windows.{}] {}: there is no '{}'; {}", window.name, key,
+                                                    name, suggestion(name, known)));
+    };
+    std::vector<std::string> contacts;
+    for (const scene::Contact& contact : scene.contacts) contacts.push_back(contact.name);
+    expect_known("field_sets", window.field_sets, scene.output.field_sets);
+    expect_known("contacts", window.contacts, contacts);
+    if (window.field_sets.value_or(scene.output.field_sets).empty() && window.contacts.value_or(contacts).empty())
       complaints.add({window.line},
                      fmt::format("[output_windows.{}]: nothing would be written; name output.field_sets and "
                                  "output.fields",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -329,6 +330,13 @@ struct Monitor {
   double box = 0;             ///< m, half the edge of what is written about a fault; 0: six times the element's size
 };
 
+enum class ResultsPrecision { double_precision, single };
+
+/// Without a list of names all are meant.
+inline bool is_among(const std::string& one, const std::optional<std::vector<std::string>>& names) {
+  return !names || std::find(names->begin(), names->end(), one) != names->end();
+}
+
 struct Output {
   std::string file = "results.h5";  ///< relative to the folder the program runs in unless absolute
   double history_interval = 0;      ///< s; 0: every step
@@ -338,15 +346,24 @@ struct Output {
   std::vector<std::string> fields;  ///< names of case/field_table.hpp that serve fields
   std::vector<std::string>
       history_sets;  ///< `part.node_set` or point masses: mean motion; `part.element_set`: mean stress and strain
-  std::optional<double> contact_margin;  ///< m; absent: contact surfaces are written whole
-  double progress_interval = 5;          ///< wall seconds between progress lines
+  std::optional<std::vector<std::string>> history_beams;   ///< of which section forces are written; absent: all
+  std::optional<double> contact_margin;                    ///< m; absent: contact surfaces are written whole
+  std::optional<std::vector<std::string>> contact_fields;  ///< names of case/field_table.hpp; absent: all
+  std::vector<std::string> contact_sides = {"slave", "master"};
+  ResultsPrecision precision = ResultsPrecision::double_precision;  ///< of fields and contacts; histories are in double
+  double progress_interval = 5;                                     ///< wall seconds between progress lines
 };
 
-/// Part of a run in which fields are written besides those of Output::field_interval.
+/// Part of a run in which fields are written besides those of Output::field_interval. Absent lists: all.
 struct OutputWindow : Place {
-  double start = 0;           ///< s
-  std::optional<double> end;  ///< s; absent: the run's
-  double interval = 0;        ///< s; 0: every step
+  double start = 0;                                    ///< s
+  std::optional<double> end;                           ///< s; absent: the run's
+  double interval = 0;                                 ///< s; 0: every step
+  std::optional<std::vector<std::string>> field_sets;  ///< of Output::field_sets
+  std::optional<std::vector<std::string>> contacts;    ///< names
+
+  bool has_set(const std::string& set) const { return is_among(set, field_sets); }
+  bool has_contact(const std::string& contact) const { return is_among(contact, contacts); }
 };
 
 /// What is under the rail at one place: half a sleeper, its fastening and its ballast. Absent: as `base` has it.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 // Readers of results need no more of the modules than their names.
 namespace railwave {
 
-struct ContactPair;
 struct ElementModel;
 struct NodalState;
 struct NodeArrays;
@@ -40,40 +38,6 @@ HostField element_stress(const ElementModel& elements, const NodeArrays& nodes, 
 
 /// Equivalent plastic strain at the present instant of the elements wanted; zero in elastic parts. One component.
 HostField element_plastic_strain(const ElementModel& elements, const std::vector<int>& wanted);
-
-/// State of one contact pair at the present instant: one entry for every node of the slave surface and of the master
-/// surface (not only those that touch). Vectors have three components, global axes. Forces of a symmetric contact are
-/// those of both its halves; gap, slip velocity and whether a node slips are those of the slave's nodes against the
-/// master's faces.
-struct ContactSide {
-  std::vector<int> nodes;                  ///< model node numbers
-  std::vector<double> area;                ///< m2, a quarter of every facet around the node, present geometry
-  std::vector<double> position;            ///< m
-  std::vector<double> velocity;            ///< m/s
-  std::vector<double> normal;              ///< unit outward normal of the surface at the node
-  std::vector<double> normal_force;        ///< N, on this side, vector
-  std::vector<double> tangential_force;    ///< N, on this side, vector
-  std::vector<std::array<int, 4>> facets;  ///< positions in `nodes`, turned outwards
-};
-struct ContactState {
-  std::string name;
-  double friction = 0;  ///< coefficient; at rest, where it falls with speed
-  std::vector<double>
-      friction_now;  ///< that which acts at each slave node, `friction` where it does not touch; empty where constant
-  ContactSide slave;
-  ContactSide master;
-  std::vector<double> gap;  ///< m, of each slave node; negative: penetration; NaN where far from the master
-  std::vector<double>
-      slip_velocity;          ///< m/s, slave relative to master in the tangent plane at the contact point, 3 each
-  std::vector<int> slipping;  ///< of each slave node: 0 no contact, 1 sticks, 2 slips
-
-  /// The coefficient that bounds a slave node's tangential force.
-  double friction_at(std::size_t slave_node) const {
-    return friction_now.empty() ? friction : friction_now[slave_node];
-  }
-};
-ContactState contact_state(const NodalState& nodal, const Ties& ties, const std::vector<ContactPair>& contacts,
-                           int contact);
 
 /// A field of the table at the present instant, of the nodes or elements listed (model numbers), in their order. Throws
 /// std::logic_error for a row that has no fetch function: rows that serve `fields` all have one.

@@ -70,7 +70,11 @@ void write_mode_file(const AssembledScene& assembled, const ModeList& list, cons
   const std::string companion = xdmf_path(path);
   remove_own(companion, kinds::modes_xdmf());
   XdmfFile xdmf(companion, std::filesystem::path(path).filename().string(), {"displacement"}, kinds::modes_xdmf());
-  for (std::size_t k = 0; k < list.modes.size(); ++k) xdmf.add(static_cast<double>(k + 1), k, sets, {});
+  for (std::size_t k = 0; k < list.modes.size(); ++k) {
+    XdmfGrids grids;
+    for (const OutputSet& set : sets) grids.sets.emplace_back(&set, k);
+    xdmf.add(static_cast<double>(k + 1), k, grids);
+  }
 }
 
 }  // namespace railwave

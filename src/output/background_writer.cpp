@@ -25,16 +25,21 @@ void BackgroundWriter::history(const HistorySample& sample) {
 }
 
 void BackgroundWriter::fields(const FieldSource& source, double time, long step) {
-  if (!selection_) {
+  const RunDescription& run = writer_.description();
+  fields(source, time, step, OutputChoice::all(run.sets.size(), run.contacts.size()));
+}
+
+void BackgroundWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice) {
+  auto& selection = selections_[choice];
+  if (!selection) {
     const RunDescription& run = writer_.description();
-    selection_ = std::make_shared<const FieldSelection>(
-        select_fields(run.sets, run.fields, static_cast<int>(run.contacts.size()), source));
+    selection = std::make_shared<const FieldSelection>(select_fields(run.sets, run.fields, choice));
   }
   // The snapshot and what is fetched for it: made only where that leaves HDF5, in its thread, what it looked for.
-  if (!leaves_free_memory(2 * selection_->bytes() + memory_margin))
-    throw TooLittleMemory(2 * selection_->bytes() + memory_margin);
-  const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection_);
-  thread_.add([this, snapshot, time, step] { writer_.fields(*snapshot, time, step); }, size_of_fields);
+  if (!leaves_free_memory(2 * selection->bytes() + memory_margin))
+    throw TooLittleMemory(2 * selection->bytes() + memory_margin);
+  const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection);
+  thread_.add([this, snapshot, time, step, choice] { writer_.fields(*snapshot, time, step, choice); }, size_of_fields);
 }
 
 void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {

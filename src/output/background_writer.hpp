@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,8 @@ class BackgroundWriter {
   void history(const HistorySample& sample);
 
   /// Fetches from `source` before it returns.
+  /// @param choice of the sets and contacts that are written
+  void fields(const FieldSource& source, double time, long step, const OutputChoice& choice);
   void fields(const FieldSource& source, double time, long step);
 
   /// Writes the state after what was given before. What goes wrong with it stops nothing; it is reported at once, and
@@ -40,10 +43,10 @@ class BackgroundWriter {
   void end(const RunSummary& summary);
 
  private:
-  std::shared_ptr<const FieldSelection> selection_;  ///< made with the first output of fields
-  ResultsWriter writer_;                             ///< the thread's
-  std::string trouble_;                              ///< the thread's, until that has finished
-  TaskThread thread_;                                // last: ends before the writer goes
+  std::map<OutputChoice, std::shared_ptr<const FieldSelection>> selections_;  ///< each made with its first output
+  ResultsWriter writer_;                                                      ///< the thread's
+  std::string trouble_;                                                       ///< the thread's, until that has finished
+  TaskThread thread_;                                                         // last: ends before the writer goes
 };
 
 }  // namespace railwave

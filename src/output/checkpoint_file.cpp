@@ -128,8 +128,15 @@ std::string checkpoint_key(const AssembledScene& assembled, const std::string& p
                        fmt::join(scene.output.field_sets, ","), fmt::join(scene.output.fields, ","),
                        fmt::join(scene.output.history_sets, ",")));
   if (scene.output.contact_margin) hash.add(fmt::format("contact margin {:.17g}", *scene.output.contact_margin));
+  const auto listed = [](const std::optional<std::vector<std::string>>& names) {
+    return names ? fmt::format("{}", fmt::join(*names, ",")) : "all";
+  };
+  hash.add(fmt::format("histories of beams {}", listed(scene.output.history_beams)));
+  hash.add(fmt::format("contact fields {} of {}, precision {}", listed(scene.output.contact_fields),
+                       fmt::join(scene.output.contact_sides, ","), static_cast<int>(scene.output.precision)));
   for (const scene::OutputWindow& window : scene.output_windows)
-    hash.add(fmt::format("window {:.17g} {:.17g} {:.17g}", window.start, window.end.value_or(-1), window.interval));
+    hash.add(fmt::format("window {:.17g} {:.17g} {:.17g} {} {}", window.start, window.end.value_or(-1), window.interval,
+                         listed(window.field_sets), listed(window.contacts)));
   for (const auto& motion : scene.initial_motions) hash.add(fmt::format("{:.17g}", fmt::join(motion.velocity, ",")));
   for (const auto& motion : scene.prescribed_motions)
     hash.add(fmt::format("{:.17g} {:.17g}", fmt::join(motion.velocity, ","), fmt::join(motion.displacement, ",")));

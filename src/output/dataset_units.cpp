@@ -44,6 +44,8 @@ constexpr DatasetUnit datasets[] = {
     {"/beams/*/moment", "N m"},
     // Sides of contacts.
     {"/contact/*/surface_of_facet", "1"},
+    {"/contact/*/rows", "1"},
+    {"/contact/*/node", "1"},
     {"/contact/*/area", "m2"},
     {"/contact/*/position", "m"},
     {"/contact/*/normal", "1"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <stdexcept>
 
 #include "case/error.hpp"
+#include "case/suggest.hpp"
+#include "model/contact/contact_pair.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
@@ -23,12 +26,13 @@ namespace {
 
 class ModelFields : public FieldSource {
  public:
-  explicit ModelFields(const Model& model) : model_(model) {}
+  ModelFields(const Model& model, std::optional<double> contact_margin)
+      : model_(model), contact_margin_(contact_margin) {}
   HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
     return output_field(model_, model_, model_.ties, row, numbers);
   }
   ContactState contact(int number) const override {
-    return contact_state(model_, model_.ties, model_.contacts, number);
+    return contact_state(model_, model_.ties, model_.contacts, number, contact_margin_);
   }
   HostField beams() const override {
     HostField all{6, {}};
@@ -42,7 +46,40 @@ class ModelFields : public FieldSource {
 
  private:
   const Model& model_;
+  std::optional<double> contact_margin_;
 };
+
+ContactSurface surface_of(const NodalState& nodal, const Ties& ties, const std::vector<int>& nodes,
+                          const std::vector<std::array<int, 4>>& facets) {
+  ContactSurface surface{nodes, facets, node_field(nodal, ties, NodeField::position, nodes).values};
+  const std::vector<double> moved = node_field(nodal, ties, NodeField::displacement, nodes).values;
+  for (std::size_t i = 0; i < moved.size(); ++i) surface.coordinates[i] -= moved[i];
+  return surface;
+}
+
+/// Numbers of the beams that output.history_beams names.
+std::vector<int> wanted_beams(const scene::Scene& scene) {
+  std::vector<int> wanted;
+  std::vector<std::string> known;
+  for (std::size_t b = 0; b < scene.beams.size(); ++b) {
+    known.push_back(scene.beams[b].name);
+    if (scene::is_among(known.back(), scene.output.history_beams)) wanted.push_back(static_cast<int>(b));
+  }
+  for (const std::string& name : scene.output.history_beams.value_or(std::vector<std::string>{}))
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("{}: [output] history_beams: there is no beam '{}'; {}", scene.path, name,
+                                   suggestion(name, known)));
+  return wanted;
+}
+
+/// What a window writes; without lists of names all.
+OutputChoice choice_of(const scene::OutputWindow& window, const RunDescription& description) {
+  OutputChoice choice = OutputChoice::all(description.sets.size(), description.contacts.size());
+  for (std::size_t s = 0; s < choice.sets.size(); ++s) choice.sets[s] = window.has_set(description.sets[s].name);
+  for (std::size_t c = 0; c < choice.contacts.size(); ++c)
+    choice.contacts[c] = window.has_contact(description.contacts[c].name);
+  return choice;
+}
 
 LoadNames names_of(const scene::Scene& scene, const scene::Load& load) {
   const bool torque = load.type == scene::LoadType::torque;
@@ -91,7 +128,9 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   description_.node_count = static_cast<long>(assembly.nodes.size());
   description_.element_count = static_cast<long>(assembly.elements.size());
   for (const auto& contact : scene.contacts) {
-    description_.contacts.push_back({contact.name, contact.slave, contact.master, {}});
+    description_.contacts.push_back({contact.name, contact.slave, contact.master});
+    description_.contacts.back().friction = contact.friction;
+    description_.contacts.back().falling_friction = contact.falling_friction();
     for (const std::string& master : contact.master)
       description_.contacts.back().master_facets.push_back(
           static_cast<int>(find_surface(scene, assembly, contact, "master", master).size()));
@@ -104,13 +143,26 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
     }
     if (set.inside()) description_.element_histories.push_back(set);
   }
-  for (const auto& beam : scene.beams) description_.beams.emplace_back(beam.name, 0);
-  for (const auto& chain : assembly.beam_chains)
-    description_.beams[chain.beam].second += scene.beams[chain.beam].divisions;
+  history_beams_ = wanted_beams(scene);
+  std::vector<int> beam_elements(scene.beams.size());
+  for (const auto& chain : assembly.beam_chains) beam_elements[chain.beam] += scene.beams[chain.beam].divisions;
+  for (const int beam : history_beams_) description_.beams.emplace_back(scene.beams[beam].name, beam_elements[beam]);
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
-  description_.contact_margin = scene.output.contact_margin;
+  contact_margin_ = scene.output.contact_margin;
+  ContactOutput& contacts = description_.contact_output;
+  contacts.near_only = contact_margin_.has_value();
+  if (scene.output.contact_fields) contacts.fields = *scene.output.contact_fields;
+  const auto has_side = [&](const char* side) {
+    const auto& sides = scene.output.contact_sides;
+    return std::find(sides.begin(), sides.end(), side) != sides.end();
+  };
+  contacts.slave = has_side("slave");
+  contacts.master = has_side("master");
+  contacts.in_single = description_.in_single = scene.output.precision == scene::ResultsPrecision::single;
   description_.sets = resolve_output_sets(scene, assembly);
+  for (const scene::OutputWindow& window : scene.output_windows)
+    windows_.push_back(railwave::choice_of(window, description_));
 }
 
 ResultsSize ResultsFile::size(const AssembledScene& assembled, const StepSizes& sizes) const {
@@ -125,6 +177,11 @@ void ResultsFile::begin(const Model& model) {
   description_.step_size = model.step_size;
   for (const int set : model.history_sets)
     description_.history_positions.push_back(undeformed_position(model, model.ties, model, set));
+  for (std::size_t c = 0; c < description_.contacts.size(); ++c) {
+    const ContactPair& pair = model.contacts[c];
+    description_.contacts[c].slave_surface = surface_of(model, model.ties, pair.slave_nodes, pair.slave_facets);
+    description_.contacts[c].master_surface = surface_of(model, model.ties, pair.master_nodes, pair.master_segments);
+  }
   writing([&] { writer_ = std::make_unique<BackgroundWriter>(path_, description_, so_far_, request_stop); });
 }
 
@@ -148,11 +205,27 @@ void ResultsFile::writing(const Do& one) {
 }
 
 void ResultsFile::history(const Model&, const HistorySample& sample) {
-  writing([&] { writer_->history(sample); });
+  if (history_beams_.size() == sample.beams.size()) return writing([&] { writer_->history(sample); });
+  HistorySample chosen = sample;
+  chosen.beams.clear();
+  for (const int beam : history_beams_) chosen.beams.push_back(sample.beams[beam]);
+  writing([&] { writer_->history(chosen); });
 }
 
-void ResultsFile::fields(const Model& model, const HistorySample& sample) {
-  writing([&] { writer_->fields(ModelFields(model), sample.time, sample.step); });
+OutputChoice ResultsFile::choice_of(const DueFields& due) const {
+  if (due.all) return OutputChoice::all(description_.sets.size(), description_.contacts.size());
+  OutputChoice choice{std::vector<bool>(description_.sets.size()), std::vector<bool>(description_.contacts.size())};
+  for (std::size_t w = 0; w < windows_.size(); ++w) {
+    if (!due.windows[w]) continue;
+    for (std::size_t s = 0; s < choice.sets.size(); ++s) choice.sets[s] = choice.sets[s] || windows_[w].sets[s];
+    for (std::size_t c = 0; c < choice.contacts.size(); ++c)
+      choice.contacts[c] = choice.contacts[c] || windows_[w].contacts[c];
+  }
+  return choice;
+}
+
+void ResultsFile::fields(const Model& model, const HistorySample& sample, const DueFields& due) {
+  writing([&] { writer_->fields(ModelFields(model, contact_margin_), sample.time, sample.step, choice_of(due)); });
 }
 
 void ResultsFile::end(const Model& model, const RunSummary& summary) {

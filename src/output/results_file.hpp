@@ -40,7 +40,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
 
   void begin(const Model& model) override;
   void history(const Model& model, const HistorySample& sample) override;
-  void fields(const Model& model, const HistorySample& sample) override;
+  void fields(const Model& model, const HistorySample& sample, const DueFields& due) override;
   void end(const Model& model, const RunSummary& summary) override;
   void keep(RunState state) override;
   std::string trouble() override;
@@ -48,11 +48,16 @@ class ResultsFile : public RunObserver, public Checkpoints {
  private:
   template <class Do>
   void writing(const Do& one);
+  OutputChoice choice_of(const DueFields& due) const;
+
   std::optional<CheckpointFile> checkpoint_;
   bool keeps_end_ = false;
   std::optional<ResultsSoFar> so_far_;
   std::string path_;
   RunDescription description_;
+  std::optional<double> contact_margin_;
+  std::vector<int> history_beams_;     ///< of the scene's beams those of which section forces are written
+  std::vector<OutputChoice> windows_;  ///< what each of the scene's output windows writes
   std::unique_ptr<BackgroundWriter> writer_;
 };
 

@@ -7,35 +7,64 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <numeric>
 
 #include "case/error.hpp"
 #include "case/field_table.hpp"
 #include "case/memory.hpp"
+#include "mesh/hexahedron.hpp"
 #include "output/histories/history_values.hpp"
 
 namespace railwave {
 namespace {
 
-/// Values of each node of a contact surface at each output, see contact_section.cpp.
-constexpr double values_of_contact_node = 23;
+// m, along the rail and across it: a usual patch of wheel and rail.
+constexpr double usual_patch[2] = {0.015, 0.012};
 
-double values_of_output(const RunDescription& description, const Assembly& assembly) {
-  double values = 0;
-  for (const OutputSet& set : description.sets) {
-    if (set.is_beam()) values += 6.0 * static_cast<double>(set.elements.size());
-    for (const std::string& name : description.fields)
-      if (const FieldRow& row = field_named(name); set.has(row))
-        values += row.components * static_cast<double>(set.numbers(row).size());
+/// Of an output set at one output.
+double bytes_of(const OutputSet& set, const RunDescription& description) {
+  double bytes = set.is_beam() ? 6.0 * sizeof(double) * static_cast<double>(set.elements.size()) : 0;
+  for (const std::string& name : description.fields)
+    if (const FieldRow& row = field_named(name); set.has(row))
+      bytes += (description.in_single ? sizeof(float) : sizeof(double)) * row.components *
+               static_cast<double>(set.numbers(row).size());
+  return bytes;
+}
+
+/// Nodes of a surface that are written: about one a facet; near the contact as many as the fine facets have in the box
+/// around a usual patch.
+double nodes_written(const std::vector<Face>& facets, const Assembly& assembly, std::optional<double> margin) {
+  const auto count = static_cast<double>(facets.size());
+  if (!margin || facets.empty()) return count;
+  std::vector<double> areas;
+  for (const Face& face : facets) {
+    const auto corners = assembly.face_nodes(face);
+    areas.push_back(facet_area(assembly.nodes[corners[0]], assembly.nodes[corners[1]], assembly.nodes[corners[2]],
+                               assembly.nodes[corners[3]]));
   }
-  const auto add_surface = [&](const std::string& surface) {
-    if (const auto found = assembly.surfaces.find(surface); found != assembly.surfaces.end())
-      values += values_of_contact_node * static_cast<double>(found->second.size());  // about a node a facet
+  const auto fine = areas.begin() + static_cast<long>(areas.size() / 20);
+  std::nth_element(areas.begin(), fine, areas.end());
+  return std::fmin(count, (usual_patch[0] + 2 * *margin) * (usual_patch[1] + 2 * *margin) / std::fmax(*fine, 1e-12));
+}
+
+/// Of a contact at one output.
+double bytes_of(const ContactDescription& contact, const RunDescription& description, const Assembly& assembly,
+                std::optional<double> margin) {
+  const ContactOutput& output = description.contact_output;
+  double bytes = 0;
+  const auto add_surface = [&](const std::string& surface, bool slave) {
+    const auto found = assembly.surfaces.find(surface);
+    if (found == assembly.surfaces.end() || !output.has_side(slave)) return;
+    double of_node = output.near_only ? sizeof(int) : 0;
+    for (const ContactFieldRow& row : contact_field_table())
+      if (has_values(row, slave, contact.falling_friction) &&
+          std::find(output.fields.begin(), output.fields.end(), row.name) != output.fields.end())
+        of_node += (output.in_single ? sizeof(float) : sizeof(double)) * row.components;
+    bytes += of_node * nodes_written(found->second, assembly, margin);
   };
-  for (const ContactNames& contact : description.contacts) {
-    add_surface(contact.slave);
-    for (const std::string& master : contact.master) add_surface(master);
-  }
-  return values;
+  add_surface(contact.slave, true);
+  for (const std::string& master : contact.master) add_surface(master, false);
+  return bytes;
 }
 
 double components_of(const std::vector<const FieldRow*>& rows) {
@@ -74,11 +103,23 @@ ResultsSize results_size(const RunDescription& description, const AssembledScene
   const auto steps = static_cast<double>(sizes.step_count);
   const double end = assembled.scene.time.end;
   ResultsSize size;
+  std::vector<double> of_sets, of_contacts;
+  for (const OutputSet& set : description.sets) of_sets.push_back(bytes_of(set, description));
+  for (const ContactDescription& contact : description.contacts)
+    of_contacts.push_back(bytes_of(contact, description, assembled.assembly, output.contact_margin));
+  const double all = std::accumulate(of_sets.begin(), of_sets.end(), 0.0) +
+                     std::accumulate(of_contacts.begin(), of_contacts.end(), 0.0);
   size.field_outputs = output.field_interval > 0 ? times_of(sizes.output_times.fields, end, steps) : 2;
-  for (const scene::OutputWindow& window : output_windows)
-    size.field_outputs += times_of_window(window, end, sizes.step_size);
+  size.field_bytes = size.field_outputs * all;
+  for (const scene::OutputWindow& window : output_windows) {
+    const double times = times_of_window(window, end, sizes.step_size);
+    size.field_outputs += times;
+    for (std::size_t s = 0; s < of_sets.size(); ++s)
+      if (window.has_set(description.sets[s].name)) size.field_bytes += times * of_sets[s];
+    for (std::size_t c = 0; c < of_contacts.size(); ++c)
+      if (window.has_contact(description.contacts[c].name)) size.field_bytes += times * of_contacts[c];
+  }
   size.samples = times_of(sizes.output_times.history, end, steps);
-  size.field_bytes = 8 * size.field_outputs * values_of_output(description, assembled.assembly);
   size.history_bytes = 8 * size.samples * values_of_sample(description);
   return size;
 }

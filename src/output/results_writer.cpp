@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <iterator>
+#include <map>
 #include <random>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -23,6 +27,8 @@ namespace {
 
 constexpr std::size_t largest_history_block = 4096;
 constexpr std::chrono::seconds flush_interval{3};
+// Of outputs that follow each other fast so many are flushed each, then so many a second.
+constexpr double most_flushes = 20, flushes_a_second = 5;
 
 std::string now_in_utc() {
   const std::time_t now = std::time(nullptr);
@@ -79,8 +85,11 @@ std::string xdmf_path(const std::string& results_path) {
 ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far)
     : path_(std::move(path)),
       description_(std::move(description)),
-      xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields),
-      last_flush_(std::chrono::steady_clock::now()) {
+      xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields,
+            kinds::results_xdmf(), description_.in_single),
+      last_flush_(std::chrono::steady_clock::now()),
+      counted_(last_flush_),
+      flushes_left_(most_flushes) {
   check_results_place(path_);
   if (so_far)
     extend_file(*so_far);
@@ -90,7 +99,7 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
   root.set_attribute("completed", 0L);
   root.set_attribute("reason", "the run has not ended, or was killed");
   std::vector<std::string> contact_names;
-  for (const ContactNames& contact : description_.contacts) contact_names.push_back(contact.name);
+  for (const ContactDescription& contact : description_.contacts) contact_names.push_back(contact.name);
   history_ = std::make_unique<HistorySection>(
       root, contact_names, description_.history_sets, description_.beams, description_.history_positions,
       description_.loads, description_.history_askers, description_.history_motions, description_.element_histories);
@@ -117,22 +126,41 @@ void ResultsWriter::create_file() {
   root.set_attribute("key", description_.key);
 }
 
+void ResultsWriter::leave(const hdf5::Group& group, const std::string& name, hsize_t entries) const {
+  if (!group.has(name)) return;
+  const hdf5::Group cut = group.group(name);
+  if (const auto there = cut.least_entries(); there && *there < entries)
+    throw std::runtime_error(fmt::format("{} has {} entries in {}, the checkpoint counts {}: it is not whole", path_,
+                                         *there, name, entries));
+  cut.cut(entries);
+}
+
 void ResultsWriter::extend_file(const ResultsSoFar& so_far) {
   file_ = hdf5::File::extend(path_);
   const hdf5::Group root = file_.root();
   run_ = root.text_attribute("run");
-  const auto leave = [&](const char* name, long entries) {
-    if (!root.has(name)) return;
-    const hdf5::Group group = root.group(name);
-    const auto there = group.least_entries();
-    if (there && *there < static_cast<hsize_t>(entries))
-      throw std::runtime_error(fmt::format("{} has {} entries in /{}, the checkpoint counts {}: it is not whole", path_,
-                                           *there, name, entries));
-    group.cut(static_cast<hsize_t>(entries));
+  leave(root, "history", static_cast<hsize_t>(so_far.history_rows));
+  std::set<long> steps;  // of all outputs of fields
+  const auto each_section = [&](const auto& one) {
+    for (const char* kind : {"fields", "beams", "contact"})
+      if (root.has(kind))
+        for (const std::string& name : root.group(kind).names()) one(root.group(kind), name);
   };
-  leave("history", so_far.history_rows);
-  for (const char* name : {"fields", "beams", "contact"}) leave(name, so_far.field_outputs);
-  outputs_ = static_cast<std::size_t>(so_far.field_outputs);
+  each_section([&](const hdf5::Group& group, const std::string& name) {
+    const std::vector<long> own = group.group(name).dataset("step").read<long>();
+    steps.insert(own.begin(), own.end());
+  });
+  const auto counted = static_cast<std::size_t>(so_far.field_outputs);
+  if (!steps.empty() && steps.size() < counted)
+    throw std::runtime_error(fmt::format("{} has {} outputs of fields, the checkpoint counts {}: it is not whole",
+                                         path_, steps.size(), counted));
+  each_section([&](const hdf5::Group& group, const std::string& name) {
+    const std::vector<long> own = group.group(name).dataset("step").read<long>();
+    const auto beyond = counted < steps.size()
+                            ? std::lower_bound(own.begin(), own.end(), *std::next(steps.begin(), so_far.field_outputs))
+                            : own.end();
+    leave(group, name, static_cast<hsize_t>(beyond - own.begin()));
+  });
   in_place_ = true;
   root.set_attribute("end_time", description_.end_time);
   root.set_attribute("restarts",
@@ -145,64 +173,88 @@ void ResultsWriter::history(const HistorySample& sample) {
     flush();
 }
 
-void ResultsWriter::create_sections(const FieldSource& source) {
-  const hdf5::Group fields_group = file_.root().group("fields"), contacts_group = file_.root().group("contact");
-  for (const OutputSet& set : description_.sets) {
-    if (set.is_beam())
-      field_sections_.emplace_back(file_.root().group("beams"), set, description_.fields);
-    else
-      field_sections_.emplace_back(fields_group, set, description_.fields);
-  }
+void ResultsWriter::create_sections() {
+  const hdf5::Group root = file_.root();
+  for (const OutputSet& set : description_.sets)
+    field_sections_.emplace_back(root.group(set.is_beam() ? "beams" : "fields"), set, description_.fields,
+                                 description_.in_single);
+  const ContactOutput& output = description_.contact_output;
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
-    const ContactSection& section =
-        contact_sections_.emplace_back(contacts_group, source, static_cast<int>(i), description_.contact_margin);
-    const ContactNames& names = description_.contacts[i];
-    const hdf5::Group group = contacts_group.group(names.name);
-    group.group("slave").set_attribute("surface", names.slave);
-    const hdf5::Group master = group.group("master");
-    master.set_attribute("surface", names.master.text());
-    if (names.master.size() > 1) {
-      master.set_attribute("surfaces", names.master.list());
-      std::vector<int> surface_of_facet;
-      for (std::size_t k = 0; k < names.master_facets.size(); ++k)
-        surface_of_facet.insert(surface_of_facet.end(), names.master_facets[k], static_cast<int>(k));
-      master.write("surface_of_facet", surface_of_facet, {surface_of_facet.size()});
-    }
+    const ContactDescription& contact = description_.contacts[i];
+    contact_sections_.emplace_back(root.group("contact"), contact, static_cast<int>(i), output);
+    auto& sides = contact_sides_.emplace_back();
     for (const bool slave : {true, false})
-      contact_sides_.push_back({names.name, slave, section.node_count(slave), section.facet_count(slave)});
+      if (const ContactSurface& surface = slave ? contact.slave_surface : contact.master_surface;
+          output.has_side(slave) && !output.near_only)
+        sides.push_back({contact.name, slave, surface.nodes.size(), surface.facets.size(), output.fields});
   }
+  set_outputs_.assign(description_.sets.size(), 0);
+  contact_outputs_.assign(description_.contacts.size(), 0);
   has_sections_ = true;
-  if (outputs_ > 0) report_earlier_times();
+  report_earlier_times();
+}
+
+void ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
+  XdmfGrids grids;
+  for (std::size_t s = 0; s < choice.sets.size(); ++s)
+    if (choice.sets[s]) grids.sets.emplace_back(&description_.sets[s], set_outputs_[s]++);
+  for (std::size_t c = 0; c < choice.contacts.size(); ++c) {
+    if (!choice.contacts[c]) continue;
+    for (const XdmfContactSide& side : contact_sides_[c]) grids.sides.emplace_back(&side, contact_outputs_[c]);
+    ++contact_outputs_[c];
+  }
+  if (!grids.sets.empty() || !grids.sides.empty()) xdmf_.add(time, outputs_++, grids);
 }
 
 void ResultsWriter::report_earlier_times() {
-  if (description_.sets.empty() && contact_sides_.empty()) return;
-  const std::string group =
-      description_.sets.empty() ? "/contact/" + contact_sides_.front().contact : description_.sets.front().group();
-  const auto times = file_.root().dataset(group + "/time").read<double>();
-  for (std::size_t k = 0; k < outputs_; ++k) xdmf_.add(times.at(k), k, description_.sets, contact_sides_);
+  const hdf5::Group root = file_.root();
+  const OutputChoice none{std::vector<bool>(description_.sets.size()), std::vector<bool>(description_.contacts.size())};
+  std::map<long, Pending> outputs;  // by step
+  const auto add = [&](const hdf5::Group& group, auto choose) {
+    const auto steps = group.dataset("step").read<long>();
+    const auto times = group.dataset("time").read<double>();
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      Pending& output = outputs.emplace(steps.at(k), Pending{times[k], none}).first->second;
+      choose(output.choice);
+    }
+  };
+  for (std::size_t s = 0; s < description_.sets.size(); ++s)
+    add(root.group(description_.sets[s].is_beam() ? "beams" : "fields").group(description_.sets[s].name),
+        [&](OutputChoice& choice) { choice.sets[s] = true; });
+  for (std::size_t c = 0; c < description_.contacts.size(); ++c)
+    add(root.group("contact").group(description_.contacts[c].name),
+        [&](OutputChoice& choice) { choice.contacts[c] = true; });
+  for (const auto& [step, output] : outputs) add_to_xdmf(output.time, output.choice);
 }
 
-void ResultsWriter::fields(const FieldSource& source, double time, long step) {
-  if (!has_sections_) create_sections(source);
-  for (FieldSection& section : field_sections_) section.add_values(source, step);
-  for (ContactSection& section : contact_sections_) section.add_values(source, step);
-  flush(time);
-  if (!xdmf_.is_there()) {
-    xdmf_.begin_anew();
-    report_earlier_times();
-  }
-  if (!description_.sets.empty() || !contact_sides_.empty())
-    xdmf_.add(time, outputs_, description_.sets, contact_sides_);
-  ++outputs_;
+void ResultsWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice) {
+  if (!has_sections_) create_sections();
+  for (std::size_t s = 0; s < field_sections_.size(); ++s)
+    if (choice.sets[s]) field_sections_[s].add_values(source, step);
+  for (std::size_t c = 0; c < contact_sections_.size(); ++c)
+    if (choice.contacts[c]) contact_sections_[c].add_values(source, step);
+  pending_.push_back({time, choice});
+  if (flush_is_due()) flush();
 }
 
-void ResultsWriter::flush(std::optional<double> time) {
+bool ResultsWriter::flush_is_due() {
+  const auto now = std::chrono::steady_clock::now();
+  flushes_left_ =
+      std::fmin(most_flushes, flushes_left_ + flushes_a_second * std::chrono::duration<double>(now - counted_).count());
+  counted_ = now;
+  if (flushes_left_ < 1) return false;
+  --flushes_left_;
+  return true;
+}
+
+void ResultsWriter::flush() {
   if (const std::string done = file_.keep_name(); !done.empty()) report_at_once(done);
   history_->write();
-  if (time) {
-    for (FieldSection& section : field_sections_) section.add_time(*time);
-    for (ContactSection& section : contact_sections_) section.add_time(*time);
+  for (const Pending& output : pending_) {
+    for (std::size_t s = 0; s < field_sections_.size(); ++s)
+      if (output.choice.sets[s]) field_sections_[s].add_time(output.time);
+    for (std::size_t c = 0; c < contact_sections_.size(); ++c)
+      if (output.choice.contacts[c]) contact_sections_[c].add_time(output.time);
   }
   file_.flush();
   if (!in_place_) {
@@ -211,6 +263,16 @@ void ResultsWriter::flush(std::optional<double> time) {
                kinds::results_xdmf());  // an older run's, which would name arrays that are no longer there
     in_place_ = true;
   }
+  if (!pending_.empty() && !xdmf_.is_there()) {
+    xdmf_.begin_anew();
+    outputs_ = 0;
+    set_outputs_.assign(set_outputs_.size(), 0);
+    contact_outputs_.assign(contact_outputs_.size(), 0);
+    report_earlier_times();  // these among them
+  } else {
+    for (const Pending& output : pending_) add_to_xdmf(output.time, output.choice);
+  }
+  pending_.clear();
   last_flush_ = std::chrono::steady_clock::now();
 }
 

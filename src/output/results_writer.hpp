@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "case/surface_names.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/fields/contact_section.hpp"
 #include "output/fields/field_section.hpp"
@@ -15,13 +14,6 @@
 #include "output/histories/history_section.hpp"
 
 namespace railwave {
-
-/// A contact pair's name and those of its surfaces.
-struct ContactNames {
-  std::string name, slave;
-  scene::SurfaceNames master;
-  std::vector<int> master_facets = {};  ///< how many each of the masters has, in their order
-};
 
 /// What a results file says of the run as a whole.
 struct RunDescription {
@@ -33,7 +25,7 @@ struct RunDescription {
   double end_time = 0;    ///< s, asked for
   long node_count = 0;
   long element_count = 0;
-  std::vector<ContactNames> contacts;
+  std::vector<ContactDescription> contacts;
   std::vector<std::string> history_sets;  ///< those whose motion is written
   std::vector<std::vector<const FieldRow*>>
       history_motions;                  ///< of each of these: which quantities of nodes; or none: all
@@ -45,8 +37,9 @@ struct RunDescription {
   std::vector<LoadNames> loads;
   std::vector<std::string> fields;  ///< names of case/field_table.hpp
   std::vector<OutputSet> sets;
-  std::optional<double> contact_margin = {};  ///< m, see scene::Output
-  std::string key;                            ///< checkpoint_key(); empty: not known
+  ContactOutput contact_output;
+  bool in_single = false;  ///< precision of the fields
+  std::string key;         ///< checkpoint_key(); empty: not known
 };
 
 /// How much of a results file is there already where a run goes on.
@@ -58,9 +51,10 @@ struct ResultsSoFar {
 /// no model.
 ///
 /// Nothing computed gets lost: the file is made as PATH.new and takes the place of an older PATH only when the run has
-/// brought its first data; it is flushed after each output of fields and every few seconds, each time wholly or not at
-/// all, so a killed run leaves a readable file. Where somebody removes or moves it meanwhile it gets its name again.
-/// Throws std::runtime_error when the disk refuses; what was flushed before is there then.
+/// brought its first data; it is flushed after each output of fields, of those that follow each other fast after
+/// some each second, and every few seconds, each time wholly or not at all, so a killed run leaves a readable file.
+/// Where somebody removes or moves it meanwhile it gets its name again. Throws std::runtime_error when the disk
+/// refuses; what was flushed before is there then.
 class ResultsWriter {
  public:
   /// Throws InputError where check_results_place() does.
@@ -71,7 +65,11 @@ class ResultsWriter {
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
   void history(const HistorySample& sample);
-  void fields(const FieldSource& source, double time, long step);
+  /// @param choice of the sets and contacts that are written
+  void fields(const FieldSource& source, double time, long step, const OutputChoice& choice);
+  void fields(const FieldSource& source, double time, long step) {
+    fields(source, time, step, OutputChoice::all(description_.sets.size(), description_.contacts.size()));
+  }
   void end(const RunSummary& summary);
 
   /// Brings all results so far to the disk. A checkpoint that counts them comes after that.
@@ -84,12 +82,21 @@ class ResultsWriter {
  private:
   void create_file();
   void extend_file(const ResultsSoFar& so_far);
-  void create_sections(const FieldSource& source);
+  /// So many entries of a group; throws where there are fewer.
+  void leave(const hdf5::Group& group, const std::string& name, hsize_t entries) const;
+  void create_sections();
   void report_earlier_times();
+  void add_to_xdmf(double time, const OutputChoice& choice);
 
-  /// Writes the waiting history and brings everything to the disk. `time` is that of the fields added since the last
-  /// flush, if any. A kill leaves all of it or nothing.
-  void flush(std::optional<double> time = {});
+  /// Writes the waiting history and brings everything to the disk. A kill leaves all of it or nothing.
+  void flush();
+  bool flush_is_due();
+
+  /// An output whose values are written, but not its time.
+  struct Pending {
+    double time;
+    OutputChoice choice;
+  };
 
   std::string path_;
   const RunDescription description_;
@@ -97,13 +104,17 @@ class ResultsWriter {
   std::unique_ptr<HistorySection> history_;
   std::vector<FieldSection> field_sections_;
   std::vector<ContactSection> contact_sections_;
-  std::vector<XdmfContactSide> contact_sides_;
+  std::vector<std::vector<XdmfContactSide>> contact_sides_;  ///< of each contact those that the XDMF file shows
+  std::vector<Pending> pending_;
   XdmfFile xdmf_;
-  std::size_t outputs_ = 0;
+  std::size_t outputs_ = 0;                                 ///< in the XDMF file
+  std::vector<std::size_t> set_outputs_, contact_outputs_;  ///< likewise of each
   bool has_sections_ = false;
   std::string run_;        ///< a name of this run's own
   bool in_place_ = false;  ///< whether the file has taken its own name
   std::chrono::steady_clock::time_point last_flush_;
+  std::chrono::steady_clock::time_point counted_;  ///< when `flushes_left_` was
+  double flushes_left_;
 };
 
 /// Throws InputError unless a results file can be made there: no such folder, not writable, or another run writes it

@@ -1,12 +1,17 @@
 #include "post/contact_command.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <set>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/suggest.hpp"
 #include "post/contact_file.hpp"
+#include "post/contact_reader.hpp"
 #include "post/contact_tables.hpp"
 #include "post/own_file.hpp"
 #include "post/patch_ways.hpp"
@@ -69,7 +74,7 @@ void print_row(std::ostream& out, const Table& t, std::size_t row) {
       value("creep_force", 1e-3), value("lateral_force", 1e-3), value("traction_coefficient"),
       number_or_dash(value("centre_x", 1e3), 3), number_or_dash(value("centre_y", 1e3), 3),
       value("semi_axis_along", 1e3), value("semi_axis_across", 1e3), value("slipping_by_force"),
-      value("slipping_by_velocity"), value("slipping_by_solver"),
+      value("slipping_by_velocity"), number_or_dash(value("slipping_by_solver"), 0),
       number_or_dash(value("agreement_force_velocity", 100), 1), number_or_dash(value("longitudinal_creepage", 100), 4),
       number_or_dash(value("lateral_creepage", 100), 4), number_or_dash(value("spin_creepage"), 3));
 }
@@ -91,7 +96,81 @@ void print(std::ostream& out, const Table& patches) {
                        smallest_patch);
 }
 
-ContactTables solve(const ResultsReader& results, const std::string& contact, const ContactRequest& request) {
+/// Contacts that are one contact solution.
+struct Solution {
+  std::string name;
+  std::vector<std::string> contacts;
+};
+
+/// The contacts of the file, those that the request names together at the place of the first of them.
+std::vector<Solution> wanted_solutions(const std::vector<std::string>& contacts, const ContactRequest& request) {
+  std::vector<Solution> solutions;
+  std::set<std::string> taken;
+  for (const std::string& list : request.together) {
+    Solution solution;
+    std::stringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+      if (std::find(contacts.begin(), contacts.end(), name) == contacts.end())
+        throw InputError(
+            fmt::format("--together {}: there is no contact '{}'; {}", list, name, suggestion(name, contacts)));
+      if (!taken.insert(name).second)
+        throw InputError(
+            fmt::format("--together {}: '{}' is named twice; each contact is of one solution", list, name));
+      solution.contacts.push_back(name);
+      solution.name += (solution.name.empty() ? "" : "+") + name;
+    }
+    if (solution.contacts.size() < 2)
+      throw InputError(
+          fmt::format("--together {}: two or more contacts are wanted, e.g. --together tread,tread_2", list));
+    solutions.push_back(solution);
+  }
+  for (const std::string& contact : contacts)
+    if (taken.count(contact) == 0) solutions.push_back({contact, {contact}});
+  std::sort(solutions.begin(), solutions.end(), [](const Solution& a, const Solution& b) { return a.name < b.name; });
+  return solutions;
+}
+
+/// Reads the states of the contacts of a solution, as that of one.
+class StatesTogether {
+ public:
+  StatesTogether(const ResultsReader& results, const std::vector<std::string>& contacts) {
+    for (const std::string& contact : contacts) {
+      readers_.emplace_back(results, contact);
+      const std::vector<double>& own = readers_.back().times();
+      if (contact == contacts.front()) times_ = own;
+      const std::size_t both = std::min(own.size(), times_.size());  // a killed run may have written one more of one
+      if (!std::equal(own.begin(), own.begin() + static_cast<long>(both), times_.begin()))
+        throw InputError(
+            fmt::format("contacts {} and {} have outputs at different times: those that are together want "
+                        "the same windows of output",
+                        contacts.front(), contact));
+      times_.resize(both);
+    }
+  }
+  const std::vector<double>& times() const { return times_; }
+  ContactState state(std::size_t index) const {
+    if (readers_.size() == 1) return readers_.front().state(index);
+    std::vector<ContactState> states;
+    for (const ContactReader& reader : readers_) states.push_back(reader.state(index));
+    return contacts_together(states);
+  }
+
+ private:
+  std::vector<ContactReader> readers_;
+  std::vector<double> times_;
+};
+
+/// Names of the slave surfaces, each once, joined by ", ".
+std::string slave_surfaces(const ResultsReader& results, const Solution& solution) {
+  std::string text;
+  std::set<std::string> named;
+  for (const std::string& contact : solution.contacts)
+    if (const std::string surface = results.slave_surface(contact); named.insert(surface).second)
+      text += (text.empty() ? "" : ", ") + surface;
+  return text;
+}
+
+ContactTables solve(const ResultsReader& results, const Solution& wanted, const ContactRequest& request) {
   ContactTables tables;
   tables.with_nodes = request.nodes.has_value();
   tables.with_facets = request.hdf5.has_value();
@@ -102,17 +181,18 @@ ContactTables solve(const ResultsReader& results, const std::string& contact, co
 
   PatchWays ways(options.rolling);
   std::vector<double> chosen;
-  const std::vector<double> times = results.contact_times(contact);
+  const StatesTogether reader(results, wanted.contacts);
+  const std::vector<double>& times = reader.times();
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < request.from || times[i] > request.to) continue;
-    const ContactState state = results.contact_state(contact, i);
+    const ContactState state = reader.state(i);
     const ContactSolution solution = contact_solution(state, options);
     tables.add(times[i], state, solution, ways.add(times[i], solution));
     chosen.push_back(times[i]);
   }
   if (chosen.empty() && !times.empty())
-    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", contact,
-                                 request.from, request.to, times.front(), times.back()));
+    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s",
+                                 wanted.name, request.from, request.to, times.front(), times.back()));
   if (request.rolling_velocity) {
     tables.set_rolling_velocity(*request.rolling_velocity);
   } else if (request.axle) {
@@ -137,9 +217,11 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
   }
   if (!results.completed()) out << "note: this run did not complete: " << results.reason() << '\n';
   std::vector<std::pair<std::string, ContactTables>> solved;
-  for (const std::string& contact : contacts) {
-    solved.emplace_back(contact, solve(results, contact, request));
-    out << fmt::format("contact {}, forces on {}\n", contact, results.slave_surface(contact));
+  std::vector<std::string> surfaces;
+  for (const Solution& solution : wanted_solutions(contacts, request)) {
+    solved.emplace_back(solution.name, solve(results, solution, request));
+    surfaces.push_back(slave_surfaces(results, solution));
+    out << fmt::format("contact {}, forces on {}\n", solution.name, surfaces.back());
     print(out, solved.back().second.patches);
   }
   const auto csv = [&](Table ContactTables::*table) {
@@ -150,7 +232,7 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
   if (request.csv) write_table(*request.csv, csv(&ContactTables::patches), patch_table_kind());
   if (request.nodes) write_table(*request.nodes, csv(&ContactTables::nodes), node_table_kind());
   if (request.cuts) write_table(*request.cuts, csv(&ContactTables::cuts), cut_table_kind());
-  if (request.hdf5) write_contact_file(*request.hdf5, results, solved);
+  if (request.hdf5) write_contact_file(*request.hdf5, results, solved, surfaces);
   return 0;
 }
 

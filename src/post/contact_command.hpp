@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "post/rigid_slip.hpp"
 
@@ -12,9 +13,10 @@ namespace railwave {
 
 /// What `railwave contact` is asked for.
 struct ContactRequest {
-  std::string results;                                     ///< results file of a run
-  std::optional<std::string> csv, nodes, cuts, hdf5;       ///< files to write
-  bool overwrite = false;                                  ///< files of others too
+  std::string results;                                ///< results file of a run
+  std::optional<std::string> csv, nodes, cuts, hdf5;  ///< files to write
+  bool overwrite = false;                             ///< files of others too
+  std::vector<std::string> together;  ///< names of contacts, with commas, that are one contact solution; may be several
   double from = -std::numeric_limits<double>::infinity();  ///< s: output times before are left out
   double to = std::numeric_limits<double>::infinity();
   std::array<double, 3> rolling_direction{1, 0, 0};

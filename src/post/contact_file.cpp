@@ -26,9 +26,8 @@ void fill(const hdf5::Group& root, const std::vector<std::pair<std::string, Cont
 FileKind contact_file_kind() { return format.kind(); }
 
 void write_contact_file(const std::string& path, const ResultsReader& results,
-                        const std::vector<std::pair<std::string, ContactTables>>& contacts) {
-  std::vector<std::string> surfaces;  // read before anything is made: a damaged file may end this process
-  for (const auto& [name, tables] : contacts) surfaces.push_back(results.slave_surface(name));
+                        const std::vector<std::pair<std::string, ContactTables>>& contacts,
+                        const std::vector<std::string>& surfaces) {
   write_own_file(path, format, results, [&](const hdf5::Group& root) { fill(root, contacts, surfaces); });
 }
 

@@ -50,10 +50,25 @@ void find_facet_stress(const ContactSide& slave, const std::vector<double>& pres
   }
 }
 
+/// Relative motion of the nodes. Where the results lack the motion of one of the surfaces, the run's own slip velocity
+/// of touching nodes stands for it, and how fast they part is not known.
+std::vector<RelativeMotion> motion_of(const ContactSurfaces& surfaces, const std::vector<int>& nodes) {
+  const ContactState& state = surfaces.state;
+  if (!state.slave.velocity.empty() && !state.master.velocity.empty())
+    return relative_motion(state.slave, nodes, state.master, surfaces.master);
+  std::vector<RelativeMotion> motions(nodes.size());
+  if (state.slip_velocity.empty()) return motions;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (surfaces.touching.has(nodes[i]))
+      motions[i] = {true, entry(state.slip_velocity, nodes[i]), std::numeric_limits<double>::quiet_NaN()};
+  return motions;
+}
+
 void find_slip(const ContactSurfaces& surfaces, ContactPatch& patch) {
   const ContactState& state = surfaces.state;
-  patch.motion = relative_motion(state.slave, patch.surroundings, state.master, surfaces.master);
+  patch.motion = motion_of(surfaces, patch.surroundings);
   std::vector<double> micro_slip;
+  if (state.slip_velocity.empty()) patch.slip_difference = std::numeric_limits<double>::quiet_NaN();
   for (const int node : patch.touching) {
     const auto place =
         std::lower_bound(patch.surroundings.begin(), patch.surroundings.end(), node) - patch.surroundings.begin();
@@ -61,7 +76,8 @@ void find_slip(const ContactSurfaces& surfaces, ContactPatch& patch) {
     micro_slip.push_back(motion.known ? motion.slip.norm() : std::numeric_limits<double>::quiet_NaN());
     if (!motion.known) continue;
     patch.peak_micro_slip = std::max(patch.peak_micro_slip, motion.slip.norm());
-    patch.slip_difference = std::max(patch.slip_difference, (motion.slip - entry(state.slip_velocity, node)).norm());
+    if (!state.slip_velocity.empty())
+      patch.slip_difference = std::max(patch.slip_difference, (motion.slip - entry(state.slip_velocity, node)).norm());
   }
   patch.regions = slip_regions(state, patch.touching, micro_slip);
 }

@@ -32,7 +32,8 @@ struct ContactPatch {
   double creep_force = 0;           ///< N, longitudinal
   double lateral_force = 0;         ///< N
   double traction_coefficient = 0;  ///< tangential over normal force
-  double slip_difference = 0;       ///< m/s, largest distance of the micro-slip found here from the run's own
+  double slip_difference = 0;       ///< m/s, largest distance of the micro-slip found here from the run's own; NaN: the
+                                    ///< results do not have that
   RigidSlip rigid_slip;
 
   /// Fewer nodes than that: such as chatter leaves at an edge, or a mesh too coarse for the contact.

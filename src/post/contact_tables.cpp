@@ -158,6 +158,7 @@ void ContactTables::add_patch(double time, int number, const ContactSolution& so
   const bool creeps = touches && s.known && (number > 0 || large == 1 || solution.patches.size() == 1);
   const auto if_creeps = [&](double value) { return creeps ? value : unknown; };
   const auto if_touches = [&](double value) { return touches ? value : unknown; };
+  const auto if_told = [&](double value) { return r.by_solver.size() == p.touching.size() ? value : unknown; };
   patches.add_row({time,
                    static_cast<double>(number),
                    static_cast<double>(p.touching.size()),
@@ -188,10 +189,10 @@ void ContactTables::add_patch(double time, int number, const ContactSolution& so
                    p.ellipse.turn,
                    static_cast<double>(count_of(r.by_force)),
                    static_cast<double>(count_of(r.by_velocity)),
-                   static_cast<double>(count_of(r.by_solver)),
+                   if_told(count_of(r.by_solver)),
                    if_touches(agreement(r.by_force, r.by_velocity)),
-                   if_touches(agreement(r.by_force, r.by_solver)),
-                   if_touches(agreement(r.by_velocity, r.by_solver)),
+                   if_touches(if_told(agreement(r.by_force, r.by_solver))),
+                   if_touches(if_told(agreement(r.by_velocity, r.by_solver))),
                    p.peak_micro_slip,
                    p.slip_difference,
                    number == 0 ? solution.stray_nodes : 0.0,
@@ -251,7 +252,8 @@ void ContactTables::add_nodes(double time, int number, const ContactState& state
     const Vector position = entry(slave.position, node), place = patch.frame.place(position);
     const RelativeMotion& motion = patch.motion[i];
     const Vector slip = patch.frame.components(motion.slip),
-                 run = patch.frame.components(entry(state.slip_velocity, node));
+                 run = state.slip_velocity.empty() ? Vector(Vector::Constant(unknown))
+                                                   : patch.frame.components(entry(state.slip_velocity, node));
     const double area = slave.area[node];
     const Vector shear =
         touches ? Vector(patch.frame.components(entry(slave.tangential_force, node)) / area) : Vector(Vector::Zero());
@@ -268,7 +270,7 @@ void ContactTables::add_nodes(double time, int number, const ContactState& state
                    place[2],
                    area,
                    touches ? 1.0 : 0.0,
-                   state.gap[node],
+                   state.gap.empty() ? unknown : state.gap[node],
                    touches ? patch.pressure[t] : 0,
                    bound,
                    shear[0],
@@ -280,7 +282,9 @@ void ContactTables::add_nodes(double time, int number, const ContactState& state
                    run[1],
                    touches && patch.regions.by_force[t] ? 1.0 : 0.0,
                    touches && patch.regions.by_velocity[t] ? 1.0 : 0.0,
-                   touches && patch.regions.by_solver[t] ? 1.0 : 0.0});
+                   patch.regions.by_solver.empty()         ? unknown
+                   : touches && patch.regions.by_solver[t] ? 1.0
+                                                           : 0.0});
   }
 }
 

@@ -47,7 +47,7 @@ SlipRegions slip_regions(const ContactState& state, const std::vector<int>& node
     // Not below: without friction both sides are zero, and the node slips.
     regions.by_force.push_back(bound - entry(slave.tangential_force, node).norm() <= slip_force_tolerance * largest);
     regions.by_velocity.push_back(micro_slip[i] > slip_velocity_tolerance);
-    regions.by_solver.push_back(state.slipping[node] == 2);
+    if (!state.slipping.empty()) regions.by_solver.push_back(state.slipping[node] == 2);
   }
   return regions;
 }
@@ -55,7 +55,7 @@ SlipRegions slip_regions(const ContactState& state, const std::vector<int>& node
 int count_of(const std::vector<bool>& marks) { return static_cast<int>(std::count(marks.begin(), marks.end(), true)); }
 
 double agreement(const std::vector<bool>& one, const std::vector<bool>& other) {
-  if (one.empty()) return 1;
+  if (one.empty() || other.size() != one.size()) return 1;
   int same = 0;
   for (std::size_t i = 0; i < one.size(); ++i) same += one[i] == other[i];
   return static_cast<double>(same) / static_cast<double>(one.size());

@@ -27,7 +27,7 @@ inline constexpr double slip_velocity_tolerance = 0.05;  ///< m/s, thesis 3.4.3
 struct SlipRegions {
   std::vector<bool> by_force;     ///< mu F_n - F_t below 0.3 % of the largest tangential force of the nodes (eq. 3.6)
   std::vector<bool> by_velocity;  ///< micro-slip above 0.05 m/s (eq. 3.6)
-  std::vector<bool> by_solver;    ///< the stick trial failed in the run
+  std::vector<bool> by_solver;    ///< the stick trial failed in the run; empty: the results do not say
 };
 
 /// @param nodes      of the slave surface, in contact
@@ -37,7 +37,7 @@ SlipRegions slip_regions(const ContactState& state, const std::vector<int>& node
 
 int count_of(const std::vector<bool>& marks);
 
-/// Share of the nodes on which two ways of telling agree; 1 without nodes.
+/// Share of the nodes on which two ways of telling agree; 1 without nodes, or where one does not tell.
 double agreement(const std::vector<bool>& one, const std::vector<bool>& other);
 
 }  // namespace railwave

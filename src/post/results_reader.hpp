@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "case/error.hpp"
-#include "model/fields.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 
-/// Reads what the contacts did from a results file, also from one whose run was killed.
+/// Reads a results file, also one whose run was killed.
 class ResultsReader {
  public:
   /// Throws InputError saying what is wrong: no such file, no HDF5 file, cut short, not Railwave's, of a newer
@@ -43,8 +42,8 @@ class ResultsReader {
   /// Name of its slave surface in the case.
   std::string slave_surface(const std::string& contact) const;
 
-  /// Output times that are there in full, s.
-  std::vector<double> contact_times(const std::string& contact) const;
+  /// Its group in the file; see ContactReader.
+  hdf5::Group contact_group(const std::string& contact) const;
 
   /// Velocity of one of the run's history sets, m/s, at each of `times`, between two samples in proportion. Throws
   /// InputError if there is no such set.
@@ -52,9 +51,6 @@ class ResultsReader {
 
   /// Group /history. Throws InputError if there is none.
   hdf5::Group history() const;
-
-  /// State number `index` of contact_times(). Throws InputError if the file lacks a part of it.
-  ContactState contact_state(const std::string& contact, std::size_t index) const;
 
  private:
   std::string path_, title_;

@@ -71,6 +71,7 @@ RigidMotion fit_rigid_motion(const ContactSide& side, const std::vector<int>& no
 
 std::vector<int> nodes_in_ring(const ContactSide& side, const Vector& centre, double inner, double outer) {
   std::vector<int> nodes;
+  if (side.velocity.empty()) return nodes;  // the results do not have it
   for (std::size_t i = 0; i < side.nodes.size(); ++i) {
     const double distance = (entry(side.position, i) - centre).norm();
     if (distance >= inner && distance <= outer) nodes.push_back(static_cast<int>(i));

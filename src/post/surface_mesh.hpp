@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "model/fields.hpp"
+#include "model/contact/contact_state.hpp"
 
 namespace railwave {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,14 @@ struct HistorySample {
   std::vector<LoadTotals> loads;        ///< one for each of the scene's loads
 };
 
+/// Who asks for an output of fields.
+struct DueFields {
+  bool all = false;           ///< output.field_interval, or it is the last one
+  std::vector<bool> windows;  ///< each of the scene's output windows
+
+  bool any() const { return all || std::find(windows.begin(), windows.end(), true) != windows.end(); }
+};
+
 /// Energies of one part's elements, J.
 struct PartEnergy {
   double internal = 0;  ///< elastic, and the work of plastic flow
@@ -88,7 +97,7 @@ class RunObserver {
   virtual void settled(const Model& /*model*/, const SettleReport& /*report*/) {}
   virtual void history(const Model& /*model*/, const HistorySample& /*sample*/) {}
   /// The model stands at `sample.time`; fields are fetched by the functions of model/fields.hpp.
-  virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/, const DueFields& /*due*/) {}
   /// At every history sample, and at checks of the monitor, where histories are rarer.
   virtual void progress(const Model& /*model*/, const HistorySample& /*sample*/) {}
   /// Once for each kind of thing that the monitor warns of, when it is first seen; again if it becomes fatal.

@@ -8,6 +8,7 @@
 
 #include "model/nodal_state.hpp"
 #include "model/time_step/step_sizes.hpp"
+#include "solve/observer.hpp"
 #include "solve/step_control.hpp"
 
 namespace railwave {
@@ -27,9 +28,11 @@ class OutputSchedule {
 
   bool last() const { return nodal_.step == sizes_.step_count; }
   bool history() const { return history_.due(nodal_.step) || last(); }
-  bool fields() const {
-    return fields_.due(nodal_.step) || last() ||
-           std::any_of(windows_.begin(), windows_.end(), [this](const Window& window) { return due(window); });
+  DueFields fields() const {
+    DueFields due_now;
+    due_now.all = fields_.due(nodal_.step) || last();
+    for (const Window& window : windows_) due_now.windows.push_back(due(window));
+    return due_now;
   }
 
   /// @param from s, the step size before

@@ -163,13 +163,23 @@ class TimeLoop {
     instant_.step = model_.step_size;
     // A run that goes on with a model that has run before begins at a later step.
     first_ = !keeping_.from && model_.step == summary_.first_step;
-    output_due_ = memory_.due.history() || memory_.due.fields() || stopping_;
+    fields_due_ = memory_.due.fields();
+    output_due_ = memory_.due.history() || fields_due_.any() || stopping_;
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
+    only_fields_ = fields_due_.any() && !memory_.due.history() && !stopping_ && !first_ && !monitor_due;
     if (sampled_ && !output_due_) monitor_timing_.begin();
   }
 
   void monitor_and_output() {
+    if (only_fields_) {  // energies and sums of forces are nobody's then, and take longer than the fields
+      HistorySample sample;
+      sample.time = model_.time;
+      sample.step = model_.step;
+      for (RunObserver* observer : observers_) observer->fields(model_, sample, fields_due_);
+      ++memory_.field_outputs;
+      return;
+    }
     HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(model_, model_.step_size,
                                                                             memory_.monitor.part_energies(model_.step));
     if (first_) memory_.total_at_start = balance_total(sample.energy);
@@ -198,11 +208,14 @@ class TimeLoop {
     const bool last_chance = stopping_ || summary_.fault;
     for (RunObserver* observer : observers_) {
       if (memory_.due.history() || last_chance) observer->history(model_, sample);
-      if (memory_.due.fields() || last_chance) observer->fields(model_, sample);
+      if (fields_due_.any())
+        observer->fields(model_, sample, fields_due_);
+      else if (last_chance)
+        observer->fields(model_, sample, {true, {}});
       observer->progress(model_, sample);
     }
     if (memory_.due.history()) ++memory_.history_rows;
-    if (memory_.due.fields()) ++memory_.field_outputs;
+    if (fields_due_.any()) ++memory_.field_outputs;
   }
 
   bool ends() {
@@ -247,10 +260,12 @@ class TimeLoop {
   RunSummary summary_;
   MonitorTiming monitor_timing_;
   Instant instant_;
-  bool first_ = false;       ///< of all steps of the run, not of one that goes on from a checkpoint
-  bool stopping_ = false;    ///< after this step
-  bool output_due_ = false;  ///< histories or fields
-  bool sampled_ = false;     ///< the instant's forces and energies are sampled
+  bool first_ = false;     ///< of all steps of the run, not of one that goes on from a checkpoint
+  bool stopping_ = false;  ///< after this step
+  DueFields fields_due_;
+  bool output_due_ = false;   ///< histories or fields
+  bool only_fields_ = false;  ///< and nothing else of a sampled instant
+  bool sampled_ = false;      ///< the instant's forces and energies are sampled
 };
 
 }  // namespace

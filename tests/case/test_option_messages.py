@@ -28,6 +28,7 @@ WORDS = {
     "--set",
     "--part",
     "--axle",
+    "--together",
     "--input",
     "--response",
     "--quantity",

@@ -53,7 +53,12 @@ class Source : public FieldSource {
                                     : scale * (number + (row.of_nodes() ? 0.25 : 0.1) * c + 1000 * time_));
     return result;
   }
-  ContactState contact(int) const override { return hertz_contact_state(hertz(time_), {}, HertzForces::sampled); }
+  ContactState contact(int) const override {
+    ContactState state = hertz_contact_state(hertz(time_), {}, HertzForces::sampled);
+    for (ContactSide* side : {&state.slave, &state.master})
+      side->displacement = Source::field(field_named("displacement"), side->nodes).values;
+    return state;
+  }
 
   /// The patch rolls along x at 10 m/s and grows while the load comes on.
   static HertzContact hertz(double time) {
@@ -70,6 +75,13 @@ class Source : public FieldSource {
   double time_;
 };
 
+/// Of positions and displacements at the time 0.
+inline ContactSurface surface_of(const ContactSide& side) {
+  ContactSurface surface{side.nodes, side.facets, side.position};
+  for (std::size_t i = 0; i < side.displacement.size(); ++i) surface.coordinates[i] -= side.displacement[i];
+  return surface;
+}
+
 inline RunDescription description() {
   scene::Scene scene;
   scene.path = "made-up.toml";
@@ -84,7 +96,12 @@ inline RunDescription description() {
   const Assembly assembly = block();
   result.node_count = static_cast<long>(assembly.nodes.size());
   result.element_count = static_cast<long>(assembly.elements.size());
-  result.contacts = {{"tread", "wheel.tread", "rail.head"}};
+  const ContactState contact = Source(0).contact(0);
+  ContactDescription tread{"tread", "wheel.tread", "rail.head"};
+  tread.friction = contact.friction;
+  tread.slave_surface = surface_of(contact.slave);
+  tread.master_surface = surface_of(contact.master);
+  result.contacts = {tread};
   result.history_sets = {"block.corner", "sprung_mass"};
   result.history_askers = {"probe corner", ""};
   result.loads = {{"blow", "block.corner", false, true, {0, 0, -1}}, {"drive", "wheel.bore", true, false, {0, 1, 0}}};

@@ -226,8 +226,8 @@ TEST_CASE("an output is fetched before the call returns, each field once") {
 TEST_CASE("a snapshot has what was selected, and says so of the rest") {
   const RunDescription run = made_up::description();
   const made_up::Source source(2e-4);
-  const auto selection =
-      std::make_shared<const FieldSelection>(select_fields({run.sets[1]}, {"velocity", "stress"}, 0, source));
+  const auto selection = std::make_shared<const FieldSelection>(
+      select_fields({run.sets[1]}, {"velocity", "stress"}, OutputChoice::all(1, 0)));
   const FieldSnapshot snapshot(source, selection);
   const std::vector<int> some{7, 0, 7, 11};
   const FieldRow &stress = field_named("stress"), &velocity = field_named("velocity");

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Contact surfaces that are written near the contact only: what `railwave contact` makes of them is what it makes of
-the whole surfaces, nothing that presses is left out, and pictures are drawn."""
+"""Contact surfaces that are written near the contact only, and some of their fields: what `railwave contact` makes of
+them is what it makes of the whole surfaces, nothing that presses is left out, and pictures are drawn."""
 
+import csv
 import os
 import pathlib
 import subprocess
@@ -47,32 +48,59 @@ field_interval = 7e-5
 """
 
 
+CASES = {
+    "whole": "",
+    "near": f"contact_margin = {MARGIN}\n",
+    "few": (
+        'contact_margin = 0.011\ncontact_sides = ["slave"]\nprecision = "single"\n'
+        'contact_fields = ["displacement", "normal_force", "tangential_force", "slip_velocity", "slipping"]\n'
+    ),
+    "no_forces": 'contact_fields = ["pressure"]\n',
+}
+ZERO = ("normal_force", "tangential_force", "pressure", "shear", "slipping")
+
+
+def values_at(side, name, output):
+    """A field of a side that has the nodes near the contact only: which nodes, and their values."""
+    rows = side["rows"]
+    first, last = (rows[output - 1] if output else 0), rows[output]
+    return side["near/node"][first:last], side[f"near/{name}"][first:last]
+
+
 class ContactMargin(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         temporary = tempfile.TemporaryDirectory(prefix="railwave-")
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
-        for name, more in (("whole", ""), ("near", f"contact_margin = {MARGIN}\n")):
+        for name, more in CASES.items():
             (cls.folder / name).mkdir()
             (cls.folder / name / "case.toml").write_text(SCENE + more)
             cls.command(name, PROGRAM, "run", "case.toml")
 
     @classmethod
-    def command(cls, name, *words):
+    def command(cls, name, *words, code=0):
         done = subprocess.run(words, cwd=cls.folder / name, capture_output=True, text=True)
-        if done.returncode != 0:
+        if done.returncode != code:
             raise AssertionError(done.stdout + done.stderr)
-        return done.stdout
+        return done.stdout + done.stderr
 
-    def both(self):
-        whole, near = [h5py.File(self.folder / name / "results.h5", "r") for name in ("whole", "near")]
-        self.addCleanup(whole.close)
-        self.addCleanup(near.close)
-        return whole["contact/between"], near["contact/between"]
+    def contacts(self, *names):
+        files = [h5py.File(self.folder / name / "results.h5", "r") for name in names]
+        for file in files:
+            self.addCleanup(file.close)
+        return [file["contact/between"] for file in files]
 
-    def test_nodes_in_the_box_are_as_ever_and_the_others_have_no_values(self):
-        whole, near = self.both()
+    def table(self, name):
+        self.command(name, PROGRAM, "contact", "results.h5", "--csv", "c.csv", "--overwrite")
+        with open(self.folder / name / "c.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return {column: numpy.array([float(row[column] or "nan") for row in rows]) for column in rows[0]
+                if column != "contact"}
+
+    def test_the_nodes_in_the_box_are_written_with_their_values(self):
+        whole, near = self.contacts("whole", "near")
+        numpy.testing.assert_array_equal(whole["time"], near["time"])
         touching = 0
         for output in range(len(whole["time"])):
             # Box around the nodes that touch, of both sides.
@@ -89,33 +117,67 @@ class ContactMargin(unittest.TestCase):
                 if len(corners):
                     inside = (position >= corners.min(axis=0) - MARGIN).all(axis=1)
                     inside &= (position <= corners.max(axis=0) + MARGIN).all(axis=1)
-                for name, values in near[side].items():
-                    if values.shape[0] != len(near["time"]) or values.shape[1:2] != (len(position),):
+                for name in near[side]["near"]:
+                    if name == "node":
                         continue
-                    expected = whole[side][name][output]
-                    if name in ("normal_force", "tangential_force", "pressure", "shear", "slipping"):
-                        numpy.testing.assert_array_equal(values[output], expected)
-                        continue
-                    numpy.testing.assert_array_equal(values[output][inside], expected[inside])
-                    self.assertTrue(numpy.isnan(values[output][~inside]).all(), name)
+                    nodes, values = values_at(near[side], name, output)
+                    numpy.testing.assert_array_equal(nodes, numpy.flatnonzero(inside))
+                    numpy.testing.assert_array_equal(values, whole[side][name][output][inside])
+                    if name in ZERO:  # nothing that presses is left out
+                        self.assertFalse(whole[side][name][output][~inside].any(), name)
         self.assertGreater(touching, 5)
         self.assertLess(touching, len(whole["time"]), "the block is to be in flight at some output")
+        everything = {name for name in whole["slave"]} - {"coordinates", "facets", "nodes"}
+        self.assertEqual(everything, set(near["slave/near"]) - {"node"})
 
     def test_contact_makes_the_same_of_it(self):
         tables = []
         for name in ("whole", "near"):
-            said = self.command(name, PROGRAM, "contact", "results.h5", "--csv", "c.csv", "--nodes", "n.csv")
-            tables.append([said, *((self.folder / name / table).read_text() for table in ("c.csv", "n.csv"))])
+            said = self.command(name, PROGRAM, "contact", "results.h5", "--csv", "o.csv", "--nodes", "n.csv")
+            tables.append([said, *((self.folder / name / table).read_text() for table in ("o.csv", "n.csv"))])
         self.assertGreater(len(tables[0][1].splitlines()), 5)
         for whole, near in zip(*tables):
             self.assertEqual(whole, near)
 
+    def test_what_is_not_written_is_found_or_left_out(self):
+        """Areas and normals follow from positions, the micro-slip is the run's own, creepages are not known."""
+        whole, few = self.table("whole"), self.table("few")
+        touching = whole["nodes_in_contact"] > 0
+        self.assertGreater(touching.sum(), 5)
+        for column, tolerance in (
+            ("nodes_in_contact", 0), ("normal_force", 1e-6), ("creep_force", 1e-5), ("area", 1e-5),
+            ("peak_shear", 1e-5), ("peak_nodal_pressure", 1e-5), ("semi_axis_along", 1e-4), ("slipping_by_solver", 0),
+            ("normal_z", 1e-6),
+        ):
+            scale = numpy.nanmax(numpy.abs(whole[column]))
+            numpy.testing.assert_allclose(
+                few[column][touching], whole[column][touching], rtol=0, atol=tolerance * scale, err_msg=column
+            )
+        numpy.testing.assert_allclose(
+            few["peak_micro_slip"][touching], whole["peak_micro_slip"][touching], rtol=1e-4, atol=1e-4
+        )
+        for column in ("longitudinal_creepage", "mean_velocity_along"):
+            self.assertTrue(numpy.isfinite(whole[column]).any())
+            self.assertTrue(numpy.isnan(few[column]).all(), column)
+        _, few_group = self.contacts("whole", "few")
+        self.assertEqual(set(few_group["master"]), {"coordinates", "facets", "nodes"})
+        self.assertEqual(few_group["slave/near/normal_force"].dtype, numpy.float32)
+
+    def test_what_a_contact_solution_needs_is_named(self):
+        said = self.command("no_forces", PROGRAM, "contact", "results.h5", code=2)
+        self.assertIn("no normal_force of the slave surface of contact 'between'; name it in output.", said)
+
     def test_takes_less_room(self):
-        stored = [
-            sum(group[side][name].id.get_storage_size() for side in ("slave", "master") for name in group[side])
-            for group in self.both()
-        ]
-        self.assertLess(stored[1], 0.6 * stored[0])
+        def stored(group):
+            sizes = []
+            group.visititems(
+                lambda _, item: sizes.append(item.id.get_storage_size()) if isinstance(item, h5py.Dataset) else None
+            )
+            return sum(sizes)
+
+        whole, near, few = [stored(group) for group in self.contacts("whole", "near", "few")]
+        self.assertLess(near, 0.6 * whole)
+        self.assertLess(few, 0.5 * near)
 
     def test_pictures_are_drawn(self):
         self.command(

@@ -115,12 +115,37 @@ class OutputWindows(unittest.TestCase):
 
         self.assertLessEqual(abs(outputs_of(said) - outputs_of(plain) - 1.39e-4 / 3e-6), 5)
 
+    def test_have_sets_and_contacts_of_their_own(self):
+        more = window("touch", 6e-5, 9e-5, 1e-6) + "field_sets = []\n"
+        more += window("surface", 7e-5, 1.1e-4, 2e-6) + "contacts = []\n"
+        self.command("run", SCENE + more)
+        with h5py.File(self.folder / "results.h5", "r") as file:
+            step = file.attrs["step_size"]
+            steps = {
+                name: set(file[group + "/step"][()].tolist())
+                for name, group in (("surface", "fields/lower.z_max"), ("touch", "contact/between"))
+            }
+            for group in ("fields/lower.z_max", "contact/between/slave"):
+                of_velocity = file[group + "/velocity"].shape[0]
+                self.assertEqual(of_velocity, len(steps["surface" if "fields" in group else "touch"]))
+        plain = {round(k * 5e-5 / step) for k in range(5)}
+        for name, start, end, interval in (("touch", 6e-5, 9e-5, 1e-6), ("surface", 7e-5, 1.1e-4, 2e-6)):
+            begin, last = int(numpy.ceil(start / step * (1 - 1e-9))), int(end / step * (1 + 1e-9))
+            self.assertEqual(steps[name], plain | set(range(begin, last + 1, round(interval / step))))
+        grids = (self.folder / "results.xdmf").read_text().split('CollectionType="Spatial"')[1:]
+        self.assertEqual(len(grids), len(steps["surface"] | steps["touch"]))
+        self.assertEqual(sum('Name="lower.z_max"' in grid for grid in grids), len(steps["surface"]))
+        self.assertEqual(sum('Name="contact between slave"' in grid for grid in grids), len(steps["touch"]))
+
     def test_mistakes(self):
         for text, expected in [
             (window("late", 3e-4, None, 1e-6), "[output_windows.late]: starts at 0.0003 s, after the run's end"),
             (window("turned", 1e-4, 5e-5, 1e-6), "start: is 0.0001, must be at most end"),
             ("[output_windows.no]\nstart = 0\n", "interval"),
             (window("odd", 0, None, -1), "interval"),
+            (window("a", 0, None, 1) + 'field_sets = ["lower"]', "field_sets: there is no 'lower'; "),
+            (window("a", 0, None, 1) + 'contacts = ["betwen"]', "contacts: there is no 'betwen'; did you mean"),
+            (window("a", 0, None, 1) + "contacts = []\nfield_sets = []", "nothing would be written"),
         ]:
             with self.subTest(expected):
                 self.assertIn(expected, self.command("check", SCENE + text, code=2))

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/fields.hpp"
+#include "model/contact/contact_state.hpp"
 
 namespace railwave {
 

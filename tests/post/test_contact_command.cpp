@@ -11,6 +11,7 @@
 #include "case/error.hpp"
 #include "post/contact_command.hpp"
 #include "post/contact_patch.hpp"
+#include "post/contact_reader.hpp"
 #include "post/results_reader.hpp"
 #include "tests/output/made_up_run.hpp"
 
@@ -177,7 +178,7 @@ TEST_CASE("nothing that a user computed gets lost") {
   ContactRequest request = request_for(folder / "run.h5");
   request.hdf5 = folder / "other.h5";
   CHECK_THROWS_WITH(contact_command(request, out), ContainsSubstring("is there already"));
-  CHECK(ResultsReader(folder / "other.h5").contact_times("tread").size() == 5);
+  CHECK(ContactReader(ResultsReader(folder / "other.h5"), "tread").times().size() == 5);
   request.hdf5 = folder / "contact.h5";
   CHECK(contact_command(request, out) == 0);
   CHECK(contact_command(request, out) == 0);  // its own files it replaces
@@ -223,8 +224,8 @@ TEST_CASE("a run that was stopped is read as far as it came") {
   CHECK(contact_command(request_for(folder / "run.h5"), out) == 0);
   CHECK_THAT(out.str(), ContainsSubstring("note: this run did not complete"));
   const ResultsReader results(folder / "run.h5");
-  CHECK(results.contact_times("tread").size() == 2);
-  CHECK_THROWS_WITH(results.contact_times("thread"), ContainsSubstring("did you mean 'tread'?"));
+  CHECK(ContactReader(results, "tread").times().size() == 2);
+  CHECK_THROWS_WITH(ContactReader(results, "thread"), ContainsSubstring("did you mean 'tread'?"));
 }
 
 TEST_CASE("files that cannot be used") {
@@ -276,6 +277,33 @@ TEST_CASE("a file without one of its arrays is damaged, and says which") {
   REQUIRE(H5Ldelete(file, "/contact/tread/slave/gap", H5P_DEFAULT) >= 0);
   H5Fclose(file);
   CHECK_THAT(complaint_of(folder / "run.h5"), ContainsSubstring("is damaged") && ContainsSubstring("slave/gap"));
+}
+
+TEST_CASE("near nodes that no surface has, or rows out of order, are damage") {
+  const made_up::TemporaryFolder folder;
+  RunDescription run = made_up::description();
+  run.contact_output.near_only = true;
+  for (const bool of_rows : {true, false}) {
+    const std::string path = folder / (of_rows ? "rows.h5" : "nodes.h5");
+    {
+      ResultsWriter writer(path, run);
+      made_up::feed(writer, made_up::steps);
+      writer.end(made_up::summary());
+    }
+    CHECK(complaint_of(path) == "no complaint");
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT),
+                array = H5Dopen2(file, of_rows ? "/contact/tread/slave/rows" : "/contact/tread/slave/near/node",
+                                 H5P_DEFAULT),
+                space = H5Dget_space(array);
+    const hsize_t first = 0, one = 1;
+    H5Sselect_hyperslab(space, H5S_SELECT_SET, &first, nullptr, &one, nullptr);
+    const hid_t memory = H5Screate_simple(1, &one, nullptr);
+    const long wrong = 100000000;
+    REQUIRE(H5Dwrite(array, H5T_NATIVE_LONG, memory, space, H5P_DEFAULT, &wrong) >= 0);
+    H5Sclose(memory), H5Sclose(space), H5Dclose(array), H5Fclose(file);
+    CHECK_THAT(complaint_of(path), ContainsSubstring("is damaged") &&
+                                       ContainsSubstring(of_rows ? "out of order" : "is no node of its surface"));
+  }
 }
 
 TEST_CASE("a CSV that cannot be written is said, and leaves nothing behind") {

@@ -4,6 +4,7 @@
 
 #include "case/error.hpp"
 #include "mesh/mesh.hpp"
+#include "model/contact/contact_state.hpp"
 #include "model/fields.hpp"
 #include "model/host_copy.hpp"
 #include "model/model.hpp"

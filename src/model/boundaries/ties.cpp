@@ -185,6 +185,7 @@ void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& 
     if (!conflict.empty())
       refuse(assembled.scene, tie, fmt::format("the slave's node at {} {}", place_text(assembly.nodes[n]), conflict));
     conflicts.take(n, tie);
+    ties.place_of_slave.emplace(n, static_cast<int>(ties.places.size()));
     ties.places.push_back(tied);
   }
   refuse_far(assembled.scene, tie, far, slaves.size());

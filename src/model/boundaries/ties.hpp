@@ -1,5 +1,6 @@
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "kernels/ties/tie.hpp"
@@ -10,10 +11,17 @@ namespace railwave {
 /// undeformed; the two meshes need not match. The slaves' mesh is the finer one, and no master node is itself a slave.
 /// Nodes of a contact by multipliers, of a prescribed motion or of a non-reflecting end cannot be slaves.
 struct Ties {
-  TieArrays arrays;               ///< their rows of the external forces are known later than the rest
-  std::vector<TiedPlace> places;  ///< host copy
-  std::vector<int> masters;       ///< ascending
-  Array<int*> frame;              ///< by slave, where nodes are in single precision
+  TieArrays arrays;                             ///< their rows of the external forces are known later than the rest
+  std::vector<TiedPlace> places;                ///< host copy
+  std::unordered_map<int, int> place_of_slave;  ///< by model node number: position in `places`
+  std::vector<int> masters;                     ///< ascending
+  Array<int*> frame;                            ///< by slave, where nodes are in single precision
+
+  /// Where a node is tied to; null: nowhere.
+  const TiedPlace* place_of(int node) const {
+    const auto found = place_of_slave.find(node);
+    return found == place_of_slave.end() ? nullptr : &places[found->second];
+  }
 };
 
 /// Masses by node, in kg of a run or of a relaxation, as the scheme uses them: those of slaves go to their masters by

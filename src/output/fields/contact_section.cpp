@@ -1,143 +1,109 @@
 #include "output/fields/contact_section.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 
 namespace railwave {
 namespace {
 
-Vec3 position_of(const ContactSide& side, std::size_t node) {
-  return {side.position[3 * node], side.position[3 * node + 1], side.position[3 * node + 2]};
+// How rows of near nodes lie: some outputs of a patch together.
+constexpr hdf5::Storage many_rows{512, true};
+
+const ContactFieldRow& row_named(const std::string& name) {
+  for (const ContactFieldRow& row : contact_field_table())
+    if (name == row.name) return row;
+  throw std::logic_error("no contact field is called " + name);
 }
 
-bool feels_force(const ContactSide& side, std::size_t node) {
-  for (std::size_t i = 3 * node; i < 3 * node + 3; ++i)
-    if (side.normal_force[i] != 0 || side.tangential_force[i] != 0) return true;
-  return false;
-}
-
-/// Around all nodes that touch, and by the margin wider; nothing is in it where none does.
-Bounds box_of_contact(const ContactState& state, double margin) {
-  Bounds box = no_bounds;
-  for (const ContactSide* side : {&state.slave, &state.master})
-    for (std::size_t n = 0; n < side->nodes.size(); ++n)
-      if (feels_force(*side, n) || (side == &state.slave && state.slipping[n] != 0)) widen(box, position_of(*side, n));
-  for (int i = 0; i < 3; ++i) {
-    box[0][i] -= margin;
-    box[1][i] += margin;
-  }
-  return box;
-}
-
-/// The values, and not-a-number for nodes outside the box.
-std::vector<double> within(const std::optional<Bounds>& box, const ContactSide& side, std::vector<double> values) {
-  if (!box || side.nodes.empty()) return values;
-  const std::size_t components = values.size() / side.nodes.size();
-  for (std::size_t n = 0; n < side.nodes.size(); ++n)
-    if (!holds(*box, position_of(side, n)))
-      std::fill_n(values.begin() + static_cast<long>(n * components), components,
-                  std::numeric_limits<double>::quiet_NaN());
-  return values;
-}
-
-void append(hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t expected) {
-  if (values.size() != expected) throw std::logic_error("a contact state has arrays of another length than its nodes");
-  dataset.append(values.data(), 1);
+hdf5::Dataset make_growing(const hdf5::Group& group, const ContactFieldRow& row, hdf5::Shape shape, bool in_single,
+                           const hdf5::Storage& storage) {
+  if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
+  if (std::string(row.name) == "slipping") return group.create_growing<signed char>(row.name, shape, storage);
+  return in_single ? group.create_growing<float>(row.name, shape, storage)
+                   : group.create_growing<double>(row.name, shape, storage);
 }
 
 }  // namespace
 
-std::vector<double> nodal_pressure(const ContactSide& side) {
-  std::vector<double> pressure(side.area.size(), 0.0);
-  for (std::size_t i = 0; i < pressure.size(); ++i) {
-    double outward = 0;
-    for (int c = 0; c < 3; ++c) outward += side.normal_force[3 * i + c] * side.normal[3 * i + c];
-    if (side.area[i] > 0 && outward != 0) pressure[i] = -outward / side.area[i];
-  }
-  return pressure;
-}
-
-std::vector<double> nodal_shear(const ContactSide& side) {
-  std::vector<double> shear(3 * side.area.size(), 0.0);
-  for (std::size_t i = 0; i < shear.size(); ++i)
-    if (side.area[i / 3] > 0) shear[i] = side.tangential_force[i] / side.area[i / 3];
-  return shear;
-}
-
-ContactSection::Side::Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source)
-    : nodes(first.nodes), facet_count(first.facets.size()) {
-  const hsize_t count = nodes.size();
-  group.write("nodes", nodes, {count});
+ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact,
+                                               const ContactOutput& output) const {
+  Side side;
+  side.slave = slave;
+  side.surface = slave ? &contact.slave_surface : &contact.master_surface;
+  const hsize_t count = side.surface->nodes.size();
+  group.write("nodes", side.surface->nodes, {count});
   std::vector<int> corners;
-  for (const auto& facet : first.facets) corners.insert(corners.end(), facet.begin(), facet.end());
-  group.write("facets", corners, {first.facets.size(), 4});
-  std::vector<double> coordinates = first.position;
-  const std::vector<double> moved = source.field(field_named("displacement"), nodes).values;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) coordinates[i] -= moved.at(i);
-  group.write("coordinates", coordinates, {count, 3});
-  area = group.create_growing<double>("area", {count}, each_time);
-  pressure = group.create_growing<double>("pressure", {count}, each_time);
-  for (auto [name, dataset] : {std::pair{"displacement", &displacement},
-                               {"position", &position},
-                               {"velocity", &velocity},
-                               {"normal", &normal},
-                               {"normal_force", &normal_force},
-                               {"tangential_force", &tangential_force},
-                               {"shear", &shear}})
-    *dataset = group.create_growing<double>(name, {count, 3}, each_time);
+  for (const auto& facet : side.surface->facets) corners.insert(corners.end(), facet.begin(), facet.end());
+  group.write("facets", corners, {side.surface->facets.size(), 4});
+  group.write("coordinates", side.surface->coordinates, {count, 3});
+  if (!output.has_side(slave)) {
+    group.set_attribute("fields", "");
+    return side;
+  }
+  const hdf5::Group near = near_only_ ? group.create_group(hdf5::near_nodes) : hdf5::Group();
+  const hdf5::Group& columns = near_only_ ? near : group;
+  if (near_only_) {
+    side.rows = group.create_growing<long>("rows", {}, times_in_block);
+    const std::vector<long> ends = side.rows.read<long>();
+    side.row_count = ends.empty() ? 0 : ends.back();
+    side.nodes = near.create_growing<int>("node", {}, many_rows);
+  }
+  std::string names;
+  for (const std::string& name : output.fields)
+    if (has_values(row_named(name), slave, contact.falling_friction)) names += (names.empty() ? "" : ", ") + name;
+  group.set_attribute("fields", names);
+  for (const std::string& name : output.fields)
+    if (const ContactFieldRow& row = row_named(name); has_values(row, slave, contact.falling_friction))
+      side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.in_single, many_rows)
+                                               : make_growing(columns, row, {count}, output.in_single, each_time)});
+  return side;
 }
 
-void ContactSection::Side::add(const ContactSide& state, const FieldSource& source, const std::optional<Bounds>& box) {
-  if (state.nodes != nodes) throw std::logic_error("the nodes of a contact surface changed during the run");
-  const std::size_t count = nodes.size();
-  const auto append_within = [&](hdf5::Dataset& dataset, const std::vector<double>& values, std::size_t components) {
-    append(dataset, within(box, state, values), components * count);
-  };
-  append_within(area, state.area, 1);
-  append_within(displacement, source.field(field_named("displacement"), nodes).values, 3);
-  append_within(position, state.position, 3);
-  append_within(velocity, state.velocity, 3);
-  append_within(normal, state.normal, 3);
-  append(normal_force, state.normal_force, 3 * count);
-  append(tangential_force, state.tangential_force, 3 * count);
-  append(pressure, nodal_pressure(state), count);
-  append(shear, nodal_shear(state), 3 * count);
+void ContactSection::Side::add(const ContactState& state, bool near_only) {
+  const ContactSide& now = slave ? state.slave : state.master;
+  if (near_only) {
+    row_count += static_cast<long>(now.nodes.size());
+    rows.append(&row_count, 1);
+    std::vector<int> all;
+    if (now.places.empty())
+      for (std::size_t i = 0; i < now.nodes.size(); ++i) all.push_back(static_cast<int>(i));
+    nodes.append((now.places.empty() ? all : now.places).data(), now.nodes.size());
+  } else if (now.nodes != surface->nodes) {
+    throw std::logic_error("the nodes of a contact surface changed during the run");
+  }
+  for (Column& column : columns) {
+    const std::vector<double> values = contact_values(state, slave, *column.row);
+    column.dataset.append(values.data(), near_only ? now.nodes.size() : 1);
+  }
 }
 
-ContactSection::ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact,
-                               std::optional<double> margin)
-    : contact_(contact), margin_(margin) {
-  const ContactState first = source.contact(contact);
-  falling_friction_ = !first.friction_now.empty();
-  const hdf5::Group group = contacts_group.create_group(first.name);
-  group.set_attribute("friction", first.friction);
-  const hdf5::Group slave_group = group.create_group("slave");
-  slave_ = Side(slave_group, first.slave, source);
-  master_ = Side(group.create_group("master"), first.master, source);
-  const hsize_t count = first.slave.nodes.size();
-  gap_ = slave_group.create_growing<double>("gap", {count}, each_time);
-  slip_velocity_ = slave_group.create_growing<double>("slip_velocity", {count, 3}, each_time);
-  if (falling_friction_) friction_ = slave_group.create_growing<double>("friction", {count}, each_time);
-  slipping_ = slave_group.create_growing<signed char>("slipping", {count}, each_time);
-  times_ = group.create_growing<double>("time", {}, times_in_block);
+ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
+                               const ContactOutput& output)
+    : number_(number), near_only_(output.near_only) {
+  const hdf5::Group group = contacts_group.create_group(contact.name);
+  group.set_attribute("friction", contact.friction);
+  const hdf5::Group slave = group.create_group("slave"), master = group.create_group("master");
+  slave.set_attribute("surface", contact.slave);
+  master.set_attribute("surface", contact.master.text());
+  if (contact.master.size() > 1) {
+    master.set_attribute("surfaces", contact.master.list());
+    std::vector<int> surface_of_facet;
+    for (std::size_t k = 0; k < contact.master_facets.size(); ++k)
+      surface_of_facet.insert(surface_of_facet.end(), contact.master_facets[k], static_cast<int>(k));
+    master.write("surface_of_facet", surface_of_facet, {surface_of_facet.size()});
+  }
+  sides_.push_back(make_side(slave, true, contact, output));
+  sides_.push_back(make_side(master, false, contact, output));
+  sides_.erase(
+      std::remove_if(sides_.begin(), sides_.end(), [&](const Side& side) { return !output.has_side(side.slave); }),
+      sides_.end());
   steps_ = group.create_growing<long>("step", {}, times_in_block);
+  times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection
 }
 
 void ContactSection::add_values(const FieldSource& source, long step) {
-  const ContactState state = source.contact(contact_);
-  const std::size_t count = slave_.nodes.size();
-  if (state.slipping.size() != count)
-    throw std::logic_error("a contact state has arrays of another length than its nodes");
-  std::optional<Bounds> box;
-  if (margin_) box = box_of_contact(state, *margin_);
-  slave_.add(state.slave, source, box);
-  master_.add(state.master, source, box);
-  append(gap_, within(box, state.slave, state.gap), count);
-  append(slip_velocity_, within(box, state.slave, state.slip_velocity), 3 * count);
-  if (falling_friction_) append(friction_, within(box, state.slave, state.friction_now), count);
-  const std::vector<signed char> slipping(state.slipping.begin(), state.slipping.end());
-  slipping_.append(slipping.data(), 1);
+  const ContactState state = source.contact(number_);
+  for (Side& side : sides_) side.add(state, near_only_);
   steps_.append(&step, 1);
 }
 

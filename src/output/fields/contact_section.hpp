@@ -1,46 +1,43 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "model/sets/point_search.hpp"
+#include "case/field_table.hpp"
+#include "case/surface_names.hpp"
+#include "model/contact/contact_state.hpp"
 #include "output/fields/field_snapshot.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 
-/// Group /contact/NAME of a results file: both surfaces of one contact pair at each output time. Made from the pair's
-/// first state, whose nodes and facets hold for the whole run.
-class ContactSection {
- public:
-  /// @param margin m, see scene::Output::contact_margin
-  ContactSection(const hdf5::Group& contacts_group, const FieldSource& source, int contact,
-                 std::optional<double> margin = {});
+/// A contact surface as it is undeformed.
+struct ContactSurface {
+  std::vector<int> nodes;                  ///< model node numbers
+  std::vector<std::array<int, 4>> facets;  ///< positions in `nodes`, turned outwards
+  std::vector<double> coordinates;         ///< m, 3 of each node
+};
 
-  /// Writes the state at one more output time, then its time: see ResultsWriter::flush().
-  void add_values(const FieldSource& source, long step);
-  void add_time(double time) { times_.append(&time, 1); }
+/// What a results file says of one contact whatever the time.
+struct ContactDescription {
+  std::string name, slave;
+  scene::SurfaceNames master;
+  std::vector<int> master_facets = {};  ///< how many each of the masters has, in their order
+  double friction = 0;                  ///< at rest, where it falls with speed
+  bool falling_friction = false;
+  ContactSurface slave_surface = {}, master_surface = {};
+};
 
-  std::size_t node_count(bool slave) const { return side(slave).nodes.size(); }
-  std::size_t facet_count(bool slave) const { return side(slave).facet_count; }
+/// What is written of contacts, see scene::Output.
+struct ContactOutput {
+  bool near_only = false;  ///< the states have the nodes near the contact only
+  std::vector<std::string> fields = contact_field_names();
+  bool slave = true, master = true;
+  bool in_single = false;  ///< precision
 
- private:
-  struct Side {
-    std::vector<int> nodes;
-    std::size_t facet_count = 0;
-    hdf5::Dataset area, displacement, position, velocity, normal, normal_force, tangential_force, pressure, shear;
-    Side() = default;
-    Side(const hdf5::Group& group, const ContactSide& first, const FieldSource& source);
-    /// @param box outside of which nodes have no values
-    void add(const ContactSide& state, const FieldSource& source, const std::optional<Bounds>& box);
-  };
-  const Side& side(bool slave) const { return slave ? slave_ : master_; }
-
-  int contact_;
-  std::optional<double> margin_;
-  bool falling_friction_;
-  Side slave_, master_;
-  hdf5::Dataset times_, steps_, gap_, slip_velocity_, slipping_, friction_;
+  bool has_side(bool of_slave) const { return of_slave ? slave : master; }
 };
 
 /// Of each node of one side: the contact force along the inward normal over the node's area, Pa, pressure positive.
@@ -48,5 +45,47 @@ std::vector<double> nodal_pressure(const ContactSide& side);
 
 /// Of each node of one side: tangential contact force over the node's area, Pa, three components, global axes.
 std::vector<double> nodal_shear(const ContactSide& side);
+
+/// A field of the table at the nodes of one side, node by node. Throws std::logic_error for one that the side does not
+/// have, or that has not the length of its nodes.
+/// @param state of the contact
+/// @param slave which of its sides
+/// @param row   of contact_field_table()
+std::vector<double> contact_values(const ContactState& state, bool slave, const ContactFieldRow& row);
+
+/// Whether the side has it: the coefficient of friction is a field of contacts where it falls with speed.
+bool has_values(const ContactFieldRow& row, bool slave, bool falling_friction);
+
+/// Group /contact/NAME of a results file: both surfaces of one contact pair at each output time.
+class ContactSection {
+ public:
+  ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
+                 const ContactOutput& output);
+
+  /// Writes the state at one more output time, then its time: see ResultsWriter::flush().
+  void add_values(const FieldSource& source, long step);
+  void add_time(double time) { times_.append(&time, 1); }
+
+ private:
+  struct Column {
+    const ContactFieldRow* row;
+    hdf5::Dataset dataset;
+  };
+  struct Side {
+    bool slave = true;
+    const ContactSurface* surface = nullptr;
+    std::vector<Column> columns;
+    hdf5::Dataset rows, nodes;  ///< of near nodes: how many rows there are up to each output, and whose they are
+    long row_count = 0;
+    void add(const ContactState& state, bool near_only);
+  };
+  Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact,
+                 const ContactOutput& output) const;
+
+  int number_;
+  bool near_only_;
+  std::vector<Side> sides_;
+  hdf5::Dataset times_, steps_;
+};
 
 }  // namespace railwave

@@ -16,7 +16,7 @@ void append(hdf5::Dataset& dataset, const HostField& field, std::size_t entries,
 }  // namespace
 
 FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set,
-                           const std::vector<std::string>& fields)
+                           const std::vector<std::string>& fields, bool in_single)
     : set_(set) {
   const hdf5::Group group = fields_group.create_group(set.name);
   const hsize_t nodes = set.nodes.size(), elements = set.elements.size();
@@ -25,8 +25,6 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
   group.write("elements", set.elements, {elements});
   group.write("connectivity", set.corners, {elements, static_cast<hsize_t>(set.corner_count)});
   group.write("coordinates", set.coordinates, {nodes, 3});
-  times_ = group.create_growing<double>("time", {}, times_in_block);
-  steps_ = group.create_growing<long>("step", {}, times_in_block);
   if (set.is_beam()) {
     forces_ = group.create_growing<double>("force", {elements, 3}, each_time);
     moments_ = group.create_growing<double>("moment", {elements, 3}, each_time);
@@ -36,8 +34,11 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
     if (!set.has(row)) continue;
     hdf5::Shape shape{set.numbers(row).size()};
     if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
-    columns_.push_back({&row, group.create_growing<double>(name, shape, each_time)});
+    columns_.push_back({&row, in_single ? group.create_growing<float>(name, shape, each_time)
+                                        : group.create_growing<double>(name, shape, each_time)});
   }
+  steps_ = group.create_growing<long>("step", {}, times_in_block);
+  times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection
   std::stable_partition(columns_.begin(), columns_.end(), [](const Column& one) { return one.field->of_nodes(); });
 }
 

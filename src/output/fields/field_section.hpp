@@ -14,7 +14,9 @@ namespace railwave {
 class FieldSection {
  public:
   /// `fields`: names of case/field_table.hpp. Beams have section forces and moments whatever is asked.
-  FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields);
+  /// @param in_single precision of the fields
+  FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields,
+               bool in_single);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
   void add_values(const FieldSource& source, long step);

@@ -39,32 +39,24 @@ std::size_t FieldSelection::bytes() const {
 }
 
 FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
-                             int contact_count, const FieldSource& source) {
+                             const OutputChoice& choice) {
   FieldSelection selection;
-  selection.contact_count = contact_count;
+  selection.contacts = choice.contacts;
   bool wants_nodes = false, wants_elements = false;
   for (const std::string& name : fields) {
     const FieldRow& row = field_named(name);
     selection.fields.push_back(&row);
     (row.of_nodes() ? wants_nodes : wants_elements) = true;
   }
-  for (const OutputSet& set : sets) {
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    if (!choice.sets[s]) continue;
+    const OutputSet& set = sets[s];
     if (wants_nodes) append(selection.nodes, set.nodes);
     if (set.is_beam())
       selection.beams = true;
     else if (wants_elements)
       append(selection.elements, set.elements);
   }
-  for (int i = 0; i < contact_count; ++i) {
-    const ContactState state = source.contact(i);
-    append(selection.nodes, state.slave.nodes);
-    append(selection.nodes, state.master.nodes);
-  }
-  // The contact surfaces are written with their displacement, whatever fields the sets are to have.
-  const FieldRow* displacement = &field_named("displacement");
-  auto& selected = selection.fields;
-  if (contact_count > 0 && std::find(selected.begin(), selected.end(), displacement) == selected.end())
-    selected.push_back(displacement);
   selection.place_of_node = sort_and_place(selection.nodes);
   selection.place_of_element = sort_and_place(selection.elements);
   return selection;
@@ -74,7 +66,8 @@ FieldSnapshot::FieldSnapshot(const FieldSource& source, std::shared_ptr<const Fi
     : selection_(std::move(selection)) {
   for (const FieldRow* row : selection_->fields) fields_.push_back(source.field(*row, selection_->numbers(*row)));
   if (selection_->beams) beams_ = source.beams();
-  for (int i = 0; i < selection_->contact_count; ++i) contacts_.push_back(source.contact(i));
+  for (std::size_t i = 0; i < selection_->contacts.size(); ++i)
+    contacts_.push_back(selection_->contacts[i] ? source.contact(static_cast<int>(i)) : ContactState());
 }
 
 HostField FieldSnapshot::field(const FieldRow& row, const std::vector<int>& numbers) const {

@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "case/field_table.hpp"
+#include "model/contact/contact_state.hpp"
 #include "model/fields.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
@@ -14,6 +16,18 @@ namespace railwave {
 /// How datasets lie that grow by a row at each output of fields: large rows one by one, the times many together.
 inline constexpr hdf5::Storage each_time{1, true};
 inline constexpr hdf5::Storage times_in_block{1024, false};
+
+/// Which output sets and contacts have an output.
+struct OutputChoice {
+  std::vector<bool> sets, contacts;
+
+  static OutputChoice all(std::size_t set_count, std::size_t contact_count) {
+    return {std::vector<bool>(set_count, true), std::vector<bool>(contact_count, true)};
+  }
+  bool operator<(const OutputChoice& other) const {
+    return std::tie(sets, contacts) < std::tie(other.sets, other.contacts);
+  }
+};
 
 /// Where the results file gets its fields from: the running model, or in a test a made-up one. All at one instant.
 class FieldSource {
@@ -26,23 +40,23 @@ class FieldSource {
   virtual HostField beams() const { return {6, {}}; }
 };
 
-/// Which fields a results file takes from a FieldSource at each output, and of which nodes and elements: those of all
-/// output sets and contact surfaces together, each once, so that every field is fetched once.
+/// Which fields a results file takes from a FieldSource at an output, and of which nodes and elements: those of all
+/// output sets together, each once, so that every field is fetched once; and of which contacts the state.
 struct FieldSelection {
   std::vector<int> nodes, elements;                  ///< model numbers, ascending
   std::vector<int> place_of_node, place_of_element;  ///< by model number up to the largest: position in those, or -1
   std::vector<const FieldRow*> fields;
   bool beams = false;
-  int contact_count = 0;
+  std::vector<bool> contacts;
 
   const std::vector<int>& numbers(const FieldRow& row) const { return row.of_nodes() ? nodes : elements; }
   /// Of the fields of nodes and elements in a snapshot.
   std::size_t bytes() const;
 };
 
-/// `fields`: names of case/field_table.hpp. The contacts' nodes are taken from `source`.
+/// @param fields names of case/field_table.hpp
 FieldSelection select_fields(const std::vector<OutputSet>& sets, const std::vector<std::string>& fields,
-                             int contact_count, const FieldSource& source);
+                             const OutputChoice& choice);
 
 /// The selected fields of one instant, fetched once and kept as plain data: it outlives the instant, and any thread may
 /// read it.

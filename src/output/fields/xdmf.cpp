@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -43,15 +44,18 @@ std::string escaped(const std::string& text) {
 /// Writes the grids of one output time.
 class TimeText {
  public:
-  TimeText(const std::string& results_file_name, double time, std::size_t index)
-      : file_(escaped(results_file_name)), index_(index) {
+  TimeText(const std::string& results_file_name, double time, std::size_t number, int float_bytes)
+      : file_(escaped(results_file_name)), float_bytes_(float_bytes) {
     text_ = fmt::format(
         "   <Grid Name=\"time {}\" GridType=\"Collection\" CollectionType=\"Spatial\">\n    <Time Value=\"{:.17g}\" "
         "/>\n",
-        index, time);
+        number, time);
   }
 
-  void open_grid(const std::string& name, int corner_count, std::size_t cells, const std::string& cells_path) {
+  /// @param index of the grid's own output
+  void open_grid(const std::string& name, int corner_count, std::size_t cells, const std::string& cells_path,
+                 std::size_t index) {
+    index_ = index;
     text_ += fmt::format(
         "    <Grid Name=\"{}\" GridType=\"Uniform\">\n"
         "     <Topology TopologyType=\"{}\"{} NumberOfElements=\"{}\">\n"
@@ -71,7 +75,8 @@ class TimeText {
         nodes, file_, escaped(path));
   }
   void attribute(const std::string& name, const char* centre, std::size_t entries, int components,
-                 const std::string& path, const char* number = "Float", int bytes = 8) {
+                 const std::string& path, const char* number = "Float", int bytes = 0) {
+    if (bytes == 0) bytes = float_bytes_;
     const char* type = components == 1 ? "Scalar" : components == 3 ? "Vector" : "Matrix";
     text_ +=
         fmt::format("     <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n", escaped(name), type, centre) +
@@ -97,56 +102,63 @@ class TimeText {
   }
 
   std::string file_;
-  std::size_t index_;
+  int float_bytes_;
+  std::size_t index_ = 0;
   std::string text_;
 };
 
-void add_set(TimeText& text, const OutputSet& set, const std::vector<std::string>& fields) {
+void add_set(TimeText& text, const OutputSet& set, std::size_t index, const std::vector<std::string>& fields) {
   const std::string group = set.group() + "/";
   text.open_grid((set.is_beam() ? "beam " : "") + set.name, set.corner_count, set.elements.size(),
-                 group + "connectivity");
+                 group + "connectivity", index);
   text.geometry(set.nodes.size(), group + "coordinates");
   if (set.is_beam())
-    for (const char* field : {"force", "moment"}) text.attribute(field, "Cell", set.elements.size(), 3, group + field);
+    for (const char* field : {"force", "moment"})
+      text.attribute(field, "Cell", set.elements.size(), 3, group + field, "Float", sizeof(double));
   for (const std::string& name : fields)
     if (const FieldRow& row = field_named(name); set.has(row))
       text.attribute(name, row.of_nodes() ? "Node" : "Cell", set.numbers(row).size(), row.components, group + name);
   text.close_grid();
 }
 
-void add_side(TimeText& text, const XdmfContactSide& side) {
+void add_side(TimeText& text, const XdmfContactSide& side, std::size_t index) {
   const char* name = side.slave ? "slave" : "master";
   const std::string group = "/contact/" + side.contact + "/" + name + "/";
-  text.open_grid("contact " + side.contact + " " + name, 4, side.facet_count, group + "facets");
+  text.open_grid("contact " + side.contact + " " + name, 4, side.facet_count, group + "facets", index);
   text.geometry(side.node_count, group + "coordinates");
-  text.attribute("displacement", "Node", side.node_count, 3, group + "displacement");
-  text.attribute("pressure", "Node", side.node_count, 1, group + "pressure");
-  text.attribute("shear", "Node", side.node_count, 3, group + "shear");
-  text.attribute("velocity", "Node", side.node_count, 3, group + "velocity");
+  const auto attribute = [&](const std::string& field, int components, const char* number = "Float", int bytes = 0) {
+    if (std::find(side.fields.begin(), side.fields.end(), field) != side.fields.end())
+      text.attribute(field, "Node", side.node_count, components, group + field, number, bytes);
+  };
+  attribute("displacement", 3);
+  attribute("pressure", 1);
+  attribute("shear", 3);
+  attribute("velocity", 3);
   if (side.slave) {
-    text.attribute("slip_velocity", "Node", side.node_count, 3, group + "slip_velocity");
-    text.attribute("slipping", "Node", side.node_count, 1, group + "slipping", "Char", 1);
+    attribute("slip_velocity", 3);
+    attribute("slipping", 1, "Char", 1);
   }
   text.close_grid();
 }
 
 }  // namespace
 
-XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind)
+XdmfFile::XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields, FileKind kind,
+                   bool in_single)
     : path_(std::move(path)),
       results_file_name_(std::move(results_file_name)),
       fields_(std::move(fields)),
-      kind_(std::move(kind)) {}
+      kind_(std::move(kind)),
+      float_bytes_(in_single ? sizeof(float) : sizeof(double)) {}
 
 bool XdmfFile::is_there() const { return end_of_times_ == 0 || access(path_.c_str(), F_OK) == 0; }
 
-void XdmfFile::add(double time, std::size_t index, const std::vector<OutputSet>& sets,
-                   const std::vector<XdmfContactSide>& sides) {
-  TimeText text(results_file_name_, time, index);
-  for (const OutputSet& set : sets)
-    if (!set.elements.empty()) add_set(text, set, fields_);
-  for (const XdmfContactSide& side : sides)
-    if (side.facet_count > 0) add_side(text, side);
+void XdmfFile::add(double time, std::size_t number, const XdmfGrids& at_this_time) {
+  TimeText text(results_file_name_, time, number, float_bytes_);
+  for (const auto& [set, index] : at_this_time.sets)
+    if (!set->elements.empty()) add_set(text, *set, index, fields_);
+  for (const auto& [side, index] : at_this_time.sides)
+    if (side->facet_count > 0) add_side(text, *side, index);
   const std::string grids = text.finished();
 
   if (end_of_times_ == 0) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "output/file_kind.hpp"
@@ -14,6 +15,13 @@ struct XdmfContactSide {
   bool slave = true;
   std::size_t node_count = 0;
   std::size_t facet_count = 0;
+  std::vector<std::string> fields;  ///< those that are written
+};
+
+/// What has values at an output time: each with the number of its own output, from 0.
+struct XdmfGrids {
+  std::vector<std::pair<const OutputSet*, std::size_t>> sets;
+  std::vector<std::pair<const XdmfContactSide*, std::size_t>> sides;
 };
 
 /// Companion of a results file, for ParaView: an XML text that names, for every output time, the arrays in the HDF5
@@ -24,13 +32,13 @@ struct XdmfContactSide {
 class XdmfFile {
  public:
   /// Makes nothing yet. `fields` are those of the case, names of case/field_table.hpp.
+  /// @param in_single their precision
   XdmfFile(std::string path, std::string results_file_name, std::vector<std::string> fields,
-           FileKind kind = kinds::results_xdmf());
+           FileKind kind = kinds::results_xdmf(), bool in_single = false);
 
-  /// Adds output time number `index`, counted from 0. The first call makes the file; the later ones extend it in place,
-  /// and throw if another file has taken its name meanwhile.
-  void add(double time, std::size_t index, const std::vector<OutputSet>& sets,
-           const std::vector<XdmfContactSide>& sides);
+  /// Adds output time number `number`, counted from 0. The first call makes the file; the later ones extend it in
+  /// place, and throw if another file has taken its name meanwhile.
+  void add(double time, std::size_t number, const XdmfGrids& grids);
 
   /// Whether nobody has removed it.
   bool is_there() const;
@@ -43,6 +51,7 @@ class XdmfFile {
   std::string results_file_name_;
   std::vector<std::string> fields_;
   FileKind kind_;
+  int float_bytes_;
   unsigned long device_ = 0, inode_ = 0;  ///< of the file that was made
   long end_of_times_ = 0;                 ///< where the next time goes; the closing tags stand there now
 };

@@ -39,7 +39,12 @@ class Handle {
 
 using Shape = std::vector<hsize_t>;
 
-/// Array in a file. Element types are double, int, long and signed char.
+/// Name of groups whose datasets have any number of rows for each output. The group that holds such a one has a growing
+/// dataset `rows`: how many there are up to and with each output.
+inline constexpr const char* near_nodes = "near";
+
+/// Array in a file. Element types are double, float, int, long and signed char; an array of one of them can be appended
+/// and read as any other.
 class Dataset {
  public:
   Dataset() = default;
@@ -57,6 +62,10 @@ class Dataset {
   /// Reads one entry along the first dimension. Throws if there is none of that number.
   template <class T>
   std::vector<T> read_row(hsize_t row) const;
+
+  /// Reads `count` entries from `row` on. Throws if there are fewer.
+  template <class T>
+  std::vector<T> read_rows(hsize_t row, hsize_t count) const;
 
  private:
   Shape extent() const;  ///< shape() without checking for free memory
@@ -102,7 +111,8 @@ class Group {
 
   /// Entries of the growing dataset with the fewest in this group and those below; none: there is none.
   std::optional<hsize_t> least_entries() const;
-  /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer.
+  /// Leaves so many entries of each growing dataset in this group and those below; they have no fewer. In groups of
+  /// near nodes the rows of so many outputs are left.
   void cut(hsize_t entries) const;
   /// Reads this group's attributes and the last entry of each growing dataset in it and in those below: throws
   /// std::runtime_error where one is damaged.
@@ -121,7 +131,8 @@ class Group {
  private:
   Handle new_attribute(const std::string& name, hid_t type, hid_t space) const;
   template <class Do>
-  void each_growing(const Do& one) const;
+  void each_growing(const Do& one, bool with_near_nodes) const;
+  void cut_near_nodes(hsize_t outputs) const;
   Handle id_;
   std::string name_;
   bool extends_ = false;  ///< takes what is there

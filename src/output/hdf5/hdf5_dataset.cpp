@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "case/memory.hpp"
@@ -64,13 +65,19 @@ std::vector<T> Dataset::read() const {
 
 template <class T>
 std::vector<T> Dataset::read_row(hsize_t row) const {
+  return read_rows<T>(row, 1);
+}
+
+template <class T>
+std::vector<T> Dataset::read_rows(hsize_t row, hsize_t count) const {
   const LimitedCall limited;
   Shape block = shape();
-  if (block.empty() || row >= block[0])
-    throw std::runtime_error("reading " + name_ + ": it has no entry " + std::to_string(row));
+  if (block.empty() || row >= block[0] + (count == 0 ? 1 : 0) || count > block[0] - row)
+    throw std::runtime_error("reading " + name_ + ": it has no entry " +
+                             std::to_string(row + std::max<hsize_t>(count, 1) - 1));
   Shape start(block.size(), 0);
   start[0] = row;
-  block[0] = 1;
+  block[0] = count;
   expect_claimed_memory(block, sizeof(T), name_);
   std::vector<T> values(count_of(block));
   if (values.empty()) return values;
@@ -84,12 +91,14 @@ std::vector<T> Dataset::read_row(hsize_t row) const {
   return values;
 }
 
-#define RAILWAVE_FOR_TYPE(T)                           \
-  template void Dataset::append<T>(const T*, hsize_t); \
-  template std::vector<T> Dataset::read<T>() const;    \
-  template std::vector<T> Dataset::read_row<T>(hsize_t) const;
+#define RAILWAVE_FOR_TYPE(T)                                   \
+  template void Dataset::append<T>(const T*, hsize_t);         \
+  template std::vector<T> Dataset::read<T>() const;            \
+  template std::vector<T> Dataset::read_row<T>(hsize_t) const; \
+  template std::vector<T> Dataset::read_rows<T>(hsize_t, hsize_t) const;
 
 RAILWAVE_FOR_TYPE(double)
+RAILWAVE_FOR_TYPE(float)
 RAILWAVE_FOR_TYPE(int)
 RAILWAVE_FOR_TYPE(long)
 RAILWAVE_FOR_TYPE(signed char)

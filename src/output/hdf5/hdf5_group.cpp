@@ -111,7 +111,7 @@ Dataset Group::create_growing(const std::string& name, const Shape& row, const S
                      H5Sclose);
   const Handle properties(check(H5Pcreate(H5P_DATASET_CREATE), what), H5Pclose);
   check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
-  if constexpr (std::is_same_v<T, double>) {
+  if constexpr (std::is_floating_point_v<T>) {
     // What a kill in the middle of a flush may have left out then reads as not-a-number, not as zero.
     const double nothing = std::nan("");
     check(H5Pset_fill_value(properties.get(), H5T_NATIVE_DOUBLE, &nothing), what);
@@ -149,12 +149,13 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
 }
 
 template <class Do>
-void Group::each_growing(const Do& one) const {
+void Group::each_growing(const Do& one, bool with_near_nodes) const {
   for (const std::string& name : names()) {
+    if (name == near_nodes && !with_near_nodes) continue;
     expect_free_memory();
     const Handle id(check(H5Oopen(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Oclose);
     const H5I_type_t type = H5Iget_type(id.get());
-    if (type == H5I_GROUP) group(name).each_growing(one);
+    if (type == H5I_GROUP) group(name).each_growing(one, with_near_nodes);
     if (type != H5I_DATASET) continue;
     const Handle space = file_space(id.get(), name_ + name);
     Shape extent(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_ + name)),
@@ -169,18 +170,36 @@ void Group::each_growing(const Do& one) const {
 std::optional<hsize_t> Group::least_entries() const {
   std::optional<hsize_t> least;
   each_growing(
-      [&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); });
+      [&](hid_t, const Shape& extent, const std::string&) { least = std::min(least.value_or(extent[0]), extent[0]); },
+      false);
   return least;
 }
 
 void Group::cut(hsize_t entries) const {
-  each_growing([&](hid_t id, Shape extent, const std::string& name) {
-    if (extent[0] == entries) return;
-    if (extent[0] < entries) throw std::runtime_error("cutting " + name + ": it has fewer entries");
-    extent[0] = entries;
+  cut_near_nodes(entries);
+  each_growing(
+      [&](hid_t id, Shape extent, const std::string& name) {
+        if (extent[0] == entries) return;
+        if (extent[0] < entries) throw std::runtime_error("cutting " + name + ": it has fewer entries");
+        extent[0] = entries;
+        expect_free_memory();
+        check(H5Dset_extent(id, extent.data()), "cutting " + name);
+      },
+      false);
+}
+
+void Group::cut_near_nodes(hsize_t outputs) const {
+  for (const std::string& name : names()) {
+    if (name == near_nodes) {
+      const std::vector<long> rows = dataset("rows").read<long>();
+      if (rows.size() < outputs) throw std::runtime_error("cutting " + name_ + name + ": it has fewer outputs");
+      group(name).cut(outputs == 0 ? 0 : static_cast<hsize_t>(rows[outputs - 1]));
+      continue;
+    }
     expect_free_memory();
-    check(H5Dset_extent(id, extent.data()), "cutting " + name);
-  });
+    const Handle id(check(H5Oopen(id_.get(), name.c_str(), H5P_DEFAULT), "opening " + name_ + name), H5Oclose);
+    if (H5Iget_type(id.get()) == H5I_GROUP) group(name).cut_near_nodes(outputs);
+  }
 }
 
 void Group::check_last() const {
@@ -188,20 +207,22 @@ void Group::check_last() const {
   const H5A_operator2_t visit = [](hid_t, const char*, const H5A_info_t*, void*) -> herr_t { return 0; };
   check(H5Aiterate2(id_.get(), H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, nullptr),
         "reading the attributes of " + name_);
-  each_growing([&](hid_t id, Shape extent, const std::string& name) {
-    if (count_of(extent) == 0) return;
-    Shape start(extent.size(), 0);
-    start[0] = extent[0] - 1;
-    extent[0] = 1;
-    const Handle space = file_space(id, name);
-    check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
-          "reading " + name);
-    const Handle memory = space_of(extent), type(check(H5Dget_type(id), "reading " + name), H5Tclose);
-    const double bytes = static_cast<double>(count_of(extent)) * static_cast<double>(H5Tget_size(type.get()));
-    expect_memory(bytes, name + ": has rows that need", "see whether the file is whole");
-    std::vector<char> row(static_cast<std::size_t>(bytes));
-    check(H5Dread(id, type.get(), memory.get(), space.get(), H5P_DEFAULT, row.data()), "reading " + name);
-  });
+  each_growing(
+      [&](hid_t id, Shape extent, const std::string& name) {
+        if (count_of(extent) == 0) return;
+        Shape start(extent.size(), 0);
+        start[0] = extent[0] - 1;
+        extent[0] = 1;
+        const Handle space = file_space(id, name);
+        check(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr),
+              "reading " + name);
+        const Handle memory = space_of(extent), type(check(H5Dget_type(id), "reading " + name), H5Tclose);
+        const double bytes = static_cast<double>(count_of(extent)) * static_cast<double>(H5Tget_size(type.get()));
+        expect_memory(bytes, name + ": has rows that need", "see whether the file is whole");
+        std::vector<char> row(static_cast<std::size_t>(bytes));
+        check(H5Dread(id, type.get(), memory.get(), space.get(), H5P_DEFAULT, row.data()), "reading " + name);
+      },
+      true);
 }
 
 #define RAILWAVE_FOR_TYPE(T)                                                                                        \
@@ -210,6 +231,7 @@ void Group::check_last() const {
       const;
 
 RAILWAVE_FOR_TYPE(double)
+RAILWAVE_FOR_TYPE(float)
 RAILWAVE_FOR_TYPE(int)
 RAILWAVE_FOR_TYPE(long)
 RAILWAVE_FOR_TYPE(signed char)

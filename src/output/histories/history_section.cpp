@@ -48,9 +48,6 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
                                const std::vector<std::vector<const FieldRow*>>& motions,
                                const std::vector<HistorySet>& elements) {
   const hdf5::Group history = root.create_group("history");
-  times_.dataset = history.create_growing<double>("time", {}, blocks);
-  steps_.dataset = history.create_growing<long>("step", {}, blocks);
-
   const hdf5::Group energy = history.create_group("energy");
   for (const EnergyTerm& term : energy_terms)
     energies_.push_back({energy.create_growing<double>(term.name, {}, blocks), {}});
@@ -106,14 +103,19 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
         loads_.push_back({false, {vector_in(group, "force"), {}}});
     }
   }
-  if (beams.empty()) return;
-  const hdf5::Group beam_groups = history.create_group("beam");
-  for (const auto& [name, count] : beams) {
-    const hdf5::Group group = beam_groups.create_group(name);
-    const hdf5::Shape row{static_cast<hsize_t>(count), 3};
-    beams_.push_back({{group.create_growing<double>("force", row, blocks), {}},
-                      {group.create_growing<double>("moment", row, blocks), {}}});
+  if (!beams.empty()) {
+    const hdf5::Group beam_groups = history.create_group("beam");
+    for (const auto& [name, count] : beams) {
+      const hdf5::Group group = beam_groups.create_group(name);
+      const hdf5::Shape row{static_cast<hsize_t>(count), 3};
+      beams_.push_back({{group.create_growing<double>("force", row, blocks), {}},
+                        {group.create_growing<double>("moment", row, blocks), {}}});
+    }
   }
+  // Last: HDF5 writes the extents of arrays in the order in which these were made, and who reads a file that a kill
+  // left amid that goes by the times (docs/results-file.md).
+  steps_.dataset = history.create_growing<long>("step", {}, blocks);
+  times_.dataset = history.create_growing<double>("time", {}, blocks);
 }
 
 void HistorySection::add(const HistorySample& sample) {

@@ -1,0 +1,362 @@
+#include "model/contact/contact_state.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+
+#include "kernels/contact/contact_force.hpp"
+#include "model/boundaries/ties.hpp"
+#include "model/contact/contact_law.hpp"
+#include "model/contact/contact_pair.hpp"
+#include "model/fields.hpp"
+#include "model/host_copy.hpp"
+#include "model/nodal_state.hpp"
+#include "model/sets/point_search.hpp"
+
+namespace railwave {
+namespace {
+
+/// What a pair does at a slave node that touches.
+struct TouchingSlave {
+  int slave, status, segment, unused;
+  double place[2];
+  double position[3], normal[3], tangential[3];
+
+  double share(int corner) const { return segment_shape(corner, place[0], place[1]); }
+};
+
+/// Lists the slave nodes that touch, in any order.
+struct ListTouchingSlaves {
+  ContactArrays contact;
+  Array<const double* [3]> position;
+  Array<int*> count;  ///< one
+  Array<TouchingSlave*> listed;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    if (contact.status(s) == status_apart) return;
+    TouchingSlave one;
+    one.slave = s;
+    one.status = contact.status(s);
+    one.segment = contact.tracked(s);
+    one.unused = 0;
+    for (int i = 0; i < 2; ++i) one.place[i] = contact.place(s, i);
+    for (int i = 0; i < 3; ++i) {
+      one.position[i] = position(contact.slave_nodes(s), i);
+      one.normal[i] = contact.normal_force(s, i);
+      one.tangential[i] = contact.tangential_force(s, i);
+    }
+    listed(Kokkos::atomic_fetch_add(&count(0), 1)) = one;
+  }
+};
+
+/// The first of a device list, whose length is on the device too.
+template <class T>
+std::vector<T> first_of(const Array<T*>& listed, const Array<int*>& count) {
+  const int length = to_host(count)(0);
+  return to_vector<T>(Kokkos::subview(listed, Kokkos::make_pair(0, length)));
+}
+
+/// By slave, ascending.
+std::vector<TouchingSlave> touching_slaves(const NodeArrays& nodes, const ContactPair& pair) {
+  const Array<int*> count("count of touching slaves", 1);
+  const auto listed = unset_array<TouchingSlave*>("touching slaves", pair.arrays.slave_count);
+  Kokkos::parallel_for("touching_slaves", Range(0, pair.arrays.slave_count),
+                       ListTouchingSlaves{pair.arrays, nodes.position, count, listed});
+  std::vector<TouchingSlave> touching = first_of(listed, count);
+  std::sort(touching.begin(), touching.end(), [](const auto& a, const auto& b) { return a.slave < b.slave; });
+  return touching;
+}
+
+/// Lists the nodes of a surface that are in a box, in any order.
+struct ListNodesInBox {
+  Array<const double* [3]> position;
+  Array<const int*> nodes;
+  double low[3], high[3];
+  Array<int*> count;  ///< one
+  Array<int*> listed;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    for (int i = 0; i < 3; ++i) {
+      const double x = position(nodes(k), i);
+      if (x < low[i] || x > high[i]) return;
+    }
+    listed(Kokkos::atomic_fetch_add(&count(0), 1)) = k;
+  }
+};
+
+/// Positions among the surface's nodes, ascending.
+std::vector<int> nodes_in_box(const NodeArrays& nodes, const Array<int*>& surface, const Bounds& box) {
+  if (box[0][0] > box[1][0]) return {};
+  const Array<int*> count("count of nodes in a box", 1);
+  const auto listed = unset_array<int*>("nodes in a box", surface.extent(0));
+  ListNodesInBox list{nodes.position, surface, {}, {}, count, listed};
+  for (int i = 0; i < 3; ++i) {
+    list.low[i] = box[0][i];
+    list.high[i] = box[1][i];
+  }
+  Kokkos::parallel_for("nodes_in_box", Range(0, static_cast<int>(surface.extent(0))), list);
+  std::vector<int> inside = first_of(listed, count);
+  std::sort(inside.begin(), inside.end());
+  return inside;
+}
+
+/// What is wanted of one surface.
+struct WantedNodes {
+  std::vector<int> places;    ///< positions among the surface's nodes, ascending
+  std::vector<int> place_of;  ///< of each of the surface's nodes: position in `places`; -1: not wanted
+};
+
+WantedNodes wanted_nodes(std::vector<int> places, std::size_t count) {
+  WantedNodes wanted{std::move(places), std::vector<int>(count, -1)};
+  for (std::size_t k = 0; k < wanted.places.size(); ++k) wanted.place_of[wanted.places[k]] = static_cast<int>(k);
+  return wanted;
+}
+
+WantedNodes all_nodes(std::size_t count) {
+  std::vector<int> places(count);
+  std::iota(places.begin(), places.end(), 0);
+  return wanted_nodes(std::move(places), count);
+}
+
+/// Around the touching slave nodes and the segments under them, and by the margin wider.
+Bounds box_of_contact(const NodalState& nodal, const Ties& ties, const ContactPair& pair,
+                      const std::vector<TouchingSlave>& touching) {
+  Bounds box = no_bounds;
+  std::vector<int> corners;
+  for (const TouchingSlave& one : touching) {
+    widen(box, {one.position[0], one.position[1], one.position[2]});
+    for (const int m : pair.master_segments[one.segment]) corners.push_back(pair.master_nodes[m]);
+  }
+  const std::vector<double> position = node_field(nodal, ties, NodeField::position, corners).values;
+  for (std::size_t i = 0; i < position.size(); i += 3) widen(box, {position[i], position[i + 1], position[i + 2]});
+  return box;
+}
+
+/// The values of some of the nodes, of which each has so many.
+std::vector<double> picked(const std::vector<double>& all, const std::vector<int>& places, std::size_t components) {
+  std::vector<double> result;
+  result.reserve(components * places.size());
+  for (const int place : places)
+    result.insert(result.end(), all.begin() + static_cast<long>(components) * place,
+                  all.begin() + static_cast<long>(components) * (place + 1));
+  return result;
+}
+
+/// Area and normal of the wanted nodes, by all facets around them; those facets of which all corners are wanted.
+void add_geometry(const NodalState& nodal, const Ties& ties, const std::vector<int>& surface,
+                  const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted, ContactSide& side) {
+  std::vector<int> around = wanted.places;  // of these nodes and those of the facets around them, these first
+  std::vector<int> place_of = wanted.place_of;
+  std::vector<std::array<int, 4>> facets_around;
+  for (const auto& facet : facets) {
+    const auto is_wanted = [&](int k) { return wanted.place_of[k] >= 0; };
+    if (std::none_of(facet.begin(), facet.end(), is_wanted)) continue;
+    std::array<int, 4> corners{};
+    for (int c = 0; c < 4; ++c) {
+      int& place = place_of[facet[c]];
+      if (place < 0) {
+        place = static_cast<int>(around.size());
+        around.push_back(facet[c]);
+      }
+      corners[c] = place;
+    }
+    facets_around.push_back(corners);
+    if (std::all_of(facet.begin(), facet.end(), is_wanted)) side.facets.push_back(corners);
+  }
+  for (int& k : around) k = surface[k];
+  std::vector<double> position = node_field(nodal, ties, NodeField::position, around).values;
+  SurfaceGeometry geometry = surface_geometry(position, facets_around);
+  const std::size_t count = wanted.places.size();
+  geometry.area.resize(count);
+  geometry.normal.resize(3 * count);
+  position.resize(3 * count);
+  side.area = std::move(geometry.area);
+  side.normal = std::move(geometry.normal);
+  side.position = std::move(position);
+}
+
+ContactSide bare_side(const NodalState& nodal, const Ties& ties, const std::vector<int>& surface,
+                      const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted) {
+  ContactSide side;
+  if (wanted.places.size() < surface.size()) side.places = wanted.places;
+  for (const int place : wanted.places) side.nodes.push_back(surface[place]);
+  add_geometry(nodal, ties, surface, facets, wanted, side);
+  side.displacement = node_field(nodal, ties, NodeField::displacement, side.nodes).values;
+  side.velocity = node_field(nodal, ties, NodeField::velocity, side.nodes).values;
+  side.normal_force.assign(3 * side.nodes.size(), 0);
+  side.tangential_force.assign(3 * side.nodes.size(), 0);
+  return side;
+}
+
+/// Present gap of the far nodes in the window: a step projects the near ones only.
+struct PresentGap {
+  ContactSearch search;
+  ContactWindow window;
+  Array<double*> gap;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const WindowEntry entry = window.entries(i);
+    if (entry.near != 0) return;
+    const ContactArrays& contact = search.contact;
+    const int s = entry.slave;
+    const Vector3 slave = row(search.position, entry.node);
+    if (gap(s) == turned_away) return;
+    const Projection found = search.locate(slave, contact.tracked(s));
+    gap(s) = found.segment < 0 ? beside_surface : found.gap;
+  }
+};
+
+struct PickGaps {
+  Array<const double*> gap;
+  Array<const int*> wanted;
+  Array<double*> result;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { result(i) = gap(wanted(i)); }
+};
+
+/// Of the slave's wanted nodes.
+std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pair, const std::vector<int>& places) {
+  const auto gap = unset_array<double*>("present gap", pair.arrays.slave_count);
+  Kokkos::deep_copy(gap, pair.arrays.gap);
+  Kokkos::parallel_for("present_gap", Range(0, pair.window.count),
+                       PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, gap});
+  if (places.size() == pair.slave_nodes.size()) return to_vector(gap);
+  const auto result = unset_array<double*>("wanted gaps", places.size());
+  Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),
+                       PickGaps{gap, to_device("wanted", places), result});
+  return to_vector(result);
+}
+
+/// Shares of the master's nodes in a force on the slaves, where segments are curved.
+struct CurvedShares {
+  ContactSearch search;
+  ExternalForceSum sum;
+  Array<const int*> place_of_node;
+  Array<const double* [3]> force;
+  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
+    const ContactArrays& contact = search.contact;
+    if (contact.status(s) == status_apart) return;
+    const int segment = contact.tracked(s);
+    const Vector3 f = row(force, s);
+    SmoothNormals::reaction(search, segment, {contact.place(s, 0), contact.place(s, 1)}, f,
+                            CurvedReaction({search, sum, place_of_node}, contact.surface(segment), f));
+  }
+};
+
+/// A contact spring on a curved segment also loads nodes around the segment, see SmoothNormals::reaction.
+bool curved(const ContactPair& pair) {
+  return pair.contact->normals == scene::ContactNormals::smooth && pair.has_springs();
+}
+
+void add_curved_forces(const NodalState& nodal, const ContactPair& pair, const Array<double* [3]>& force,
+                       const WantedNodes& master, std::vector<double>& on_master) {
+  std::vector<int> place(nodal.nodes.count, -1);
+  for (std::size_t m = 0; m < pair.master_nodes.size(); ++m) place[pair.master_nodes[m]] = static_cast<int>(m);
+  ExternalForceSum sum;
+  sum.quantum = nodal.external.sum.quantum;
+  sum.contact = Array<std::uint64_t* [3]>("shares of master nodes", pair.master_nodes.size());
+  Kokkos::parallel_for(
+      "curved_shares", Range(0, pair.arrays.slave_count),
+      CurvedShares{ContactSearch{{pair.arrays, nodal.nodes.position}}, sum, to_device("place of node", place), force});
+  const auto quanta = to_host(sum.contact);
+  for (std::size_t k = 0; k < master.places.size(); ++k)
+    for (int i = 0; i < 3; ++i)
+      on_master[3 * k + i] += sum.quantum * static_cast<double>(static_cast<std::int64_t>(quanta(master.places[k], i)));
+}
+
+void add_forces(const NodalState& nodal, const ContactPair& pair, const std::vector<TouchingSlave>& touching,
+                const WantedNodes& slave_nodes, const WantedNodes& master_nodes, ContactSide& slave,
+                ContactSide& master) {
+  if (curved(pair)) {
+    add_curved_forces(nodal, pair, pair.arrays.normal_force, master_nodes, master.normal_force);
+    add_curved_forces(nodal, pair, pair.arrays.tangential_force, master_nodes, master.tangential_force);
+  }
+  for (const TouchingSlave& one : touching) {
+    const int s = slave_nodes.place_of[one.slave];
+    for (int i = 0; i < 3; ++i) {
+      slave.normal_force[3 * s + i] += one.normal[i];
+      slave.tangential_force[3 * s + i] += one.tangential[i];
+    }
+    for (int k = 0; k < 4 && !curved(pair); ++k) {
+      const int m = master_nodes.place_of[pair.master_segments[one.segment][k]];
+      for (int i = 0; i < 3; ++i) {
+        master.normal_force[3 * m + i] -= one.share(k) * one.normal[i];
+        master.tangential_force[3 * m + i] -= one.share(k) * one.tangential[i];
+      }
+    }
+  }
+}
+
+/// Slip velocity of a slave node over its segment: relative velocity in the plane normal to its normal force.
+Vec3 slip_velocity(const ContactPair& pair, const TouchingSlave& one, const WantedNodes& slave_nodes,
+                   const WantedNodes& master_nodes, const ContactState& state) {
+  const int s = slave_nodes.place_of[one.slave];
+  Vec3 slip{};
+  double along = 0, squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    slip[i] = state.slave.velocity[3 * s + i];
+    for (int k = 0; k < 4; ++k)
+      slip[i] -=
+          one.share(k) * state.master.velocity[3 * master_nodes.place_of[pair.master_segments[one.segment][k]] + i];
+    along += slip[i] * one.normal[i];
+    squared += one.normal[i] * one.normal[i];
+  }
+  if (squared > 0)
+    for (int i = 0; i < 3; ++i) slip[i] -= along / squared * one.normal[i];
+  return slip;
+}
+
+}  // namespace
+
+ContactState contact_state(const NodalState& nodal, const Ties& ties, const std::vector<ContactPair>& contacts,
+                           int contact, std::optional<double> margin) {
+  const ContactPair& pair = contacts[contact];
+  // Both halves of a symmetric contact number the nodes of each surface alike.
+  const ContactPair* half = pair.partner >= 0 ? &contacts[pair.partner] : nullptr;
+  const std::vector<TouchingSlave> touching = touching_slaves(nodal.nodes, pair);
+  const std::vector<TouchingSlave> touching_half =
+      half ? touching_slaves(nodal.nodes, *half) : std::vector<TouchingSlave>{};
+  WantedNodes slave, master;
+  if (margin) {
+    Bounds box = box_of_contact(nodal, ties, pair, touching);
+    if (half) {
+      const Bounds other = box_of_contact(nodal, ties, *half, touching_half);
+      for (const Vec3& corner : other)
+        if (other[0][0] <= other[1][0]) widen(box, corner);
+    }
+    for (int i = 0; i < 3; ++i) {
+      box[0][i] -= *margin;
+      box[1][i] += *margin;
+    }
+    slave = wanted_nodes(nodes_in_box(nodal.nodes, pair.arrays.slave_nodes, box), pair.slave_nodes.size());
+    master = wanted_nodes(nodes_in_box(nodal.nodes, pair.arrays.master_nodes, box), pair.master_nodes.size());
+  } else {
+    slave = all_nodes(pair.slave_nodes.size());
+    master = all_nodes(pair.master_nodes.size());
+  }
+
+  ContactState state;
+  state.name = pair.contact->name;
+  state.friction = pair.arrays.friction;
+  state.slave = bare_side(nodal, ties, pair.slave_nodes, pair.slave_facets, slave);
+  state.master = bare_side(nodal, ties, pair.master_nodes, pair.master_segments, master);
+  add_forces(nodal, pair, touching, slave, master, state.slave, state.master);
+  if (half) add_forces(nodal, *half, touching_half, master, slave, state.master, state.slave);
+
+  state.gap = present_gaps(nodal.nodes, pair, slave.places);
+  for (double& gap : state.gap)
+    if (!is_distance(gap)) gap = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t count = slave.places.size();
+  if (const std::vector<double> friction = friction_now(*pair.contact, pair.law); !friction.empty())
+    state.friction_now = picked(friction, slave.places, 1);
+  state.slip_velocity.assign(3 * count, 0);
+  state.slipping.assign(count, 0);
+  for (const TouchingSlave& one : touching) {
+    const int s = slave.place_of[one.slave];
+    state.slipping[s] = one.status;
+    const Vec3 slip = slip_velocity(pair, one, slave, master, state);
+    for (int i = 0; i < 3; ++i) state.slip_velocity[3 * s + i] = slip[i];
+  }
+  return state;
+}
+
+}  // namespace railwave

@@ -1,0 +1,186 @@
+"""Half a wheelset passes the joint: the simulations of the thesis's table 4.2, and what their results tell."""
+
+import types
+
+import h5py
+import numpy as np
+
+import worn_joint
+from steps import rows_of
+
+START = 1.32  # m, from where the wheel begins to the gap's middle: the thesis's places count from there
+SPEED = 27.78  # m/s
+ELASTIC = ["parts.wheelset.material=elastic", "tracks.track.rail_material=elastic"]
+SIMULATIONS = {1: "elastic, nominal surface", 2: "bilinear, nominal surface", 3: "bilinear, worn surface"}
+# Begins 40 mm before the gap, in elements of 5 mm: for two processors, to see that all is well.
+COARSE_START = 0.04
+COARSE = [
+    "meshes.wheelset.zone_size=0.005", "meshes.wheelset.zone_start=-0.03", "meshes.wheelset.zone_length=0.15",
+    "meshes.wheelset.path_start=-0.03", "meshes.wheelset.path_length=0.15", "meshes.wheelset.path_size=0.005",
+    "meshes.wheelset.coarse_size=0.05", "meshes.wheelset.section_size=0.012", "meshes.wheelset.zone_layers=1",
+    "meshes.wheelset.axle_size=0.06", "parts.wheelset.position=[-0.04, 0, 0.62]",
+    "points.sprung_mass.position=[-0.04, 1.0, 0.62]", "tracks.track.start=-2.1", "tracks.track.end=2.1",
+    "tracks.track.zone_size=0.006", "tracks.track.zone_layers=1", "tracks.track.zone_start=-0.07",
+    "tracks.track.zone_end=0.07", "tracks.track.path_start=-0.07", "tracks.track.path_end=0.07",
+    "tracks.track.path_size=0.006", "tracks.track.section_size=0.012", "tracks.track.coarse_size=0.05",
+    "tracks.track.core_size=0.06", "curves.ramp.duration=1e-3", "settle.friction=true",
+    "settle.tolerance=3e-3", "output.contact_margin=0.012", "time.end=2.9e-3",
+    "output_windows.passage.start=0", "output_windows.passage.end=2.8e-3", "output_windows.passage.interval=1e-5",
+    "output_windows.approach.start=1e-4", "output_windows.approach.end=3e-4",
+    "output_windows.approach.interval=5e-6", "output_windows.landing.start=1.0e-3",
+    "output_windows.landing.end=2.0e-3", "output_windows.landing.interval=5e-6",
+]
+
+
+def worn_surface(steps):
+    """The height map of simulation 3, as the defaults of worn_joint.py have it."""
+    import argparse
+
+    parser = argparse.ArgumentParser()
+    worn_joint.add_options(parser)
+    shape = parser.parse_args([])
+    path = steps.path("worn_joint.csv")
+    steps.once("worn_joint", [worn_joint.__file__], sorted(vars(shape).items()), lambda: worn_joint.write(path, shape))
+    return path
+
+
+def simulate(steps, case, coarse, numbers):
+    """Runs the simulations; their contact solutions. Returns a Passing for each."""
+    found = {}
+    for number in numbers:
+        overrides = list(COARSE if coarse else [])
+        if number == 1:
+            overrides += ELASTIC
+        if number == 3:
+            overrides.append(f"tracks.track.height_map={worn_surface(steps)}")
+        results = steps.run(f"simulation_{number}", case, overrides)
+        table = steps.path(f"contact_{number}.csv")
+        words = [steps.program, "contact", results, "--csv", table, "--overwrite"]
+        steps.once(f"contact_{number}", [results], words, lambda words=words: quietly(steps, words))
+        found[number] = Passing(number, results, table, COARSE_START if coarse else START)
+    return found
+
+
+def quietly(steps, words):
+    """A command that prints a row for each of thousands of outputs."""
+    import subprocess
+
+    ended = subprocess.run([str(word) for word in words], stdout=subprocess.DEVNULL, check=False)
+    if ended.returncode != 0:
+        from steps import Failed
+
+        raise Failed(f"{' '.join(str(word) for word in words)} ended with code {ended.returncode}")
+
+
+class Passing:
+    """One simulation's results: histories, the patches' table, and the nodes' forces at each output."""
+
+    def __init__(self, number, results, table, start):
+        self.number, self.results, self.start = number, results, start
+        with h5py.File(results, "r") as file:
+            history = file["history"]
+            self.time = history["time"][:]
+            self.force = np.linalg.norm(history["contact/tread/normal_force"][:], axis=1)
+            self.balance = np.abs(history["energy/balance_error"][:]).max() / history["energy/internal"][:].max()
+            self.foot = history["set/track_rail_2.behind/acceleration"][:]
+            self.seconds = float(file.attrs.get("wall_seconds", np.nan))
+            self.friction = float(file["contact/tread"].attrs["friction"])
+            self.megabytes = results.stat().st_size / 1e6
+        rows = [row for row in rows_of(table) if row["patch"] == "0"]
+        self.patch = types.SimpleNamespace(
+            **{
+                column: np.array([float(row[column] or "nan") for row in rows])
+                for column in (
+                    "time", "nodes_in_contact", "area", "peak_nodal_pressure", "peak_shear", "normal_force",
+                    "creep_force", "centre_x", "slipping_by_force", "slipping_by_velocity", "semi_axis_along",
+                )
+            }
+        )
+
+    def place(self, time):
+        """Of the wheel's centre along the track, from the gap's middle, m."""
+        return SPEED * time - self.start
+
+    def peak_force(self):
+        """Largest normal force from 10 mm before the gap on: kN, and where, m from the gap."""
+        behind = self.place(self.time) > -0.01
+        k = np.flatnonzero(behind)[self.force[behind].argmax()]
+        return 1e-3 * self.force[k], self.place(self.time[k])
+
+    def mean_before(self, column, nearest=0.02):
+        """Mean of a column of the patches while the whole patch is on the first rail."""
+        before = (self.patch.centre_x < -nearest) & (self.patch.nodes_in_contact > 0)
+        return float(getattr(self.patch, column)[before].mean()) if before.any() else float("nan")
+
+    def slipping(self):
+        """Share of the patch's nodes that slip, by output."""
+        with np.errstate(invalid="ignore"):
+            return self.patch.slipping_by_force / self.patch.nodes_in_contact
+
+    def positive_shear(self, share=0.1):
+        """Where and when the rail behind the gap is pushed along the rolling direction, by nodes whose tangential force
+        is more than a share of friction's bound: first and last time, s, least and largest place, m; None: never."""
+        times, places = [], []
+        with h5py.File(self.results, "r") as file:
+            contact = file["contact/tread"]
+            side, near = contact["slave"], contact["slave/near"]
+            rows, coordinates = side["rows"][:], side["coordinates"][:]
+            every_time = contact["time"][:]
+            for output, time in enumerate(every_time):
+                if not -0.02 < self.place(time) < 0.02:
+                    continue
+                first, last = (rows[output - 1] if output else 0), rows[output]
+                if last == first:
+                    continue
+                x = coordinates[near["node"][first:last], 0] + near["displacement"][first:last, 0]
+                normal = np.linalg.norm(near["normal_force"][first:last], axis=1)
+                on_rail = -near["tangential_force"][first:last, 0]  # the wheel's is the opposite
+                pushed = (x > 0) & (normal > 1) & (on_rail > share * self.friction * normal)
+                if pushed.any():
+                    times.append(time)
+                    places += [x[pushed].min(), x[pushed].max()]
+        return (min(times), max(times), min(places), max(places)) if times else None
+
+
+def findings(found):
+    """Rows of the study's table: what, thesis, found; each a text."""
+    rows = []
+    peaks = {number: one.peak_force() for number, one in found.items()}
+    for number, one in sorted(found.items()):
+        name = f"simulation {number}"
+        force, place = peaks[number]
+        pressure, area = 1e-6 * one.mean_before("peak_nodal_pressure"), 1e6 * one.mean_before("area")
+        rows += [
+            (f"{name}: largest force behind the gap", "", f"{force:.1f} kN, {1e3 * place:.0f} mm behind it"),
+            (f"{name}: largest pressure before the gap, mean", "", f"{pressure:.0f} MPa"),
+            (f"{name}: area of the patch before the gap, mean", "", f"{area:.0f} mm2"),
+            (f"{name}: largest pressure of the passage", "", f"{1e-6 * one.patch.peak_nodal_pressure.max():.0f} MPa"),
+        ]
+        slipping = one.slipping()
+        landed = one.place(one.patch.time) > 0
+        if np.isfinite(slipping[landed]).any():
+            least = np.flatnonzero(landed)[np.nanargmin(slipping[landed])]
+            most = np.flatnonzero(landed)[np.nanargmax(slipping[landed])]
+            rows.append((
+                f"{name}: least and most slip behind the gap",
+                "nearly none 46.8 ms, most 47.7 ms (simulation 3)" if number == 3 else "",
+                f"{slipping[least]:.2f} of the nodes at {1e3 * one.patch.time[least]:.2f} ms, {slipping[most]:.2f} at"
+                f" {1e3 * one.patch.time[most]:.2f} ms",
+            ))
+        positive = one.positive_shear()
+        rows.append((
+            f"{name}: shear along the rolling direction behind the gap", "1323 to 1329 mm",
+            "none" if positive is None else
+            f"{1e3 * (START + positive[2]):.1f} to {1e3 * (START + positive[3]):.1f} mm, {1e3 * positive[0]:.3f} to"
+            f" {1e3 * positive[1]:.3f} ms",
+        ))
+        rows += [
+            (f"{name}: energy balance over the largest elastic energy", "", f"{100 * one.balance:.4f} %"),
+            (f"{name}: results, wall time", "", f"{one.megabytes:.1f} MB, {one.seconds:.0f} s"),
+        ]
+    if len(found) > 1:
+        order = sorted(peaks, key=lambda number: -peaks[number][0])
+        rows.append(("order of the forces behind the gap", "3 > 2 > 1", " > ".join(str(number) for number in order)))
+        pressure = sorted(found, key=lambda number: -found[number].mean_before("peak_nodal_pressure"))
+        rows.append(("order of the pressures before the gap", "1 is highest", " > ".join(str(n) for n in pressure)))
+    return rows

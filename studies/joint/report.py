@@ -1,0 +1,116 @@
+"""The study's table and pictures."""
+
+import csv
+import pathlib
+import sys
+
+import numpy as np
+
+import hammer
+from steps import PROJECT
+
+sys.path.insert(0, str(PROJECT / "scripts"))
+sys.dont_write_bytecode = True
+from pictures import style  # noqa: E402
+from pictures.output import put_figure  # noqa: E402
+
+style.apply()
+import matplotlib.pyplot as plt  # noqa: E402
+
+
+def off_by(found, thesis):
+    return "" if found is None else f"{100 * (found / thesis - 1):+.0f} %"
+
+
+def frequency_rows(listed):
+    """(what, simulated, measured, found) in Hz as rows of the table."""
+    return [
+        (what, f"{simulated} Hz (measured {measured})" if measured != simulated else f"{simulated} Hz",
+         "none" if found is None else f"{found:.0f} Hz", off_by(found, simulated))
+        for what, simulated, measured, found in listed
+    ]
+
+
+def write(steps, rows):
+    """table.md and table.csv, and the table on standard output."""
+    heading = ("what", "thesis", "found", "off by")
+    rows = [(*row, *[""] * (4 - len(row))) for row in rows]
+    text = "\n".join(["| " + " | ".join(row) + " |" for row in (heading, ("---",) * 4, *rows)]) + "\n"
+    steps.path("table.md").write_text(text, encoding="utf-8")
+    with open(steps.path("table.csv"), "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([heading, *rows])
+    print(text, end="")
+
+
+def put(steps, figure, name):
+    path = pathlib.Path(steps.path(name))
+    put_figure(figure, str(path), 150, overwrite=False)
+    plt.close(figure)
+    print(path)
+
+
+def draw_hammer(steps, tables):
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4.2), constrained_layout=True)
+    for name, (_, _, along) in hammer.PLACES.items():
+        response = hammer.Accelerance(tables[name])
+        axes = panels[0 if along == "vertical" else 1]
+        axes.semilogx(response.frequency, response.decibels, label=name.rsplit("_", 1)[0].replace("_", " "))
+    for axes, along in zip(panels, ("vertical", "lateral")):
+        axes.set_title(f"{along} direct accelerance")
+        axes.set_xlabel("frequency, Hz")
+        axes.set_ylabel("dB re 1 m/s2/N")
+        axes.grid(which="both")
+        axes.legend()
+    put(steps, figure, "accelerance.png")
+
+
+def draw_forces(steps, found):
+    """Normal forces over the whole passage and beside the gap (fig. 4.18)."""
+    figure, panels = plt.subplots(1, 2, figsize=(11, 4), constrained_layout=True)
+    for number, one in sorted(found.items()):
+        place = 1e3 * one.place(one.time)
+        for axes in panels:
+            axes.plot(place, 1e-3 * one.force, label=f"simulation {number}")
+    panels[1].set_xlim(-40, 80)
+    for axes in panels:
+        axes.axvline(0, color="0.6", linestyle=":")
+        axes.set_xlabel("place of the wheel from the gap, mm")
+        axes.set_ylabel("normal contact force, kN")
+        axes.grid()
+        axes.legend()
+    put(steps, figure, "forces.png")
+
+
+def draw_footprint(steps, found):
+    """Largest pressure, area, slip and length of the patch over the passage (fig. 4.21, 4.24)."""
+    figure, panels = plt.subplots(4, 1, figsize=(8, 9), sharex=True, constrained_layout=True)
+    for number, one in sorted(found.items()):
+        patch = one.patch
+        place = 1e3 * one.place(patch.time)
+        for axes, values in zip(panels, (1e-6 * patch.peak_nodal_pressure, 1e-6 * patch.peak_shear, 1e6 * patch.area,
+                                         one.slipping())):
+            axes.plot(place, values, label=f"simulation {number}")
+    for axes, label in zip(panels, ("largest pressure, MPa", "largest shear, MPa", "area, mm2", "share that slips")):
+        axes.set_ylabel(label)
+        axes.axvline(0, color="0.6", linestyle=":")
+        axes.grid()
+    panels[0].legend()
+    panels[-1].set_xlabel("place of the wheel from the gap, mm")
+    put(steps, figure, "footprint.png")
+
+
+def draw_waves(steps, lines):
+    """Space-time diagrams of the running surface behind the gap."""
+    if not lines:
+        return
+    figure, panels = plt.subplots(1, len(lines), figsize=(5 * len(lines), 4), squeeze=False, constrained_layout=True)
+    for axes, (number, line) in zip(panels[0], sorted(lines.items())):
+        change = line.velocity - line.velocity[:1]  # the rail moves as a whole too
+        largest = np.abs(change).max()
+        drawn = axes.pcolormesh(1e3 * line.x, 1e6 * (line.time - line.time[0]), change, cmap=style.SIGNED_MAP,
+                                vmin=-largest, vmax=largest, shading="nearest")
+        axes.set_title(f"simulation {number}")
+        axes.set_xlabel("place behind the gap, mm")
+        axes.set_ylabel("time, \N{MICRO SIGN}s")
+        figure.colorbar(drawn, ax=axes, label="change of vertical velocity, m/s")
+    put(steps, figure, "waves.png")

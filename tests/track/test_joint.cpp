@@ -1,5 +1,7 @@
+#include <fmt/format.h>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
+
 #include <cmath>
 #include <sstream>
 
@@ -69,13 +71,13 @@ std::array<double, 2> deflections(const Model& model) {
   return {of("track_rail.end"), of("track_rail_2.start")};
 }
 
-void check_settled(Model& model) {
+/// @param ballast_error relative, of what the ballast carries
+void check_settled(Model& model, double ballast_error) {
   const SettleReport settled = settle_whole(model);
-  INFO("settled after " << settled.steps << " steps, unbalance " << settled.unbalance);
+  INFO("settled after " << settled.steps << " evaluations, unbalance " << settled.unbalance);
   CHECK(settled.settled);
   compute_forces(model);
-  if (model.scene.settle.method == scene::SettleMethod::newton)
-    CHECK_THAT(ballast_force(model), WithinRel(weight + 9.81 * total_mass(model), 1e-4));
+  CHECK_THAT(ballast_force(model), WithinRel(weight + 9.81 * total_mass(model), ballast_error));
   for (const char* bolt : {"track_bolt_1", "track_bolt_2", "track_bolt_3", "track_bolt_4"})
     CHECK_THAT(axial_force(model, bolt), WithinRel(12.5e3, 0.01));
 }
@@ -88,7 +90,7 @@ TEST_CASE(
     "[long]") {
   Model model;
   build_model(joint("", "method = \"newton\"\ntolerance = 1e-6"), model);
-  check_settled(model);
+  check_settled(model, 1e-4);
   const auto [before, behind] = deflections(model);
   INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
   CHECK(behind / before < 1);
@@ -96,11 +98,17 @@ TEST_CASE(
 }
 
 TEST_CASE("plates in contact carry the load over as well, with more give", "[long]") {
-  Model model;
-  build_model(joint("fishplate_fit = \"contact\"\n", "tolerance = 1e-2\nmax_steps = 60000"), model);
-  check_settled(model);
-  const auto [before, behind] = deflections(model);
-  INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
-  CHECK(behind / before < 0.99);
-  CHECK(behind / before > 0.9);
+  // With friction where many nodes slip: Newton's method settles it without friction first.
+  for (const char* friction : {"0.1", "0.4"}) {
+    INFO("friction " << friction);
+    Model model;
+    build_model(joint(fmt::format("fishplate_fit = \"contact\"\nfishplate_friction = {}\n", friction),
+                      "method = \"newton\"\ntolerance = 1e-3"),
+                model);
+    check_settled(model, 2e-3);
+    const auto [before, behind] = deflections(model);
+    INFO("rail ends " << 1e3 * before << " and " << 1e3 * behind << " mm");
+    CHECK(behind / before < 0.99);
+    CHECK(behind / before > 0.9);
+  }
 }

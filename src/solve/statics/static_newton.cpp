@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/support/reductions.hpp"
 #include "model/beams/beams.hpp"
@@ -9,6 +12,7 @@
 #include "solve/statics/settle.hpp"
 #include "solve/statics/static_coarse.hpp"
 #include "solve/statics/static_contact.hpp"
+#include "solve/statics/static_state.hpp"
 #include "solve/statics/static_tangent.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
@@ -16,7 +20,7 @@ namespace railwave {
 namespace {
 
 /// Conjugate gradients stop at this share of the residual they began with, between these bounds.
-constexpr double loosest = 0.1, tightest = 1e-3;
+constexpr double loosest = 0.01, tightest = 1e-3;
 constexpr int most_iterations = 600;
 constexpr int iterations_between_checks = 20;
 /// A step is taken when the force along it has come down to this share of what it was, either way.
@@ -25,13 +29,17 @@ constexpr int most_trials = 20;
 /// A rotation turns no farther at once, rad: its moments have changed by then.
 constexpr double most_turn = 0.5;
 /// Share of the diagonal that is added to the stiffness: much where contact has still to close, and a body that nothing
-/// holds would turn by angles that strain it; raised where a step went too far to be taken whole or made things worse,
-/// and lowered where it didn't; to no less than a floor that rises while nothing improves, for bodies that slide away
-/// without friction.
+/// holds would turn by angles that strain it; raised where less than about half of a step could be taken (a body that
+/// nothing holds would go far) or things got worse, and lowered where not; to no less than a floor that rises while
+/// nothing improves, for bodies that slide away without friction.
 constexpr double least_shift = 1e-12, most_shift = 1e-5, shift_up = 100, shift_down = 10, worse = 2;
+constexpr double nearly_whole = 0.5;
 constexpr int idle_steps_of_floor = 3;
 /// Newton steps without a better residual after which it is given up.
 constexpr int most_idle_steps = 25;
+/// Newton steps in which the residual has to halve where something else can be tried.
+constexpr int patience = 12;
+constexpr int no_limit = std::numeric_limits<int>::max();
 /// Multipliers are renewed when the unbalance is below that many tolerances.
 constexpr double renewal_unbalance = 30;
 /// Change of a multiplier, over the largest one, at which they count as found: what is left of the gaps would take as
@@ -46,7 +54,8 @@ struct Measure {
 
 class Newton {
  public:
-  Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on)
+  /// @param before whose evaluations of forces and steps are counted on
+  Newton(Model& model, const std::function<bool(const SettleReport&)>& go_on, const SettleReport& before)
       : model_(model),
         go_on_(go_on),
         unknowns_(model, model.ties, model.ends, model.beams),
@@ -64,16 +73,19 @@ class Newton {
         way_(vector("search direction")),
         image_(vector("image")) {
     if (model.beams) turned_from_ = Array<double* [4]>("turned from", unknowns_.rotations());
+    report_.steps = before.steps;
+    report_.iterations = before.iterations;
   }
 
-  SettleReport run() {
+  /// @param most_slow_steps it is given up when so many Newton steps have not halved the residual
+  SettleReport run(int most_slow_steps = no_limit) {
     const scene::Settle& wish = model_.scene.settle;
     trial_.keep(model_);
     Measure now = evaluate();
     if (contact_.any()) shift_ = most_shift;
     refuse_drifting_points(model_, model_.connectors.cells, model_.beams, residual_.residual, now.applied);
-    double best = 1e300;
-    int idle = 0;
+    double best = 1e300, halved = 1e300;
+    int idle = 0, slow = 0;
     for (;; ++report_.iterations) {
       double change = 0;
       if (contact_.augmented()) {
@@ -91,8 +103,12 @@ class Newton {
       if (report_.settled || !std::isfinite(now.unbalance) || !go_on_(report_)) break;
       idle = now.unbalance < 0.95 * best ? 0 : idle + 1;
       best = std::min(best, now.unbalance);
+      // While multipliers are renewed it cannot fall.
+      const bool renews = contact_.augmented() && now.unbalance < renewal_unbalance * wish.tolerance;
+      slow = renews || best < 0.5 * halved ? 0 : slow + 1;
+      if (slow == 0) halved = best;
       if (idle > 0 && idle % idle_steps_of_floor == 0) floor_ = std::min(most_shift, shift_up * floor_);
-      if (idle > most_idle_steps || report_.steps >= wish.max_steps) break;
+      if (idle > most_idle_steps || slow > most_slow_steps || report_.steps >= wish.max_steps) break;
       trial_.keep(model_);
       if (!find_step(now)) break;
       now = go(now.unbalance);
@@ -211,7 +227,6 @@ class Newton {
     if (model_.beams) Kokkos::deep_copy(turned_from_, model_.beams->arrays.rotation);
     const double first = inner(residual_.residual, step_);
     double low = 0, at_low = first, high = 0, at_high = 0, share = largest_share();
-    const bool whole = share == 1;
     Measure now{};
     for (int trial = 0; trial < most_trials; ++trial) {
       now = evaluate_at(share);
@@ -230,7 +245,7 @@ class Newton {
       }
       share = low + (high - low) * std::max(1e-3, std::min(0.9, at_low / (at_low - at_high)));
     }
-    const bool well = whole && now.unbalance < worse * unbalance_before;
+    const bool well = share >= nearly_whole && now.unbalance < worse * unbalance_before;
     shift_ = well ? std::max(floor_, shift_ / shift_down) : std::min(most_shift, shift_up * shift_);
     return now;
   }
@@ -258,6 +273,48 @@ class Newton {
   Array<double* [4]> turned_from_;
 };
 
+/// Contacts have no friction as long as this lives.
+class WithoutFriction {
+ public:
+  explicit WithoutFriction(scene::Settle& wish) : wish_(wish), before_(wish.friction) { wish.friction = false; }
+  ~WithoutFriction() { wish_.friction = before_; }
+  WithoutFriction(const WithoutFriction&) = delete;
+  WithoutFriction& operator=(const WithoutFriction&) = delete;
+
+ private:
+  scene::Settle& wish_;
+  bool before_;
+};
+
+bool any_friction(const Model& model) {
+  return std::any_of(model.contacts.begin(), model.contacts.end(),
+                     [&](const ContactPair& pair) { return has_friction(model.scene, pair, StepKind::settling); });
+}
+
+/// For contacts in which many nodes slip: there friction depends on the way, and Newton's steps take a few per cent
+/// each off the residual. An equilibrium without friction is one with it too, in which nothing is held back; so the
+/// scene settles without friction first and then with it from there, where all nodes stick. Where that leads nowhere,
+/// as with bodies that friction alone holds, it goes on from what was tried.
+SettleReport settle_without_friction_first(Model& model, const std::function<bool(const SettleReport&)>& go_on,
+                                           const StaticState& start, const SettleReport& tried) {
+  const StaticState reached = save_static_state(model);
+  restore_static_state(model, start);
+  SettleReport report;
+  {
+    const WithoutFriction frictionless(model.scene.settle);
+    report = Newton(model, go_on, tried).run(patience);
+  }
+  const bool better = report.unbalance < tried.unbalance;
+  if (!better) restore_static_state(model, reached);
+  report = Newton(model, go_on, report).run();
+  if (better)
+    report.remarks.push_back(
+        fmt::format("with friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
+                    "evaluations; then the scene settled without friction first, and with it from there",
+                    tried.unbalance, tried.steps));
+  return report;
+}
+
 }  // namespace
 
 std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
@@ -271,7 +328,16 @@ std::vector<Task> newton_tasks(Model& model, std::function<void()> press) {
 
 SettleReport settle_by_newton(Model& model, const std::function<bool(const SettleReport&)>& go_on) {
   model.step = 0;
-  SettleReport report = Newton(model, go_on).run();
+  bool stopped = false;
+  const auto go_on_still = [&](const SettleReport& so_far) {
+    stopped = stopped || !go_on(so_far);
+    return !stopped;
+  };
+  const bool friction = any_friction(model);
+  const StaticState start = friction ? save_static_state(model) : StaticState{};
+  SettleReport report = Newton(model, go_on_still, {}).run(friction ? patience : no_limit);
+  if (friction && !report.settled && !stopped && report.steps < model.scene.settle.max_steps)
+    report = settle_without_friction_first(model, go_on_still, start, report);
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.missed, 0);
     if (!pair.has_springs()) Kokkos::deep_copy(pair.multipliers.way_since_stuck, 0.0);

@@ -63,6 +63,7 @@ class RailExpansion {
     mesh.rail = rail;
     entries_.add(entries_.scene.meshes, "meshes", mesh);
     entries_.add_part(mesh.name, mesh.name, material, track_.position);
+    entries_.scene.parts.back().stiffness_damping = track_.rail_stiffness_damping;
     rails_.push_back({mesh.name, rail.start, rail.end});
   }
 

@@ -170,6 +170,9 @@ Section track_section() {
       key("rail_material", &Track::rail_material, "the rail's material")
           .names(material)
           .otherwise("elastic: E 210 GPa, nu 0.3, 7800 kg/m3"),
+      key("rail_stiffness_damping", &Track::rail_stiffness_damping, "the rails' stiffness_damping, see [parts.NAME]")
+          .in("s")
+          .within(at_least(0)),
       key("position", &Track::position, "where the track's own origin is put: z = 0 is the middle of the rail's foot")
           .in("m"),
       key("mirror", &Track::mirror,

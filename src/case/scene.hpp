@@ -393,7 +393,8 @@ enum class FishplateFit { tie, contact };
 /// Half a track or a whole one, generated: see case/expand.hpp for what it becomes.
 struct Track : Place {
   RailMesh rail;
-  std::string rail_material;  ///< empty: elastic rail steel of its own
+  std::string rail_material;          ///< empty: elastic rail steel of its own
+  double rail_stiffness_damping = 0;  ///< s, Part::stiffness_damping of the rails
   Vec3 position{0, 0, 0};
   bool mirror = false;                                 ///< all its parts are mirrored
   bool both_rails = false;                             ///< whole sleepers and the other rail

@@ -76,13 +76,15 @@ TEST_CASE("a row of probes becomes numbered sets, one probe a set of its name, a
 
 TEST_CASE("a hammer may strike what a track makes, with the hourglass control that the track has", "[case]") {
   TemporaryCase file(
-      "[tracks.track]\nstart = -3\nend = 3\nhourglass = \"stiffness\"\n[hammers.blow]\npart = \"track_rail\"\nposition "
+      "[tracks.track]\nstart = -3\nend = 3\nhourglass = \"stiffness\"\nrail_stiffness_damping = "
+      "2e-9\n[hammers.blow]\npart = \"track_rail\"\nposition "
       "= [0, 0, 0.16]\npeak = "
       "1\nduration = 2e-4\n[time]\nend = 1e-3\n");
   const auto scene = read_case(file.path());
   CHECK(scene.loads.at(0).target == "track_rail.blow");
   for (const auto& part : scene.parts) {
     CHECK(part.hourglass == scene::HourglassType::stiffness);
+    if (part.name == "track_rail") CHECK(part.stiffness_damping == 2e-9);
     CHECK(part.hourglass_coefficient == 0.05);
   }
 }

@@ -179,6 +179,7 @@ void add_contact_options(CLI::App* command, ContactRequest& request) {
       ->allow_extra_args(false);
   command->add_option("--from", request.from, "leave out output times before, s");
   command->add_option("--to", request.to, "leave out output times after, s");
+  command->add_option("--interval", request.interval, "leave out output times nearer to the one before, s");
   command
       ->add_option("--rolling-direction", request.rolling_direction,
                    "x,y,z, from which longitudinal is made; default 1,0,0")

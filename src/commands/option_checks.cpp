@@ -34,6 +34,7 @@ const std::vector<NumberOption>& number_options() {
       {"modes", "--up-to", "Hz", between(tiny, any), "5000"},
       {"contact", "--from", "s", between(-any, any), "1e-3"},
       {"contact", "--to", "s", between(-any, any), "2e-3"},
+      {"contact", "--interval", "s", between(0, any), "1e-5"},
       {"contact", "--rolling-direction", "", between(-any, any), "1,0,0"},
       {"contact", "--ring", "", between(0, any), "1.5,3"},
       {"contact", "--rolling-velocity", "m/s", between(tiny, 1e5), "27.78"},

@@ -26,13 +26,12 @@ namespace {
 
 class ModelFields : public FieldSource {
  public:
-  ModelFields(const Model& model, std::optional<double> contact_margin)
-      : model_(model), contact_margin_(contact_margin) {}
+  ModelFields(const Model& model, const ContactOutput& contacts) : model_(model), wish_(contacts.wish()) {}
   HostField field(const FieldRow& row, const std::vector<int>& numbers) const override {
     return output_field(model_, model_, model_.ties, row, numbers);
   }
   ContactState contact(int number) const override {
-    return contact_state(model_, model_.ties, model_.contacts, number, contact_margin_);
+    return contact_state(model_, model_.ties, model_.contacts, number, wish_);
   }
   HostField beams() const override {
     HostField all{6, {}};
@@ -46,7 +45,7 @@ class ModelFields : public FieldSource {
 
  private:
   const Model& model_;
-  std::optional<double> contact_margin_;
+  ContactWish wish_;
 };
 
 ContactSurface surface_of(const NodalState& nodal, const Ties& ties, const std::vector<int>& nodes,
@@ -149,20 +148,15 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   for (const int beam : history_beams_) description_.beams.emplace_back(scene.beams[beam].name, beam_elements[beam]);
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
   description_.fields = scene.output.fields;
-  contact_margin_ = scene.output.contact_margin;
   ContactOutput& contacts = description_.contact_output;
-  contacts.near_only = contact_margin_.has_value();
+  contacts.margin = scene.output.contact_margin;
   if (scene.output.contact_fields) contacts.fields = *scene.output.contact_fields;
-  const auto has_side = [&](const char* side) {
-    const auto& sides = scene.output.contact_sides;
-    return std::find(sides.begin(), sides.end(), side) != sides.end();
-  };
-  contacts.slave = has_side("slave");
-  contacts.master = has_side("master");
+  contacts.slave = scene::is_among("slave", scene.output.contact_sides);
+  contacts.master = scene::is_among("master", scene.output.contact_sides);
   contacts.in_single = description_.in_single = scene.output.precision == scene::ResultsPrecision::single;
   description_.sets = resolve_output_sets(scene, assembly);
   for (const scene::OutputWindow& window : scene.output_windows)
-    windows_.push_back(railwave::choice_of(window, description_));
+    description_.windows.push_back(railwave::choice_of(window, description_));
 }
 
 ResultsSize ResultsFile::size(const AssembledScene& assembled, const StepSizes& sizes) const {
@@ -214,18 +208,16 @@ void ResultsFile::history(const Model&, const HistorySample& sample) {
 
 OutputChoice ResultsFile::choice_of(const DueFields& due) const {
   if (due.all) return OutputChoice::all(description_.sets.size(), description_.contacts.size());
-  OutputChoice choice{std::vector<bool>(description_.sets.size()), std::vector<bool>(description_.contacts.size())};
-  for (std::size_t w = 0; w < windows_.size(); ++w) {
-    if (!due.windows[w]) continue;
-    for (std::size_t s = 0; s < choice.sets.size(); ++s) choice.sets[s] = choice.sets[s] || windows_[w].sets[s];
-    for (std::size_t c = 0; c < choice.contacts.size(); ++c)
-      choice.contacts[c] = choice.contacts[c] || windows_[w].contacts[c];
-  }
+  OutputChoice choice = OutputChoice::none(description_.sets.size(), description_.contacts.size());
+  for (std::size_t w = 0; w < description_.windows.size(); ++w)
+    if (due.windows[w]) choice.add(description_.windows[w]);
   return choice;
 }
 
 void ResultsFile::fields(const Model& model, const HistorySample& sample, const DueFields& due) {
-  writing([&] { writer_->fields(ModelFields(model, contact_margin_), sample.time, sample.step, choice_of(due)); });
+  writing([&] {
+    writer_->fields(ModelFields(model, description_.contact_output), sample.time, sample.step, choice_of(due));
+  });
 }
 
 void ResultsFile::end(const Model& model, const RunSummary& summary) {

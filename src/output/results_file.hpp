@@ -55,9 +55,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   std::optional<ResultsSoFar> so_far_;
   std::string path_;
   RunDescription description_;
-  std::optional<double> contact_margin_;
-  std::vector<int> history_beams_;     ///< of the scene's beams those of which section forces are written
-  std::vector<OutputChoice> windows_;  ///< what each of the scene's output windows writes
+  std::vector<int> history_beams_;  ///< of the scene's beams those of which section forces are written
   std::unique_ptr<BackgroundWriter> writer_;
 };
 

@@ -48,19 +48,18 @@ double nodes_written(const std::vector<Face>& facets, const Assembly& assembly, 
 }
 
 /// Of a contact at one output.
-double bytes_of(const ContactDescription& contact, const RunDescription& description, const Assembly& assembly,
-                std::optional<double> margin) {
+double bytes_of(const ContactDescription& contact, const RunDescription& description, const Assembly& assembly) {
   const ContactOutput& output = description.contact_output;
   double bytes = 0;
   const auto add_surface = [&](const std::string& surface, bool slave) {
     const auto found = assembly.surfaces.find(surface);
     if (found == assembly.surfaces.end() || !output.has_side(slave)) return;
-    double of_node = output.near_only ? sizeof(int) : 0;
+    double of_node = output.near_only() ? sizeof(int) : 0;
     for (const ContactFieldRow& row : contact_field_table())
       if (has_values(row, slave, contact.falling_friction) &&
           std::find(output.fields.begin(), output.fields.end(), row.name) != output.fields.end())
         of_node += (output.in_single ? sizeof(float) : sizeof(double)) * row.components;
-    bytes += of_node * nodes_written(found->second, assembly, margin);
+    bytes += of_node * nodes_written(found->second, assembly, output.margin);
   };
   add_surface(contact.slave, true);
   for (const std::string& master : contact.master) add_surface(master, false);
@@ -106,18 +105,19 @@ ResultsSize results_size(const RunDescription& description, const AssembledScene
   std::vector<double> of_sets, of_contacts;
   for (const OutputSet& set : description.sets) of_sets.push_back(bytes_of(set, description));
   for (const ContactDescription& contact : description.contacts)
-    of_contacts.push_back(bytes_of(contact, description, assembled.assembly, output.contact_margin));
+    of_contacts.push_back(bytes_of(contact, description, assembled.assembly));
   const double all = std::accumulate(of_sets.begin(), of_sets.end(), 0.0) +
                      std::accumulate(of_contacts.begin(), of_contacts.end(), 0.0);
   size.field_outputs = output.field_interval > 0 ? times_of(sizes.output_times.fields, end, steps) : 2;
   size.field_bytes = size.field_outputs * all;
-  for (const scene::OutputWindow& window : output_windows) {
-    const double times = times_of_window(window, end, sizes.step_size);
+  for (std::size_t w = 0; w < output_windows.size(); ++w) {
+    const double times = times_of_window(output_windows[w], end, sizes.step_size);
+    const OutputChoice& choice = description.windows[w];
     size.field_outputs += times;
     for (std::size_t s = 0; s < of_sets.size(); ++s)
-      if (window.has_set(description.sets[s].name)) size.field_bytes += times * of_sets[s];
+      if (choice.sets[s]) size.field_bytes += times * of_sets[s];
     for (std::size_t c = 0; c < of_contacts.size(); ++c)
-      if (window.has_contact(description.contacts[c].name)) size.field_bytes += times * of_contacts[c];
+      if (choice.contacts[c]) size.field_bytes += times * of_contacts[c];
   }
   size.samples = times_of(sizes.output_times.history, end, steps);
   size.history_bytes = 8 * size.samples * values_of_sample(description);

@@ -185,7 +185,7 @@ void ResultsWriter::create_sections() {
     auto& sides = contact_sides_.emplace_back();
     for (const bool slave : {true, false})
       if (const ContactSurface& surface = slave ? contact.slave_surface : contact.master_surface;
-          output.has_side(slave) && !output.near_only)
+          output.has_side(slave) && !output.near_only())
         sides.push_back({contact.name, slave, surface.nodes.size(), surface.facets.size(), output.fields});
   }
   set_outputs_.assign(description_.sets.size(), 0);
@@ -208,7 +208,7 @@ void ResultsWriter::add_to_xdmf(double time, const OutputChoice& choice) {
 
 void ResultsWriter::report_earlier_times() {
   const hdf5::Group root = file_.root();
-  const OutputChoice none{std::vector<bool>(description_.sets.size()), std::vector<bool>(description_.contacts.size())};
+  const OutputChoice none = OutputChoice::none(description_.sets.size(), description_.contacts.size());
   std::map<long, Pending> outputs;  // by step
   const auto add = [&](const hdf5::Group& group, auto choose) {
     const auto steps = group.dataset("step").read<long>();
@@ -219,8 +219,7 @@ void ResultsWriter::report_earlier_times() {
     }
   };
   for (std::size_t s = 0; s < description_.sets.size(); ++s)
-    add(root.group(description_.sets[s].is_beam() ? "beams" : "fields").group(description_.sets[s].name),
-        [&](OutputChoice& choice) { choice.sets[s] = true; });
+    add(root.group(description_.sets[s].group()), [&](OutputChoice& choice) { choice.sets[s] = true; });
   for (std::size_t c = 0; c < description_.contacts.size(); ++c)
     add(root.group("contact").group(description_.contacts[c].name),
         [&](OutputChoice& choice) { choice.contacts[c] = true; });

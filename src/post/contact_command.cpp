@@ -20,6 +20,9 @@
 namespace railwave {
 namespace {
 
+/// Output times are multiples of the step, rounded.
+constexpr double interval_rounding = 1e-6;
+
 void check(const ContactRequest& request) {
   const auto [inner, outer] = request.ring;
   if (!(inner >= 0 && outer > inner && std::isfinite(outer)))
@@ -185,6 +188,7 @@ ContactTables solve(const ResultsReader& results, const Solution& wanted, const 
   const std::vector<double>& times = reader.times();
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (times[i] < request.from || times[i] > request.to) continue;
+    if (!chosen.empty() && times[i] < chosen.back() + (1 - interval_rounding) * request.interval) continue;
     const ContactState state = reader.state(i);
     const ContactSolution solution = contact_solution(state, options);
     tables.add(times[i], state, solution, ways.add(times[i], solution));

@@ -69,23 +69,34 @@ void keep_nodes(ContactSide& side, const std::vector<int>& places) {
 /// How many outputs are there: a kill in the middle of a flush may leave the arrays with different lengths.
 std::size_t ContactReader::Side::outputs(std::size_t most) const {
   if (!written) return most;
-  const auto there = [&](const hdf5::Dataset& dataset) { return static_cast<std::size_t>(dataset.shape().at(0)); };
-  if (near_only) {
-    std::size_t least_rows = there(group.dataset("node"));
-    for (const ContactFieldRow& row : contact_field_table())
-      if (group.has(row.name)) least_rows = std::min(least_rows, there(group.dataset(row.name)));
-    return std::min<std::size_t>(
-        most, std::upper_bound(rows.begin(), rows.end(), static_cast<long>(least_rows)) - rows.begin());
-  }
+  const auto there = [&](const char* name) { return static_cast<std::size_t>(group.dataset(name).shape().at(0)); };
+  std::size_t least = near_only ? there("node") : most;
   for (const ContactFieldRow& row : contact_field_table())
-    if (group.has(row.name)) most = std::min(most, there(group.dataset(row.name)));
-  return most;
+    if (group.has(row.name)) least = std::min(least, there(row.name));
+  if (near_only)
+    least =
+        static_cast<std::size_t>(std::upper_bound(rows.begin(), rows.end(), static_cast<long>(least)) - rows.begin());
+  return std::min(most, least);
+}
+
+ContactReader::Side::Rows ContactReader::Side::rows_of(std::size_t output) const {
+  if (!near_only) return {output, 1};
+  const auto first = static_cast<hsize_t>(output == 0 ? 0 : rows.at(output - 1));
+  return {first, static_cast<hsize_t>(rows.at(output)) - first};
+}
+
+template <class Value>
+std::vector<Value> ContactReader::Side::values(const char* name, std::size_t output, std::size_t count) const {
+  if (!has(name)) return {};
+  const Rows there = rows_of(output);
+  std::vector<Value> read = group.dataset(name).read_rows<Value>(there.first, there.count);
+  if (read.size() != count) throw std::runtime_error("an array has another length than the nodes");
+  return read;
 }
 
 ContactReader::Side ContactReader::side(const hdf5::Group& contact, bool slave) const {
   hdf5::Group group = contact.group(slave ? "slave" : "master");
   Side side;
-  side.slave = slave;
   side.nodes = group.dataset("nodes").read<int>();
   side.facets = read_facets(group, side.nodes.size());
   side.coordinates = group.dataset("coordinates").read<double>();
@@ -135,18 +146,12 @@ ContactSide ContactReader::read_side(const Side& from, std::size_t index) const 
   ContactSide side;
   side.nodes = from.nodes;
   side.facets = from.facets;
-  hsize_t row = index, count = 1;
   if (from.near_only) {
-    row = index == 0 ? 0 : static_cast<hsize_t>(from.rows.at(index - 1));
-    count = static_cast<hsize_t>(from.rows.at(index)) - row;
-    keep_nodes(side, from.written ? from.group.dataset("node").read_rows<int>(row, count) : std::vector<int>{});
+    const auto [first, count] = from.rows_of(index);
+    keep_nodes(side, from.group.dataset("node").read_rows<int>(first, count));
   }
   const auto read = [&](const char* name, std::size_t components) {
-    std::vector<double> values;
-    if (from.has(name)) values = from.group.dataset(name).read_rows<double>(row, count);
-    if (from.has(name) && values.size() != components * side.nodes.size())
-      throw std::runtime_error("an array has another length than the nodes");
-    return values;
+    return from.values<double>(name, index, components * side.nodes.size());
   };
   side.displacement = read("displacement", 3);
   side.position = read("position", 3);
@@ -176,24 +181,11 @@ ContactState ContactReader::read(std::size_t index) const {
   state.slave = read_side(slave_, index);
   if (master_.has("position") || master_.has("displacement")) state.master = read_side(master_, index);
   const std::size_t count = state.slave.nodes.size();
-  hsize_t row = index, rows = 1;
-  if (slave_.near_only) {
-    row = index == 0 ? 0 : static_cast<hsize_t>(slave_.rows.at(index - 1));
-    rows = count;
-  }
-  const auto read = [&](const char* name, std::size_t components, auto zero) {
-    using Value = decltype(zero);
-    std::vector<Value> values;
-    if (slave_.has(name)) values = slave_.group.dataset(name).read_rows<Value>(row, rows);
-    if (slave_.has(name) && values.size() != components * count)
-      throw std::runtime_error("an array has another length than the nodes");
-    return values;
-  };
-  state.gap = read("gap", 1, double());
-  state.slip_velocity = read("slip_velocity", 3, double());
-  const auto slipping = read("slipping", 1, static_cast<signed char>(0));
+  state.gap = slave_.values<double>("gap", index, count);
+  state.slip_velocity = slave_.values<double>("slip_velocity", index, 3 * count);
+  const auto slipping = slave_.values<signed char>("slipping", index, count);
   state.slipping.assign(slipping.begin(), slipping.end());
-  state.friction_now = read("friction", 1, double());
+  state.friction_now = slave_.values<double>("friction", index, count);
   return state;
 }
 

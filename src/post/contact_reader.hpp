@@ -27,14 +27,21 @@ class ContactReader {
  private:
   struct Side {
     hdf5::Group group;
-    bool slave = true, written = false, near_only = false;
+    bool written = false, near_only = false;
     std::vector<int> nodes;
     std::vector<std::array<int, 4>> facets;
     std::vector<double> coordinates;  ///< read where there are no positions
     std::vector<long> rows;           ///< of near nodes, up to each output
 
+    struct Rows {
+      hsize_t first, count;
+    };
     bool has(const std::string& name) const { return written && group.has(name); }
     std::size_t outputs(std::size_t most) const;
+    Rows rows_of(std::size_t output) const;
+    /// Of one output; empty where they are not written. Throws std::runtime_error unless there are `count`.
+    template <class Value>
+    std::vector<Value> values(const char* name, std::size_t output, std::size_t count) const;
   };
   Side side(const hdf5::Group& contact, bool slave) const;
   ContactState read(std::size_t index) const;

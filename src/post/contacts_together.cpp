@@ -10,17 +10,16 @@
 namespace railwave {
 namespace {
 
-constexpr std::vector<double> ContactSide::*vectors_at_nodes[] = {&ContactSide::position, &ContactSide::velocity,
-                                                                  &ContactSide::normal, &ContactSide::displacement};
-constexpr std::vector<double> ContactSide::*forces_at_nodes[] = {&ContactSide::normal_force,
-                                                                 &ContactSide::tangential_force};
-
-/// Appends `components` values of a node; what the one lacks the whole loses.
-void append(std::vector<double>& all, const std::vector<double>& own, std::size_t node, std::size_t components) {
-  if (!own.empty())
-    all.insert(all.end(), own.begin() + static_cast<long>(components * node),
-               own.begin() + static_cast<long>(components * (node + 1)));
-}
+/// What a side has at its nodes.
+struct NodalArray {
+  std::vector<double> ContactSide::*values;
+  std::size_t components;
+  bool adds;  ///< over the contacts that have the node; else each has the same
+};
+constexpr NodalArray nodal_arrays[] = {{&ContactSide::area, 1, false},           {&ContactSide::position, 3, false},
+                                       {&ContactSide::velocity, 3, false},       {&ContactSide::normal, 3, false},
+                                       {&ContactSide::displacement, 3, false},   {&ContactSide::normal_force, 3, true},
+                                       {&ContactSide::tangential_force, 3, true}};
 
 /// One side of all states.
 struct SidesTogether {
@@ -34,16 +33,16 @@ struct SidesTogether {
     for (std::size_t n = 0; n < side.nodes.size(); ++n) {
       const auto [found, added] = place.try_emplace(side.nodes[n], static_cast<int>(all.nodes.size()));
       places.push_back(found->second);
-      if (added) {
-        all.nodes.push_back(side.nodes[n]);
-        append(all.area, side.area, n, 1);
-        for (const auto member : vectors_at_nodes) append(all.*member, side.*member, n, 3);
-        for (const auto member : forces_at_nodes) append(all.*member, side.*member, n, 3);
-        continue;
+      if (added) all.nodes.push_back(side.nodes[n]);
+      for (const auto& [values, components, adds] : nodal_arrays) {
+        if ((side.*values).empty()) continue;
+        const double* own = (side.*values).data() + components * n;
+        std::vector<double>& whole = all.*values;
+        const std::size_t first = components * static_cast<std::size_t>(found->second);
+        if (added) whole.insert(whole.end(), own, own + components);
+        if (!added && adds && first + components <= whole.size())  // shorter: a side before lacked it
+          for (std::size_t i = 0; i < components; ++i) whole[first + i] += own[i];
       }
-      for (const auto member : forces_at_nodes)
-        for (int i = 0; i < 3 && !(side.*member).empty(); ++i)
-          (all.*member)[3 * found->second + i] += (side.*member)[3 * n + i];
     }
     for (std::array<int, 4> facet : side.facets) {
       for (int& corner : facet) corner = places[corner];
@@ -54,12 +53,10 @@ struct SidesTogether {
     return places;
   }
 
+  /// Without what one of the sides lacked.
   ContactSide finished() {
-    if (all.area.size() != all.nodes.size()) all.area.clear();
-    for (const auto& members : {std::vector(std::begin(vectors_at_nodes), std::end(vectors_at_nodes)),
-                                std::vector(std::begin(forces_at_nodes), std::end(forces_at_nodes))})
-      for (const auto member : members)
-        if ((all.*member).size() != 3 * all.nodes.size()) (all.*member).clear();
+    for (const auto& [values, components, adds] : nodal_arrays)
+      if ((all.*values).size() != components * all.nodes.size()) (all.*values).clear();
     return std::move(all);
   }
 };

@@ -22,7 +22,17 @@ POSITIVE = {
     "--order",
     "--rolling-velocity",
 }
-NUMERIC = POSITIVE | {"--from", "--to", "--low", "--high", "--overlap", "--w0", "--ring", "--rolling-direction"}
+NUMERIC = POSITIVE | {
+    "--from",
+    "--to",
+    "--interval",
+    "--low",
+    "--high",
+    "--overlap",
+    "--w0",
+    "--ring",
+    "--rolling-direction",
+}
 FILES = {"--csv", "--out", "--hdf5", "--nodes", "--cuts"}
 WORDS = {
     "--set",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -55,8 +56,11 @@ class Source : public FieldSource {
   }
   ContactState contact(int) const override {
     ContactState state = hertz_contact_state(hertz(time_), {}, HertzForces::sampled);
-    for (ContactSide* side : {&state.slave, &state.master})
+    for (ContactSide* side : {&state.slave, &state.master}) {
       side->displacement = Source::field(field_named("displacement"), side->nodes).values;
+      side->places.resize(side->nodes.size());
+      std::iota(side->places.begin(), side->places.end(), 0);
+    }
     return state;
   }
 

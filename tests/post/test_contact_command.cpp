@@ -117,6 +117,13 @@ TEST_CASE("output times can be chosen, and the rolling velocity") {
   CHECK(csv.number(3, "rolling_velocity") == 25);
   CHECK_THAT(csv.number(3, "longitudinal_creepage"), WithinRel(csv.number(3, "rigid_slip_along") / 25, 1e-8));
 
+  request.interval = 2e-4;
+  contact_command(request, out);
+  CHECK(Csv(folder / "run.csv").rows.size() == 2);
+  request.interval = 1e-4;  // as they lie
+  contact_command(request, out);
+  CHECK(Csv(folder / "run.csv").rows.size() == 4);
+
   request.rolling_velocity.reset();
   request.axle = "block.corner";  // velocity (-s, 0, s) at step s
   contact_command(request, out);
@@ -282,7 +289,7 @@ TEST_CASE("a file without one of its arrays is damaged, and says which") {
 TEST_CASE("near nodes that no surface has, or rows out of order, are damage") {
   const made_up::TemporaryFolder folder;
   RunDescription run = made_up::description();
-  run.contact_output.near_only = true;
+  run.contact_output.margin = 1e-3;
   for (const bool of_rows : {true, false}) {
     const std::string path = folder / (of_rows ? "rows.h5" : "nodes.h5");
     {

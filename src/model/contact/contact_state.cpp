@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <set>
 
 #include "kernels/contact/contact_force.hpp"
 #include "model/boundaries/ties.hpp"
@@ -26,16 +27,45 @@ struct TouchingSlave {
   double share(int corner) const { return segment_shape(corner, place[0], place[1]); }
 };
 
-/// Lists the slave nodes that touch, in any order.
-struct ListTouchingSlaves {
+/// A list whose entries a device looks for among 0 ... count - 1: has(i), and entry(i) where it has.
+template <class List>
+struct CountEntries {
+  List list;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i, int& found) const {
+    if (list.has(i)) ++found;
+  }
+};
+
+template <class List>
+struct GatherEntries {
+  List list;
+  Array<int*> next;  ///< one
+  Array<typename List::Entry*> gathered;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    if (list.has(i)) gathered(Kokkos::atomic_fetch_add(&next(0), 1)) = list.entry(i);
+  }
+};
+
+/// Its entries, in any order. Counted first, for large arrays take a device long to make.
+template <class List>
+std::vector<typename List::Entry> gathered(const char* name, int count, const List& list) {
+  int found = 0;
+  Kokkos::parallel_reduce(name, Range(0, count), CountEntries<List>{list}, found);
+  if (found == 0) return {};
+  const auto entries = unset_array<typename List::Entry*>(name, found);
+  Kokkos::parallel_for(name, Range(0, count), GatherEntries<List>{list, Array<int*>("next entry", 1), entries});
+  return to_vector<typename List::Entry>(entries);
+}
+
+/// The slave nodes that touch.
+struct TouchingSlaves {
+  using Entry = TouchingSlave;
   ContactArrays contact;
   Array<const double* [3]> position;
-  Array<int*> count;  ///< one
-  Array<TouchingSlave*> listed;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int s) const {
-    if (contact.status(s) == status_apart) return;
-    TouchingSlave one;
+  KOKKOS_INLINE_FUNCTION bool has(const int s) const { return contact.status(s) != status_apart; }
+  KOKKOS_INLINE_FUNCTION Entry entry(const int s) const {
+    Entry one;
     one.slave = s;
     one.status = contact.status(s);
     one.segment = contact.tracked(s);
@@ -46,59 +76,56 @@ struct ListTouchingSlaves {
       one.normal[i] = contact.normal_force(s, i);
       one.tangential[i] = contact.tangential_force(s, i);
     }
-    listed(Kokkos::atomic_fetch_add(&count(0), 1)) = one;
+    return one;
   }
 };
 
-/// The first of a device list, whose length is on the device too.
-template <class T>
-std::vector<T> first_of(const Array<T*>& listed, const Array<int*>& count) {
-  const int length = to_host(count)(0);
-  return to_vector<T>(Kokkos::subview(listed, Kokkos::make_pair(0, length)));
-}
-
 /// By slave, ascending.
 std::vector<TouchingSlave> touching_slaves(const NodeArrays& nodes, const ContactPair& pair) {
-  const Array<int*> count("count of touching slaves", 1);
-  const auto listed = unset_array<TouchingSlave*>("touching slaves", pair.arrays.slave_count);
-  Kokkos::parallel_for("touching_slaves", Range(0, pair.arrays.slave_count),
-                       ListTouchingSlaves{pair.arrays, nodes.position, count, listed});
-  std::vector<TouchingSlave> touching = first_of(listed, count);
+  std::vector<TouchingSlave> touching =
+      gathered("touching_slaves", pair.arrays.slave_count, TouchingSlaves{pair.arrays, nodes.position});
   std::sort(touching.begin(), touching.end(), [](const auto& a, const auto& b) { return a.slave < b.slave; });
   return touching;
 }
 
-/// Lists the nodes of a surface that are in a box, in any order.
-struct ListNodesInBox {
+/// The nodes of a surface that are in a box: positions among the surface's nodes.
+struct NodesInBox {
+  using Entry = int;
   Array<const double* [3]> position;
   Array<const int*> nodes;
   double low[3], high[3];
-  Array<int*> count;  ///< one
-  Array<int*> listed;
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+  KOKKOS_INLINE_FUNCTION bool has(const int k) const {
     for (int i = 0; i < 3; ++i) {
       const double x = position(nodes(k), i);
-      if (x < low[i] || x > high[i]) return;
+      if (x < low[i] || x > high[i]) return false;
     }
-    listed(Kokkos::atomic_fetch_add(&count(0), 1)) = k;
+    return true;
   }
+  KOKKOS_INLINE_FUNCTION Entry entry(const int k) const { return k; }
 };
 
-/// Positions among the surface's nodes, ascending.
+/// Ascending.
 std::vector<int> nodes_in_box(const NodeArrays& nodes, const Array<int*>& surface, const Bounds& box) {
   if (box[0][0] > box[1][0]) return {};
-  const Array<int*> count("count of nodes in a box", 1);
-  const auto listed = unset_array<int*>("nodes in a box", surface.extent(0));
-  ListNodesInBox list{nodes.position, surface, {}, {}, count, listed};
+  NodesInBox list{nodes.position, surface, {}, {}};
   for (int i = 0; i < 3; ++i) {
     list.low[i] = box[0][i];
     list.high[i] = box[1][i];
   }
-  Kokkos::parallel_for("nodes_in_box", Range(0, static_cast<int>(surface.extent(0))), list);
-  std::vector<int> inside = first_of(listed, count);
+  std::vector<int> inside = gathered("nodes_in_box", static_cast<int>(surface.extent(0)), list);
   std::sort(inside.begin(), inside.end());
   return inside;
+}
+
+/// Those nodes of a surface that take part: slaves of `own` that touch, and corners of the segments under the slaves of
+/// `other`, whose masters they are.
+std::vector<int> nodes_in_contact(const std::vector<TouchingSlave>& own, const std::vector<TouchingSlave>& other,
+                                  const std::vector<std::array<int, 4>>& segments) {
+  std::set<int> places;
+  for (const TouchingSlave& one : own) places.insert(one.slave);
+  for (const TouchingSlave& one : other) places.insert(segments[one.segment].begin(), segments[one.segment].end());
+  return {places.begin(), places.end()};
 }
 
 /// What is wanted of one surface.
@@ -131,16 +158,6 @@ Bounds box_of_contact(const NodalState& nodal, const Ties& ties, const ContactPa
   const std::vector<double> position = node_field(nodal, ties, NodeField::position, corners).values;
   for (std::size_t i = 0; i < position.size(); i += 3) widen(box, {position[i], position[i + 1], position[i + 2]});
   return box;
-}
-
-/// The values of some of the nodes, of which each has so many.
-std::vector<double> picked(const std::vector<double>& all, const std::vector<int>& places, std::size_t components) {
-  std::vector<double> result;
-  result.reserve(components * places.size());
-  for (const int place : places)
-    result.insert(result.end(), all.begin() + static_cast<long>(components) * place,
-                  all.begin() + static_cast<long>(components) * (place + 1));
-  return result;
 }
 
 /// Area and normal of the wanted nodes, by all facets around them; those facets of which all corners are wanted.
@@ -177,11 +194,11 @@ void add_geometry(const NodalState& nodal, const Ties& ties, const std::vector<i
 }
 
 ContactSide bare_side(const NodalState& nodal, const Ties& ties, const std::vector<int>& surface,
-                      const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted) {
+                      const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted, bool shape) {
   ContactSide side;
-  if (wanted.places.size() < surface.size()) side.places = wanted.places;
+  side.places = wanted.places;
   for (const int place : wanted.places) side.nodes.push_back(surface[place]);
-  add_geometry(nodal, ties, surface, facets, wanted, side);
+  if (shape) add_geometry(nodal, ties, surface, facets, wanted, side);
   side.displacement = node_field(nodal, ties, NodeField::displacement, side.nodes).values;
   side.velocity = node_field(nodal, ties, NodeField::velocity, side.nodes).values;
   side.normal_force.assign(3 * side.nodes.size(), 0);
@@ -308,46 +325,51 @@ Vec3 slip_velocity(const ContactPair& pair, const TouchingSlave& one, const Want
 }  // namespace
 
 ContactState contact_state(const NodalState& nodal, const Ties& ties, const std::vector<ContactPair>& contacts,
-                           int contact, std::optional<double> margin) {
+                           int contact, const ContactWish& wish) {
   const ContactPair& pair = contacts[contact];
   // Both halves of a symmetric contact number the nodes of each surface alike.
   const ContactPair* half = pair.partner >= 0 ? &contacts[pair.partner] : nullptr;
   const std::vector<TouchingSlave> touching = touching_slaves(nodal.nodes, pair);
   const std::vector<TouchingSlave> touching_half =
       half ? touching_slaves(nodal.nodes, *half) : std::vector<TouchingSlave>{};
-  WantedNodes slave, master;
-  if (margin) {
-    Bounds box = box_of_contact(nodal, ties, pair, touching);
+  Bounds box = no_bounds;
+  if (wish.margin) {
+    box = box_of_contact(nodal, ties, pair, touching);
     if (half) {
       const Bounds other = box_of_contact(nodal, ties, *half, touching_half);
       for (const Vec3& corner : other)
         if (other[0][0] <= other[1][0]) widen(box, corner);
     }
     for (int i = 0; i < 3; ++i) {
-      box[0][i] -= *margin;
-      box[1][i] += *margin;
+      box[0][i] -= *wish.margin;
+      box[1][i] += *wish.margin;
     }
-    slave = wanted_nodes(nodes_in_box(nodal.nodes, pair.arrays.slave_nodes, box), pair.slave_nodes.size());
-    master = wanted_nodes(nodes_in_box(nodal.nodes, pair.arrays.master_nodes, box), pair.master_nodes.size());
-  } else {
-    slave = all_nodes(pair.slave_nodes.size());
-    master = all_nodes(pair.master_nodes.size());
   }
+  const auto wanted = [&](bool side, const Array<int*>& surface, const std::vector<int>& in_contact) {
+    const std::size_t count = surface.extent(0);
+    if (!side) return wanted_nodes(in_contact, count);
+    return wish.margin ? wanted_nodes(nodes_in_box(nodal.nodes, surface, box), count) : all_nodes(count);
+  };
+  const WantedNodes slave =
+      wanted(wish.slave, pair.arrays.slave_nodes,
+             nodes_in_contact(touching, touching_half, half ? half->master_segments : pair.slave_facets));
+  const WantedNodes master =
+      wanted(wish.master, pair.arrays.master_nodes, nodes_in_contact(touching_half, touching, pair.master_segments));
 
   ContactState state;
   state.name = pair.contact->name;
   state.friction = pair.arrays.friction;
-  state.slave = bare_side(nodal, ties, pair.slave_nodes, pair.slave_facets, slave);
-  state.master = bare_side(nodal, ties, pair.master_nodes, pair.master_segments, master);
+  state.slave = bare_side(nodal, ties, pair.slave_nodes, pair.slave_facets, slave, wish.shape && wish.slave);
+  state.master = bare_side(nodal, ties, pair.master_nodes, pair.master_segments, master, wish.shape && wish.master);
   add_forces(nodal, pair, touching, slave, master, state.slave, state.master);
   if (half) add_forces(nodal, *half, touching_half, master, slave, state.master, state.slave);
 
-  state.gap = present_gaps(nodal.nodes, pair, slave.places);
+  if (wish.slave && wish.gap) state.gap = present_gaps(nodal.nodes, pair, slave.places);
   for (double& gap : state.gap)
     if (!is_distance(gap)) gap = std::numeric_limits<double>::quiet_NaN();
   const std::size_t count = slave.places.size();
   if (const std::vector<double> friction = friction_now(*pair.contact, pair.law); !friction.empty())
-    state.friction_now = picked(friction, slave.places, 1);
+    for (const int place : slave.places) state.friction_now.push_back(friction[place]);
   state.slip_velocity.assign(3 * count, 0);
   state.slipping.assign(count, 0);
   for (const TouchingSlave& one : touching) {
@@ -356,6 +378,12 @@ ContactState contact_state(const NodalState& nodal, const Ties& ties, const std:
     const Vec3 slip = slip_velocity(pair, one, slave, master, state);
     for (int i = 0; i < 3; ++i) state.slip_velocity[3 * s + i] = slip[i];
   }
+  if (!wish.slave) {
+    state.slave = {};
+    for (auto* values : {&state.gap, &state.slip_velocity, &state.friction_now}) values->clear();
+    state.slipping.clear();
+  }
+  if (!wish.master) state.master = {};
   return state;
 }
 

@@ -26,7 +26,8 @@ struct ContactSide {
   std::vector<double> tangential_force;    ///< N, on this side, vector
   std::vector<std::array<int, 4>> facets;  ///< positions in `nodes`, turned outwards
   std::vector<double> displacement = {};   ///< m; a made-up or read side may have none
-  std::vector<int> places = {};            ///< of the nodes among those of the surface, ascending; empty: it is whole
+  std::vector<int> places = {};            ///< of the nodes among those of the surface, ascending; a read side that
+                                           ///< is whole may have none
 };
 struct ContactState {
   std::string name;
@@ -46,10 +47,17 @@ struct ContactState {
   }
 };
 
-/// @param margin m: only nodes within that distance of a box around those that touch, and the facets between them; none
-/// where nothing touches. Absent: the whole surfaces
+/// What is asked of a contact_state(). A run that writes thousands of them asks for what it writes.
+struct ContactWish {
+  std::optional<double> margin = {};  ///< m: only nodes within that distance of a box around those that touch, and the
+                                      ///< facets between them; none where nothing touches. Absent: the whole surfaces
+  bool slave = true, master = true;   ///< else that side has no nodes
+  bool shape = true;                  ///< areas, positions, normals and facets
+  bool gap = true;
+};
+
 ContactState contact_state(const NodalState& nodal, const Ties& ties, const std::vector<ContactPair>& contacts,
-                           int contact, std::optional<double> margin = {});
+                           int contact, const ContactWish& wish = {});
 
 /// Areas and unit normals at the nodes of a surface, from its facets as they lie.
 struct SurfaceGeometry {

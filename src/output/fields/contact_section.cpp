@@ -49,13 +49,14 @@ ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool sl
     side.nodes = near.create_growing<int>("node", {}, many_rows);
   }
   std::string names;
-  for (const std::string& name : output.fields)
-    if (has_values(row_named(name), slave, contact.falling_friction)) names += (names.empty() ? "" : ", ") + name;
+  for (const std::string& name : output.fields) {
+    const ContactFieldRow& row = row_named(name);
+    if (!has_values(row, slave, contact.falling_friction)) continue;
+    names += (names.empty() ? "" : ", ") + name;
+    side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.in_single, many_rows)
+                                             : make_growing(columns, row, {count}, output.in_single, each_time)});
+  }
   group.set_attribute("fields", names);
-  for (const std::string& name : output.fields)
-    if (const ContactFieldRow& row = row_named(name); has_values(row, slave, contact.falling_friction))
-      side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.in_single, many_rows)
-                                               : make_growing(columns, row, {count}, output.in_single, each_time)});
   return side;
 }
 
@@ -64,10 +65,7 @@ void ContactSection::Side::add(const ContactState& state, bool near_only) {
   if (near_only) {
     row_count += static_cast<long>(now.nodes.size());
     rows.append(&row_count, 1);
-    std::vector<int> all;
-    if (now.places.empty())
-      for (std::size_t i = 0; i < now.nodes.size(); ++i) all.push_back(static_cast<int>(i));
-    nodes.append((now.places.empty() ? all : now.places).data(), now.nodes.size());
+    nodes.append(now.places.data(), now.places.size());
   } else if (now.nodes != surface->nodes) {
     throw std::logic_error("the nodes of a contact surface changed during the run");
   }
@@ -79,7 +77,7 @@ void ContactSection::Side::add(const ContactState& state, bool near_only) {
 
 ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
                                const ContactOutput& output)
-    : number_(number), near_only_(output.near_only) {
+    : number_(number), near_only_(output.near_only()) {
   const hdf5::Group group = contacts_group.create_group(contact.name);
   group.set_attribute("friction", contact.friction);
   const hdf5::Group slave = group.create_group("slave"), master = group.create_group("master");

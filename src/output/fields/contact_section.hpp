@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,11 +33,16 @@ struct ContactDescription {
 
 /// What is written of contacts, see scene::Output.
 struct ContactOutput {
-  bool near_only = false;  ///< the states have the nodes near the contact only
+  std::optional<double> margin = {};  ///< m; the states have the nodes near the contact only, see contact_state()
   std::vector<std::string> fields = contact_field_names();
   bool slave = true, master = true;
   bool in_single = false;  ///< precision
 
+  bool near_only() const { return margin.has_value(); }
+  /// Whether `fields` names one of these.
+  bool has_any(std::initializer_list<const char*> names) const;
+  /// What must be known of a contact to write this.
+  ContactWish wish() const;
   bool has_side(bool of_slave) const { return of_slave ? slave : master; }
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -70,6 +71,15 @@ std::vector<double> contact_values(const ContactState& state, bool slave, const 
     return values;
   }
   throw std::logic_error(std::string("the contact field ") + row.name + " has no entry in contact_values.cpp");
+}
+
+bool ContactOutput::has_any(std::initializer_list<const char*> names) const {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const char* name) { return std::find(fields.begin(), fields.end(), name) != fields.end(); });
+}
+
+ContactWish ContactOutput::wish() const {
+  return {margin, slave, master, has_any({"area", "position", "normal", "pressure", "shear"}), has_any({"gap"})};
 }
 
 bool has_values(const ContactFieldRow& row, bool slave, bool falling_friction) {

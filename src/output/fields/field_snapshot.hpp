@@ -24,6 +24,14 @@ struct OutputChoice {
   static OutputChoice all(std::size_t set_count, std::size_t contact_count) {
     return {std::vector<bool>(set_count, true), std::vector<bool>(contact_count, true)};
   }
+  static OutputChoice none(std::size_t set_count, std::size_t contact_count) {
+    return {std::vector<bool>(set_count), std::vector<bool>(contact_count)};
+  }
+  /// What either has, of as many sets and contacts.
+  void add(const OutputChoice& other) {
+    for (std::size_t s = 0; s < sets.size(); ++s) sets[s] = sets[s] || other.sets[s];
+    for (std::size_t c = 0; c < contacts.size(); ++c) contacts[c] = contacts[c] || other.contacts[c];
+  }
   bool operator<(const OutputChoice& other) const {
     return std::tie(sets, contacts) < std::tie(other.sets, other.contacts);
   }

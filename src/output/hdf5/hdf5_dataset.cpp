@@ -72,9 +72,8 @@ template <class T>
 std::vector<T> Dataset::read_rows(hsize_t row, hsize_t count) const {
   const LimitedCall limited;
   Shape block = shape();
-  if (block.empty() || row >= block[0] + (count == 0 ? 1 : 0) || count > block[0] - row)
-    throw std::runtime_error("reading " + name_ + ": it has no entry " +
-                             std::to_string(row + std::max<hsize_t>(count, 1) - 1));
+  if (block.empty() || row > block[0] || count > block[0] - row)
+    throw std::runtime_error("reading " + name_ + ": it has no entry " + std::to_string(row + count - 1));
   Shape start(block.size(), 0);
   start[0] = row;
   block[0] = count;

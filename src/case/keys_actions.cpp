@@ -273,13 +273,16 @@ Section non_reflecting_section() {
 
 Section absorbing_layer_section() {
   using scene::AbsorbingLayer;
-  auto section = named_section("absorbing_layers", "absorbing layer", &Scene::absorbing_layers,
-                               "Zones before the ends of bodies in which waves of all kinds die out, a bar's and a "
-                               "rail's as well as those of the continuum: mass-proportional damping "
-                               "that grows with the cube of the way to the end. A layer as long as a longitudinal "
-                               "wave, or twice as long as a bending wave, sends about 2 % of it back at most "
-                               "(table in docs/verification.md). It slows rigid motion of the zone too: not for bodies "
-                               "that roll or travel. Statics and `modes` know nothing of it.");
+  auto section =
+      named_section("absorbing_layers", "absorbing layer", &Scene::absorbing_layers,
+                    "Zones before the ends of bodies in which waves of all kinds die out, a bar's and a "
+                    "rail's as well as those of the continuum: mass-proportional damping "
+                    "that grows with the cube of the way to the end. A layer as long as a longitudinal "
+                    "wave, or twice as long as a bending wave, sends about 2 % of it back at most "
+                    "(table in docs/verification.md); 2.5 m with reflection = 0.1 and dashpots on the end leave "
+                    "less than 1 % of the energy of a 54E1 rail's waves from 300 Hz up. It slows rigid motion of the "
+                    "zone too: not for bodies "
+                    "that roll or travel. Statics and `modes` know nothing of it.");
   section.keys = {
       key("target", &AbsorbingLayer::target, "the plane end before which it lies").names(surface).needed(),
       key("length", &AbsorbingLayer::length, "from the end into the body").in("m").within(above(0)).needed(),

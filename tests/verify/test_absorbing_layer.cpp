@@ -5,6 +5,7 @@
 
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/checks/doubts.hpp"
+#include "tests/verify/open_ends.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 /// Absorbing layers before the ends of bars and beams, against the theory of a bar whose mass damping grows with the
@@ -18,22 +19,6 @@ using Catch::Matchers::WithinRel;
 namespace {
 
 enum class Wave { plane, bar, bending };
-
-void add_layer(scene::Scene& scene, const std::string& target, double length, double reflection) {
-  scene::AbsorbingLayer layer;
-  layer.name = target;
-  layer.target = target;
-  layer.length = length;
-  layer.reflection = reflection;
-  scene.absorbing_layers.push_back(layer);
-}
-
-void add_dashpots(scene::Scene& scene, const std::string& target) {
-  scene::NonReflecting end;
-  end.name = target;
-  end.target = target;
-  scene.non_reflecting.push_back(end);
-}
 
 /// A bar along x, 10 mm thick, with packets of waves of length 0.1 m that leave its middle to both sides.
 struct Bar {

@@ -4,6 +4,7 @@
 
 #include "benchmarks/problems/rayleigh_packet.hpp"
 #include "case/error.hpp"
+#include "tests/verify/open_ends.hpp"
 #include "tests/verify/two_blocks.hpp"
 
 using namespace railwave;
@@ -12,13 +13,6 @@ using Catch::Matchers::ContainsSubstring;
 using Catch::Matchers::WithinRel;
 
 namespace {
-
-void let_out(scene::Scene& scene, const std::string& target) {
-  scene::NonReflecting end;
-  end.name = "open " + target;
-  end.target = target;
-  scene.non_reflecting.push_back(end);
-}
 
 /// What moves and deforms.
 double waves_energy(const Model& model) {
@@ -47,7 +41,7 @@ struct Bar {
     made.time.step_scale = step_scale;
     made.solver.precision = precision;
     if (held) hold(made, "block", {moved != 0, moved != 1, true});
-    let_out(made, "block.x_max");
+    add_dashpots(made, "block.x_max");
     return made;
   }
 
@@ -130,7 +124,7 @@ TEST_CASE("a Rayleigh pulse runs out of a block's side") {
   scene::Scene scene = block_scene({length, size, depth}, {80, 1, 50}, 1);
   set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
   hold(scene, "block", {false, true, false});
-  for (const char* side : {"block.x_min", "block.x_max", "block.z_min"}) let_out(scene, side);
+  for (const char* side : {"block.x_min", "block.x_max", "block.z_min"}) add_dashpots(scene, side);
   const bench::RayleighPacket packet(scene.materials[0], wavelength, 0.8 * wavelength);
   const double from = 0.04, amplitude = 1e-6;
   scene.time.end = 0.068 / packet.speed;
@@ -205,11 +199,13 @@ TEST_CASE("a bar whose coarse half has steps of its own lets the pulse out as we
 namespace {
 
 /// A block between two open ends, pulled and sheared at its top by forces that its ends hold.
-scene::Scene loaded_block(double end) {
+scene::Scene loaded_block(double end, bool layers) {
   scene::Scene scene = block_scene({0.2, 0.05, 0.05}, {16, 4, 4}, end);
   set_hourglass(scene.parts[0], scene::HourglassType::stiffness, 0.05);
-  let_out(scene, "block.x_max");
-  let_out(scene, "block.x_min");
+  for (const char* side : {"block.x_min", "block.x_max"}) {
+    add_dashpots(scene, side);
+    if (layers) add_layer(scene, side, 0.08, 0.1);
+  }
   add_force(scene, "block.z_max", {2e4, 5e3, -1e4});
   scene.settle.active = true;
   scene.settle.tolerance = 1e-7;
@@ -226,9 +222,9 @@ Vec3 reaction(const Model& model) {
   return sum;
 }
 
-void check_reaction(double end) {
+void check_reaction(double end, bool layers = false) {
   Model model;
-  build_model(loaded_block(end), model);
+  build_model(loaded_block(end, layers), model);
   CHECK(settle_whole(model).settled);
   const Vec3 applied{2e4, 5e3, -1e4};
   const auto nodes = all_nodes(model);
@@ -247,6 +243,8 @@ void check_reaction(double end) {
 }  // namespace
 
 TEST_CASE("non-reflecting ends hold the static load: 1 ms") { check_reaction(1e-3); }
+
+TEST_CASE("so do they with absorbing layers before them") { check_reaction(1e-3, true); }
 
 TEST_CASE("non-reflecting ends hold the static load: 50 ms", "[long]") { check_reaction(50e-3); }
 
@@ -272,11 +270,11 @@ TEST_CASE("a scene without non-reflecting ends computes none, and what cannot be
   };
   scene::Scene scene = block_scene({0.1, 0.1, 0.1}, {2, 2, 2}, 1e-5);
   CHECK_THAT(task_names(scene), !ContainsSubstring("non-reflecting"));
-  let_out(scene, "block.x_max");
+  add_dashpots(scene, "block.x_max");
   CHECK_THAT(task_names(scene), ContainsSubstring("non-reflecting ends"));
   const auto complaint = [&] { return complaint_of_building(scene); };
   SECTION("twice") {
-    let_out(scene, "block.x_max");
+    add_dashpots(scene, "block.x_max");
     CHECK_THAT(complaint(), ContainsSubstring("name surfaces without common faces"));
   }
   SECTION("moved") {

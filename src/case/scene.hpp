@@ -351,6 +351,7 @@ struct Output {
   std::optional<std::vector<std::string>> contact_fields;  ///< names of case/field_table.hpp; absent: all
   std::vector<std::string> contact_sides = {"slave", "master"};
   ResultsPrecision precision = ResultsPrecision::double_precision;  ///< of fields and contacts; histories are in double
+  std::optional<int> significant_digits;                            ///< of fields and contacts but places; absent: all
   double progress_interval = 5;                                     ///< wall seconds between progress lines
 };
 

@@ -134,6 +134,7 @@ std::string checkpoint_key(const AssembledScene& assembled, const std::string& p
   hash.add(fmt::format("histories of beams {}", listed(scene.output.history_beams)));
   hash.add(fmt::format("contact fields {} of {}, precision {}", listed(scene.output.contact_fields),
                        fmt::join(scene.output.contact_sides, ","), static_cast<int>(scene.output.precision)));
+  if (scene.output.significant_digits) hash.add(fmt::format("{} digits", *scene.output.significant_digits));
   for (const scene::OutputWindow& window : scene.output_windows)
     hash.add(fmt::format("window {:.17g} {:.17g} {:.17g} {} {}", window.start, window.end.value_or(-1), window.interval,
                          listed(window.field_sets), listed(window.contacts)));

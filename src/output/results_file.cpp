@@ -153,7 +153,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   if (scene.output.contact_fields) contacts.fields = *scene.output.contact_fields;
   contacts.slave = scene::is_among("slave", scene.output.contact_sides);
   contacts.master = scene::is_among("master", scene.output.contact_sides);
-  contacts.in_single = description_.in_single = scene.output.precision == scene::ResultsPrecision::single;
+  contacts.format = description_.format = NumberFormat(scene.output);
   description_.sets = resolve_output_sets(scene, assembly);
   for (const scene::OutputWindow& window : scene.output_windows)
     description_.windows.push_back(railwave::choice_of(window, description_));

@@ -26,8 +26,7 @@ double bytes_of(const OutputSet& set, const RunDescription& description) {
   double bytes = set.is_beam() ? 6.0 * sizeof(double) * static_cast<double>(set.elements.size()) : 0;
   for (const std::string& name : description.fields)
     if (const FieldRow& row = field_named(name); set.has(row))
-      bytes += (description.in_single ? sizeof(float) : sizeof(double)) * row.components *
-               static_cast<double>(set.numbers(row).size());
+      bytes += static_cast<double>(description.format.bytes() * row.components * set.numbers(row).size());
   return bytes;
 }
 
@@ -58,7 +57,7 @@ double bytes_of(const ContactDescription& contact, const RunDescription& descrip
     for (const ContactFieldRow& row : contact_field_table())
       if (has_values(row, slave, contact.falling_friction) &&
           std::find(output.fields.begin(), output.fields.end(), row.name) != output.fields.end())
-        of_node += (output.in_single ? sizeof(float) : sizeof(double)) * row.components;
+        of_node += static_cast<double>(output.format.bytes() * row.components);
     bytes += of_node * nodes_written(found->second, assembly, output.margin);
   };
   add_surface(contact.slave, true);

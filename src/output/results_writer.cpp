@@ -86,7 +86,7 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
     : path_(std::move(path)),
       description_(std::move(description)),
       xdmf_(xdmf_path(path_), std::filesystem::path(path_).filename().string(), description_.fields,
-            kinds::results_xdmf(), description_.in_single),
+            kinds::results_xdmf(), description_.format.in_single),
       last_flush_(std::chrono::steady_clock::now()),
       counted_(last_flush_),
       flushes_left_(most_flushes) {
@@ -177,7 +177,7 @@ void ResultsWriter::create_sections() {
   const hdf5::Group root = file_.root();
   for (const OutputSet& set : description_.sets)
     field_sections_.emplace_back(root.group(set.is_beam() ? "beams" : "fields"), set, description_.fields,
-                                 description_.in_single);
+                                 description_.format);
   const ContactOutput& output = description_.contact_output;
   for (std::size_t i = 0; i < description_.contacts.size(); ++i) {
     const ContactDescription& contact = description_.contacts[i];

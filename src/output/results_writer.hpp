@@ -38,9 +38,9 @@ struct RunDescription {
   std::vector<std::string> fields;  ///< names of case/field_table.hpp
   std::vector<OutputSet> sets;
   ContactOutput contact_output;
-  std::vector<OutputChoice> windows;  ///< what each of the scene's output windows writes
-  bool in_single = false;             ///< precision of the fields
-  std::string key;                    ///< checkpoint_key(); empty: not known
+  std::vector<OutputChoice> windows;     ///< what each of the scene's output windows writes
+  NumberFormat format = NumberFormat();  ///< of the fields
+  std::string key;                       ///< checkpoint_key(); empty: not known
 };
 
 /// How much of a results file is there already where a run goes on.

@@ -55,6 +55,8 @@ CASES = {
         'contact_margin = 0.011\ncontact_sides = ["slave"]\nprecision = "single"\n'
         'contact_fields = ["displacement", "normal_force", "tangential_force", "slip_velocity", "slipping"]\n'
     ),
+    "digits": 'contact_margin = 0.011\nprecision = "single"\nsignificant_digits = 3\n',
+    "all_digits": 'contact_margin = 0.011\nprecision = "single"\n',
     "no_forces": 'contact_fields = ["pressure"]\n',
 }
 ZERO = ("normal_force", "tangential_force", "pressure", "shear", "slipping")
@@ -129,6 +131,20 @@ class ContactMargin(unittest.TestCase):
         self.assertLess(touching, len(whole["time"]), "the block is to be in flight at some output")
         everything = {name for name in whole["slave"]} - {"coordinates", "facets", "nodes"}
         self.assertEqual(everything, set(near["slave/near"]) - {"node"})
+
+    def test_three_digits_of_all_but_places(self):
+        whole, three = self.contacts("all_digits", "digits")
+        for side in ("slave", "master"):
+            for name, column in three[side]["near"].items():
+                exact = whole[side]["near"][name]
+                if name in ("node", "displacement", "position", "slipping"):
+                    numpy.testing.assert_array_equal(column, exact, name)
+                else:
+                    numpy.testing.assert_allclose(column, exact, rtol=5e-4, atol=0, err_msg=name)
+                    self.assertEqual((column[:] != exact[:]).any(), (exact[:] != 0).any(), name)
+        stored = [sum(column.id.get_storage_size() for column in contact["slave/near"].values())
+                  for contact in (whole, three)]
+        self.assertLess(stored[1], 0.85 * stored[0])
 
     def test_contact_makes_the_same_of_it(self):
         tables = []

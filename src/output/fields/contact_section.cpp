@@ -15,12 +15,12 @@ const ContactFieldRow& row_named(const std::string& name) {
   throw std::logic_error("no contact field is called " + name);
 }
 
-hdf5::Dataset make_growing(const hdf5::Group& group, const ContactFieldRow& row, hdf5::Shape shape, bool in_single,
-                           const hdf5::Storage& storage) {
+hdf5::Dataset make_growing(const hdf5::Group& group, const ContactFieldRow& row, hdf5::Shape shape,
+                           const NumberFormat& format, const hdf5::Storage& storage) {
   if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
   if (std::string(row.name) == "slipping") return group.create_growing<signed char>(row.name, shape, storage);
-  return in_single ? group.create_growing<float>(row.name, shape, storage)
-                   : group.create_growing<double>(row.name, shape, storage);
+  return format.in_single ? group.create_growing<float>(row.name, shape, storage)
+                          : group.create_growing<double>(row.name, shape, storage);
 }
 
 }  // namespace
@@ -53,14 +53,14 @@ ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool sl
     const ContactFieldRow& row = row_named(name);
     if (!has_values(row, slave, contact.falling_friction)) continue;
     names += (names.empty() ? "" : ", ") + name;
-    side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.in_single, many_rows)
-                                             : make_growing(columns, row, {count}, output.in_single, each_time)});
+    side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.format, many_rows)
+                                             : make_growing(columns, row, {count}, output.format, each_time)});
   }
   group.set_attribute("fields", names);
   return side;
 }
 
-void ContactSection::Side::add(const ContactState& state, bool near_only) {
+void ContactSection::Side::add(const ContactState& state, bool near_only, const NumberFormat& format) {
   const ContactSide& now = slave ? state.slave : state.master;
   if (near_only) {
     row_count += static_cast<long>(now.nodes.size());
@@ -70,14 +70,15 @@ void ContactSection::Side::add(const ContactState& state, bool near_only) {
     throw std::logic_error("the nodes of a contact surface changed during the run");
   }
   for (Column& column : columns) {
-    const std::vector<double> values = contact_values(state, slave, *column.row);
+    std::vector<double> values = contact_values(state, slave, *column.row);
+    format.round(column.row->name, values);
     column.dataset.append(values.data(), near_only ? now.nodes.size() : 1);
   }
 }
 
 ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
                                const ContactOutput& output)
-    : number_(number), near_only_(output.near_only()) {
+    : number_(number), near_only_(output.near_only()), format_(output.format) {
   const hdf5::Group group = contacts_group.create_group(contact.name);
   group.set_attribute("friction", contact.friction);
   const hdf5::Group slave = group.create_group("slave"), master = group.create_group("master");
@@ -101,7 +102,7 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactD
 
 void ContactSection::add_values(const FieldSource& source, long step) {
   const ContactState state = source.contact(number_);
-  for (Side& side : sides_) side.add(state, near_only_);
+  for (Side& side : sides_) side.add(state, near_only_, format_);
   steps_.append(&step, 1);
 }
 

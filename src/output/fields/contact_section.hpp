@@ -10,6 +10,7 @@
 #include "case/surface_names.hpp"
 #include "model/contact/contact_state.hpp"
 #include "output/fields/field_snapshot.hpp"
+#include "output/fields/number_format.hpp"
 #include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
@@ -36,7 +37,7 @@ struct ContactOutput {
   std::optional<double> margin = {};  ///< m; the states have the nodes near the contact only, see contact_state()
   std::vector<std::string> fields = contact_field_names();
   bool slave = true, master = true;
-  bool in_single = false;  ///< precision
+  NumberFormat format = NumberFormat();
 
   bool near_only() const { return margin.has_value(); }
   /// Whether `fields` names one of these.
@@ -83,13 +84,14 @@ class ContactSection {
     std::vector<Column> columns;
     hdf5::Dataset rows, nodes;  ///< of near nodes: how many rows there are up to each output, and whose they are
     long row_count = 0;
-    void add(const ContactState& state, bool near_only);
+    void add(const ContactState& state, bool near_only, const NumberFormat& format);
   };
   Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact,
                  const ContactOutput& output) const;
 
   int number_;
   bool near_only_;
+  NumberFormat format_;
   std::vector<Side> sides_;
   hdf5::Dataset times_, steps_;
 };

@@ -4,20 +4,10 @@
 #include <stdexcept>
 
 namespace railwave {
-namespace {
-
-void append(hdf5::Dataset& dataset, const HostField& field, std::size_t entries, int components,
-            const std::string& name) {
-  if (field.components != components || field.values.size() != entries * components)
-    throw std::logic_error("the fields of " + name + " have not the length of the set");
-  dataset.append(field.values.data(), 1);
-}
-
-}  // namespace
 
 FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set,
-                           const std::vector<std::string>& fields, bool in_single)
-    : set_(set) {
+                           const std::vector<std::string>& fields, const NumberFormat& format)
+    : set_(set), format_(format) {
   const hdf5::Group group = fields_group.create_group(set.name);
   const hsize_t nodes = set.nodes.size(), elements = set.elements.size();
   group.set_attribute("kind", set.is_beam() ? "beam" : set.is_surface() ? "surface" : "volume");
@@ -34,8 +24,8 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
     if (!set.has(row)) continue;
     hdf5::Shape shape{set.numbers(row).size()};
     if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
-    columns_.push_back({&row, in_single ? group.create_growing<float>(name, shape, each_time)
-                                        : group.create_growing<double>(name, shape, each_time)});
+    columns_.push_back({&row, format.in_single ? group.create_growing<float>(name, shape, each_time)
+                                               : group.create_growing<double>(name, shape, each_time)});
   }
   steps_ = group.create_growing<long>("step", {}, times_in_block);
   times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection
@@ -45,7 +35,11 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
 void FieldSection::add_values(const FieldSource& source, long step) {
   for (Column& column : columns_) {
     const std::vector<int>& numbers = set_.numbers(*column.field);
-    append(column.dataset, source.field(*column.field, numbers), numbers.size(), column.field->components, set_.name);
+    HostField field = source.field(*column.field, numbers);
+    if (field.components != column.field->components || field.values.size() != numbers.size() * field.components)
+      throw std::logic_error("the fields of " + set_.name + " have not the length of the set");
+    format_.round(column.field->name, field.values);
+    column.dataset.append(field.values.data(), 1);
   }
   if (set_.is_beam()) add_section_forces(source);
   steps_.append(&step, 1);

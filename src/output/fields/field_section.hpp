@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "output/fields/field_snapshot.hpp"
+#include "output/fields/number_format.hpp"
 #include "output/hdf5/hdf5.hpp"
 #include "output/output_sets.hpp"
 
@@ -14,9 +15,8 @@ namespace railwave {
 class FieldSection {
  public:
   /// `fields`: names of case/field_table.hpp. Beams have section forces and moments whatever is asked.
-  /// @param in_single precision of the fields
   FieldSection(const hdf5::Group& fields_group, const OutputSet& set, const std::vector<std::string>& fields,
-               bool in_single);
+               const NumberFormat& format);
 
   /// Writes the fields of one more output time, then its time: see ResultsWriter::flush().
   void add_values(const FieldSource& source, long step);
@@ -30,6 +30,7 @@ class FieldSection {
   void add_section_forces(const FieldSource& source);
 
   OutputSet set_;
+  NumberFormat format_;
   hdf5::Dataset times_, steps_, forces_, moments_;
   std::vector<Column> columns_;  ///< those of nodes first
 };

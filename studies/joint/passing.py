@@ -1,5 +1,6 @@
 """Half a wheelset passes the joint: the simulations of the thesis's table 4.2, and what their results tell."""
 
+import functools
 import types
 
 import h5py
@@ -10,20 +11,22 @@ from steps import rows_of
 
 START = 1.32  # m, from where the wheel begins to the gap's middle: the thesis's places count from there
 SPEED = 27.78  # m/s
+INTERVAL = 5e-5  # s, of the contact solutions that are kept node by node
 ELASTIC = ["parts.wheelset.material=elastic", "tracks.track.rail_material=elastic"]
 SIMULATIONS = {1: "elastic, nominal surface", 2: "bilinear, nominal surface", 3: "bilinear, worn surface"}
 # Begins 40 mm before the gap, in elements of 5 mm: for two processors, to see that all is well.
 COARSE_START = 0.04
 COARSE = [
     "meshes.wheelset.zone_size=0.005", "meshes.wheelset.zone_start=-0.03", "meshes.wheelset.zone_length=0.15",
-    "meshes.wheelset.path_start=-0.03", "meshes.wheelset.path_length=0.15", "meshes.wheelset.path_size=0.005",
+    "meshes.wheelset.path_start=-0.03", "meshes.wheelset.path_length=0.16", "meshes.wheelset.path_size=0.005",
     "meshes.wheelset.coarse_size=0.05", "meshes.wheelset.section_size=0.012", "meshes.wheelset.zone_layers=1",
-    "meshes.wheelset.axle_size=0.06", "parts.wheelset.position=[-0.04, 0, 0.62]",
-    "points.sprung_mass.position=[-0.04, 1.0, 0.62]", "tracks.track.start=-2.1", "tracks.track.end=2.1",
+    "meshes.wheelset.axle_size=0.06", "parts.wheelset.position=[-0.04, -0.0024, 0.62]",
+    "points.sprung_mass.position=[-0.04, 0.9976, 0.62]", "tracks.track.start=-2.1", "tracks.track.end=2.1",
     "tracks.track.zone_size=0.006", "tracks.track.zone_layers=1", "tracks.track.zone_start=-0.07",
     "tracks.track.zone_end=0.07", "tracks.track.path_start=-0.07", "tracks.track.path_end=0.07",
     "tracks.track.path_size=0.006", "tracks.track.section_size=0.012", "tracks.track.coarse_size=0.05",
-    "tracks.track.core_size=0.06", "curves.ramp.duration=1e-3", "settle.friction=true",
+    "tracks.track.core_size=0.06", "absorbing_layers.first.length=1.2", "absorbing_layers.last.length=1.2",
+    "curves.ramp.duration=1e-3", "settle.friction=true",
     "settle.tolerance=3e-3", "output.contact_margin=0.012", "time.end=2.9e-3",
     "output_windows.passage.start=0", "output_windows.passage.end=2.8e-3", "output_windows.passage.interval=1e-5",
     "output_windows.approach.start=1e-4", "output_windows.approach.end=3e-4",
@@ -34,68 +37,64 @@ COARSE = [
 
 def worn_surface(steps):
     """The height map of simulation 3, as the defaults of worn_joint.py have it."""
-    import argparse
-
-    parser = argparse.ArgumentParser()
-    worn_joint.add_options(parser)
-    shape = parser.parse_args([])
+    shape = worn_joint.default_shape()
     path = steps.path("worn_joint.csv")
     steps.once("worn_joint", [worn_joint.__file__], sorted(vars(shape).items()), lambda: worn_joint.write(path, shape))
     return path
+
+
+def settings(steps, number, coarse):
+    """What a simulation changes in the case."""
+    overrides = list(COARSE if coarse else [])
+    if number == 1:
+        overrides += ELASTIC
+    if number == 3:
+        overrides.append(f"tracks.track.height_map={worn_surface(steps)}")
+    return overrides
 
 
 def simulate(steps, case, coarse, numbers):
     """Runs the simulations; their contact solutions. Returns a Passing for each."""
     found = {}
     for number in numbers:
-        overrides = list(COARSE if coarse else [])
-        if number == 1:
-            overrides += ELASTIC
-        if number == 3:
-            overrides.append(f"tracks.track.height_map={worn_surface(steps)}")
-        results = steps.run(f"simulation_{number}", case, overrides)
+        results = steps.run(f"simulation_{number}", case, settings(steps, number, coarse))
         table = steps.path(f"contact_{number}.csv")
         words = [steps.program, "contact", results, "--csv", table, "--overwrite"]
-        steps.once(f"contact_{number}", [results], words, lambda words=words: quietly(steps, words))
-        found[number] = Passing(number, results, table, COARSE_START if coarse else START)
+        steps.once(f"contact_{number}", [results], words, lambda words=words: steps.command(*words, quiet=True))
+        nodes = steps.path(f"solution_{number}.h5")
+        words = [steps.program, "contact", results, "--hdf5", nodes, "--interval", INTERVAL, "--overwrite"]
+        steps.once(f"solution_{number}", [results], words, lambda words=words: steps.command(*words, quiet=True))
+        found[number] = Passing(number, results, table, nodes, COARSE_START if coarse else START)
     return found
 
 
-def quietly(steps, words):
-    """A command that prints a row for each of thousands of outputs."""
-    import subprocess
+def wavelets(steps, found):
+    """Wavelet power of the acceleration of the foot behind the joint (fig. 4.17): files by name."""
+    files = {}
+    for number, one in sorted(found.items()):
+        low = max(100, 2 / one.time[-1])
+        for name, axis in (("vertical", "z"), ("lateral", "y")):
+            path = files[f"wavelet_{number}_{name}"] = steps.path(f"wavelet_{number}_{name}.h5")
+            words = [steps.program, "signal", "wavelet", one.results, "--channel",
+                     f"track_rail_2.behind.acceleration.{axis}", "--low", f"{low:.0f}", "--high", 10e3, "--hdf5", path,
+                     "--overwrite"]
+            steps.once(path.stem, [one.results], words, lambda words=words: steps.command(*words, quiet=True))
+    return files
 
-    ended = subprocess.run([str(word) for word in words], stdout=subprocess.DEVNULL, check=False)
-    if ended.returncode != 0:
-        from steps import Failed
 
-        raise Failed(f"{' '.join(str(word) for word in words)} ended with code {ended.returncode}")
+class History:
+    """What one simulation's histories tell."""
 
-
-class Passing:
-    """One simulation's results: histories, the patches' table, and the nodes' forces at each output."""
-
-    def __init__(self, number, results, table, start):
-        self.number, self.results, self.start = number, results, start
+    def __init__(self, results, start):
+        self.results, self.start = results, start
         with h5py.File(results, "r") as file:
             history = file["history"]
             self.time = history["time"][:]
             self.force = np.linalg.norm(history["contact/tread/normal_force"][:], axis=1)
             self.balance = np.abs(history["energy/balance_error"][:]).max() / history["energy/internal"][:].max()
-            self.foot = history["set/track_rail_2.behind/acceleration"][:]
             self.seconds = float(file.attrs.get("wall_seconds", np.nan))
             self.friction = float(file["contact/tread"].attrs["friction"])
             self.megabytes = results.stat().st_size / 1e6
-        rows = [row for row in rows_of(table) if row["patch"] == "0"]
-        self.patch = types.SimpleNamespace(
-            **{
-                column: np.array([float(row[column] or "nan") for row in rows])
-                for column in (
-                    "time", "nodes_in_contact", "area", "peak_nodal_pressure", "peak_shear", "normal_force",
-                    "creep_force", "centre_x", "slipping_by_force", "slipping_by_velocity", "semi_axis_along",
-                )
-            }
-        )
 
     def place(self, time):
         """Of the wheel's centre along the track, from the gap's middle, m."""
@@ -107,6 +106,24 @@ class Passing:
         k = np.flatnonzero(behind)[self.force[behind].argmax()]
         return 1e-3 * self.force[k], self.place(self.time[k])
 
+
+class Passing(History):
+    """Besides, the patches' table, and the nodes' forces at each output."""
+
+    def __init__(self, number, results, table, solution, start):
+        super().__init__(results, start)
+        self.number, self.solution = number, solution
+        rows = [row for row in rows_of(table) if row["patch"] == "0"]
+        self.patch = types.SimpleNamespace(
+            **{
+                column: np.array([float(row[column] or "nan") for row in rows])
+                for column in (
+                    "time", "nodes_in_contact", "area", "peak_nodal_pressure", "peak_shear", "normal_force",
+                    "creep_force", "centre_x", "slipping_by_force", "slipping_by_velocity", "semi_axis_along",
+                )
+            }
+        )
+
     def mean_before(self, column, nearest=0.02):
         """Mean of a column of the patches while the whole patch is on the first rail."""
         before = (self.patch.centre_x < -nearest) & (self.patch.nodes_in_contact > 0)
@@ -117,28 +134,51 @@ class Passing:
         with np.errstate(invalid="ignore"):
             return self.patch.slipping_by_force / self.patch.nodes_in_contact
 
+    def near_nodes(self):
+        """Of each output at which there are any: time, s; of the wheel's nodes near the patch their places, m from the
+        gap, normal force, N, and tangential force along the track on the wheel, N."""
+        with h5py.File(self.results, "r") as file:
+            contact = file["contact/tread"]
+            near, coordinates = contact["slave/near"], contact["slave/coordinates"][:]
+            first = 0
+            for time, last in zip(contact["time"][:], contact["slave/rows"][:]):
+                if last > first:
+                    rows = slice(first, last)
+                    places = coordinates[near["node"][rows]] + near["displacement"][rows]
+                    normal = np.linalg.norm(near["normal_force"][rows], axis=1)
+                    yield float(time), places, normal, near["tangential_force"][rows, 0]
+                first = last
+
+    @functools.cached_property
+    def _first_touch(self):
+        for time, places, normal, _ in self.near_nodes():
+            touching = (places[:, 0] > 0) & (normal > 1e-3)
+            if self.place(time) >= -0.05 and touching.any():
+                return time, places[touching, :2].mean(axis=0)
+        return None, None
+
+    @property
+    def touch(self):
+        """When the wheel first touches the rail behind the gap, s; None: never."""
+        return self._first_touch[0]
+
+    @property
+    def touched(self):
+        """Where: x and y, m."""
+        return self._first_touch[1]
+
     def positive_shear(self, share=0.1):
         """Where and when the rail behind the gap is pushed along the rolling direction, by nodes whose tangential force
         is more than a share of friction's bound: first and last time, s, least and largest place, m; None: never."""
         times, places = [], []
-        with h5py.File(self.results, "r") as file:
-            contact = file["contact/tread"]
-            side, near = contact["slave"], contact["slave/near"]
-            rows, coordinates = side["rows"][:], side["coordinates"][:]
-            every_time = contact["time"][:]
-            for output, time in enumerate(every_time):
-                if not -0.02 < self.place(time) < 0.02:
-                    continue
-                first, last = (rows[output - 1] if output else 0), rows[output]
-                if last == first:
-                    continue
-                x = coordinates[near["node"][first:last], 0] + near["displacement"][first:last, 0]
-                normal = np.linalg.norm(near["normal_force"][first:last], axis=1)
-                on_rail = -near["tangential_force"][first:last, 0]  # the wheel's is the opposite
-                pushed = (x > 0) & (normal > 1) & (on_rail > share * self.friction * normal)
-                if pushed.any():
-                    times.append(time)
-                    places += [x[pushed].min(), x[pushed].max()]
+        for time, near, normal, tangential in self.near_nodes():
+            x = near[:, 0]
+            if not -0.02 < self.place(time) < 0.02:
+                continue
+            pushed = (x > 0) & (normal > 1) & (-tangential > share * self.friction * normal)  # the wheel's is opposite
+            if pushed.any():
+                times.append(time)
+                places += [x[pushed].min(), x[pushed].max()]
         return (min(times), max(times), min(places), max(places)) if times else None
 
 

@@ -7,12 +7,14 @@ import sys
 import numpy as np
 
 import hammer
+import surface
 from steps import PROJECT
 
 sys.path.insert(0, str(PROJECT / "scripts"))
 sys.dont_write_bytecode = True
 from pictures import style  # noqa: E402
-from pictures.output import put_figure  # noqa: E402
+from pictures.output import put_figure, put_movie  # noqa: E402
+from pictures.signals import Signals, draw_wavelet  # noqa: E402
 
 style.apply()
 import matplotlib.pyplot as plt  # noqa: E402
@@ -33,13 +35,28 @@ def frequency_rows(listed):
 
 def write(steps, rows):
     """table.md and table.csv, and the table on standard output."""
-    heading = ("what", "thesis", "found", "off by")
-    rows = [(*row, *[""] * (4 - len(row))) for row in rows]
-    text = "\n".join(["| " + " | ".join(row) + " |" for row in (heading, ("---",) * 4, *rows)]) + "\n"
-    steps.path("table.md").write_text(text, encoding="utf-8")
-    with open(steps.path("table.csv"), "w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([heading, *rows])
+    filled = [(*row, *[""] * (4 - len(row))) for row in rows]
+    write_table(steps, "table", [("what", "thesis", "found", "off by"), *filled])
+
+
+def write_table(steps, name, rows):
+    """A table, its first row the heading, as Markdown, as CSV and on standard output."""
+    heading, *below = rows
+    text = "\n".join(["| " + " | ".join(row) + " |" for row in (heading, ["---"] * len(heading), *below)]) + "\n"
+    steps.path(f"{name}.md").write_text(text, encoding="utf-8")
+    with open(steps.path(f"{name}.csv"), "w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows(rows)
     print(text, end="")
+
+
+def write_scan(steps, scanned):
+    """scan.md and scan.csv: a row for each setting, a column for each frequency in Hz."""
+    listed = scanned[0][1]
+    write_table(steps, "scan", [
+        ["setting", *(what for what, *_ in listed)],
+        ["thesis, simulated (measured)", *(f"{simulated} ({measured})" for _, simulated, measured, _ in listed)],
+        *([name, *("" if found is None else f"{found:.0f}" for *_, found in findings)] for name, findings in scanned),
+    ])
 
 
 def put(steps, figure, name):
@@ -99,18 +116,34 @@ def draw_footprint(steps, found):
     put(steps, figure, "footprint.png")
 
 
-def draw_waves(steps, lines):
-    """Space-time diagrams of the running surface behind the gap."""
-    if not lines:
+def draw_waves(steps, seen):
+    """The impact's wave by time and by distance from the touch."""
+    if not seen:
         return
-    figure, panels = plt.subplots(1, len(lines), figsize=(5 * len(lines), 4), squeeze=False, constrained_layout=True)
-    for axes, (number, line) in zip(panels[0], sorted(lines.items())):
-        change = line.velocity - line.velocity[:1]  # the rail moves as a whole too
-        largest = np.abs(change).max()
-        drawn = axes.pcolormesh(1e3 * line.x, 1e6 * (line.time - line.time[0]), change, cmap=style.SIGNED_MAP,
+    figure, panels = plt.subplots(1, len(seen), figsize=(5 * len(seen), 4), squeeze=False, constrained_layout=True)
+    for axes, (number, wave) in zip(panels[0], sorted(seen.items())):
+        largest = np.percentile(np.abs(wave.velocity), 98)
+        drawn = axes.pcolormesh(1e3 * wave.radius, 1e6 * wave.time, wave.velocity, cmap=style.SIGNED_MAP,
                                 vmin=-largest, vmax=largest, shading="nearest")
         axes.set_title(f"simulation {number}")
-        axes.set_xlabel("place behind the gap, mm")
-        axes.set_ylabel("time, \N{MICRO SIGN}s")
-        figure.colorbar(drawn, ax=axes, label="change of vertical velocity, m/s")
+        axes.set_xlabel("distance from the touch, mm")
+        axes.set_ylabel("time after it, \N{MICRO SIGN}s")
+        figure.colorbar(drawn, ax=axes, label="normal velocity, m/s")
     put(steps, figure, "waves.png")
+
+
+def draw_surface(steps, passing):
+    """Maps and movies of the running surface's velocity."""
+    if passing.touch is None:
+        return
+    if figure := surface.draw_maps(passing):
+        put(steps, figure, f"surface_{passing.number}.png")
+    for name, frames in surface.movies(passing):
+        path = steps.path(f"{name}.gif")
+        put_movie(frames, str(path), surface.MOVIE_RATE)
+        print(path)
+
+
+def draw_wavelets(steps, files):
+    for name, path in files.items():
+        put(steps, draw_wavelet(Signals(path)), f"{name}.png")

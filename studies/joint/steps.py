@@ -43,10 +43,10 @@ class Steps:
     def path(self, name):
         return self.folder / name
 
-    def command(self, *words):
-        """A command whose failure ends the study."""
+    def command(self, *words, quiet=False):
+        """A command whose failure ends the study; `quiet`: without what it prints."""
         words = [str(word) for word in words]
-        ended = subprocess.run(words, check=False)
+        ended = subprocess.run(words, stdout=subprocess.DEVNULL if quiet else None, check=False)
         if ended.returncode != 0:
             raise Failed(f"{' '.join(words)} ended with code {ended.returncode}")
 

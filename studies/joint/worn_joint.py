@@ -41,6 +41,13 @@ def add_options(parser):
                         help="y of its middle, in the track's own axes; default: -0.003")
 
 
+def default_shape():
+    """The shape by the options' defaults."""
+    parser = argparse.ArgumentParser()
+    add_options(parser)
+    return parser.parse_args([])
+
+
 def write(path, shape):
     """The height map of a shape (the options above, as attributes) as a CSV file with the columns x, y, dz."""
     steps = [k * 0.5e-3 for k in range(-240, 241)]

@@ -20,10 +20,11 @@ except ImportError:
 ROOT = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
 STUDY = ROOT / "studies" / "joint"
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
-sys.path.insert(0, str(STUDY))
+sys.path[:0] = [str(STUDY), str(ROOT / "scripts")]
 import hammer  # noqa: E402
 import passing  # noqa: E402
 import steps  # noqa: E402
+import surface  # noqa: E402
 import waves  # noqa: E402
 import worn_joint  # noqa: E402
 
@@ -122,21 +123,26 @@ class Once(Folder):
 
 class Measures(Folder):
     def test_speed_and_length_of_a_wave(self):
-        speed, length = 2980.0, 0.010
-        x = numpy.arange(0.002, 0.05, 0.001)
-        y = numpy.arange(0.74, 0.76, 0.002)
+        """A burst of three waves that goes out from a place beside the surface's middle."""
+        speed, length, origin, touch = 2980.0, 0.010, numpy.array([0.004, 0.744]), 1e-3
+        x, y = numpy.arange(0.003, 0.0501, 0.001), numpy.arange(0.735, 0.7701, 0.001)
         grid = numpy.array([(a, b, 0.17) for b in y for a in x])
-        time = 1e-6 * numpy.arange(41)
-        arrived = speed * time[:, None] - grid[None, :, 0]
-        height = numpy.where(arrived > 0, numpy.sin(2 * numpy.pi * arrived / length), 0)
+        corner = [b * len(x) + a for b in range(len(y) - 1) for a in range(len(x) - 1)]
+        facets = numpy.array([(k, k + 1, k + 1 + len(x), k + len(x)) for k in corner])
+        time = touch + 1e-6 * numpy.arange(-6, 40)
+        radius = numpy.hypot(*(grid[:, :2] - origin).T)
+        behind = speed * (time[:, None] - touch) - radius[None, :]
+        burst = numpy.where((behind > 0) & (behind < 1.5 * length), numpy.sin(2 * numpy.pi * behind / length), 0)
+        height = 0.3 + burst / numpy.sqrt(numpy.maximum(radius, 1e-3))
         with h5py.File(self.folder / "r.h5", "w") as file:
-            group = file.create_group("fields/rail.line")
-            group["time"], group["coordinates"] = 1e-3 + time, grid
+            group = file.create_group(f"fields/{surface.BEHIND}")
+            group["time"], group["coordinates"], group["connectivity"] = time, grid, facets
             group["velocity"] = numpy.stack([0 * height, 0 * height, height], axis=2)
-        line = waves.SurfaceLine(self.folder / "r.h5", "rail.line", 1e-3, 1.1e-3)
-        self.assertEqual(line.velocity.shape, (len(time), len(x)))
-        self.assertAlmostEqual(line.front_speed(), speed, delta=0.05 * speed)
-        self.assertAlmostEqual(line.wavelength(-1), length, delta=0.1 * length)
+        wave = waves.RadialWave(surface.Surface(self.folder / "r.h5", surface.BEHIND), origin, touch)
+        self.assertTrue(wave.is_seen())
+        found = wave.speed_and_length()
+        self.assertAlmostEqual(found[0], speed, delta=0.05 * speed)
+        self.assertAlmostEqual(found[1], length, delta=0.2 * length)
 
     def test_peaks_and_troughs_of_an_accelerance(self):
         frequency = numpy.arange(100.0, 1000.0)

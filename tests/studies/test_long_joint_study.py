@@ -24,8 +24,12 @@ class Whole(unittest.TestCase):
             self.assertEqual(first.returncode, 0, first.stdout[-4000:] + first.stderr[-4000:])
             with open(pathlib.Path(folder) / "table.csv", newline="", encoding="utf-8") as file:
                 found = {row["what"]: row["found"] for row in csv.DictReader(file)}
-            for picture in ("accelerance", "forces", "footprint"):
-                self.assertTrue((pathlib.Path(folder) / f"{picture}.png").exists(), picture)
+            pictures = ["accelerance.png", "forces.png", "footprint.png", "footprints.png", "patches.png"]
+            for number in (1, 2, 3):
+                pictures += [f"{kind}_{number}.png" for kind in ("landing", "surface")]
+                pictures += [f"adhesion_{number}_1.png", f"wavelet_{number}_vertical.png", f"approach_{number}.gif"]
+            for picture in pictures:
+                self.assertTrue((pathlib.Path(folder) / picture).exists(), picture)
             second = subprocess.run(words, capture_output=True, text=True)
             self.assertEqual(second.returncode, 0, second.stderr[-4000:])
             self.assertEqual(second.stdout.count("there already"), first.stdout.count("== "))

@@ -1,0 +1,64 @@
+"""The impact of simulation 3 by the size of the elements and by the step: the force's peak behind the gap."""
+
+import matplotlib.pyplot as plt
+
+import passing
+
+SIZES = (2e-3, 1.4e-3, 1e-3)  # m, of the zone's elements
+COARSE_SIZES = (7e-3, 6e-3, 5e-3)
+SCALES = (0.9, 0.6)  # of the stable step, at the least size
+# The forces are in the histories.
+NO_FIELDS = [f"output_windows.{window}.interval=1" for window in ("passage", "approach", "landing")]
+
+
+def sized(size):
+    """No element on the way is smaller than those of the zone."""
+    way = max(size, 3e-3)
+    return [f"{mesh}.{key}={value}" for mesh in ("meshes.wheelset", "tracks.track")
+            for key, value in (("zone_size", size), ("path_size", way))]
+
+
+def run(steps, case, coarse):
+    """Runs those that differ from simulation 3. Returns (size, m; scale; passing.History)."""
+    sizes = COARSE_SIZES if coarse else SIZES
+    listed = [(size, SCALES[0]) for size in sizes] + [(sizes[-1], scale) for scale in SCALES[1:]]
+    start = passing.COARSE_START if coarse else passing.START
+    common = [*passing.settings(steps, 3, coarse), *NO_FIELDS]
+    found = []
+    for size, scale in listed:
+        name = f"convergence_{1e3 * size:g}_mm_{scale:g}"
+        results = steps.run(name, case, [*common, *sized(size), f"time.step_scale={scale}"])
+        found.append((size, scale, passing.History(results, start)))
+    return found
+
+
+def findings(found):
+    """Rows of the study's table: the peak of each, and by how much it is off that of the finest."""
+    finest = min(found, key=lambda one: (one[0], -one[1]))[2].peak_force()[0]
+    rows = []
+    for size, scale, one in found:
+        force, place = one.peak_force()
+        rows.append((
+            f"simulation 3, elements of {1e3 * size:g} mm, {scale:g} of the stable step: largest force behind the gap",
+            "", f"{force:.1f} kN, {1e3 * place:.1f} mm behind it ({100 * (force / finest - 1):+.1f} %)",
+        ))
+    return rows
+
+
+def draw(found):
+    """The force beside the gap, and its peak by the elements' size."""
+    figure, (beside, by_size) = plt.subplots(1, 2, figsize=(11, 4), constrained_layout=True)
+    for size, scale, one in found:
+        beside.plot(1e3 * one.place(one.time), 1e-3 * one.force, label=f"{1e3 * size:g} mm, step {scale:g}")
+    beside.set_xlim(-20, 50)
+    beside.set_xlabel("wheel's place from the gap, mm")
+    beside.set_ylabel("normal force, kN")
+    beside.legend()
+    for scale in SCALES:
+        points = [(1e3 * size, one.peak_force()[0]) for size, own, one in found if own == scale]
+        by_size.plot(*zip(*points), "o-", label=f"step {scale:g} of the stable one")
+    by_size.set_xlim(left=0)
+    by_size.set_xlabel("elements, mm")
+    by_size.set_ylabel("largest force behind the gap, kN")
+    by_size.legend()
+    return figure

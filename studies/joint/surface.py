@@ -18,6 +18,7 @@ LANDING = (0, 5e-6, 10e-6, 350e-6, 372e-6)
 APPROACH = (-12e-6, 0, 25e-6)  # before and after the strongest disturbance (fig. 4.25, 4.26)
 ARROWS = 2.5  # mm between them
 FRAMES = 50  # of a movie, one each output
+SETTLED = 0.3e-3  # s, from when on the run has forgotten its beginning
 MOVIE_RATE = 10  # frames a second
 
 
@@ -45,13 +46,14 @@ class Surface:
         return np.flatnonzero((self.time >= begin) & (self.time <= end))
 
     def disturbed(self, begin, end):
-        """The output at which the velocity changes most from one to the next, beyond what it does on the whole; None:
-        fewer than ten outputs."""
+        """The output at which the velocity changes most from one to the next, and the node; None: fewer than ten
+        outputs."""
         chosen = self.between(begin, end)
         if len(chosen) < 10:
             return None
-        change = np.abs(np.diff(self.velocity[chosen], axis=0)).max(axis=(1, 2))
-        return int(chosen[1 + change.argmax()])
+        change = np.abs(np.diff(self.velocity[chosen], axis=0)).max(axis=2)
+        output, node = np.unravel_index(change.argmax(), change.shape)
+        return int(chosen[1 + output]), int(node)
 
     def moving(self, output):
         """Velocity less that of the surface as a whole."""
@@ -80,12 +82,17 @@ class Surface:
         return drawn
 
 
+def strongest_disturbance(before, passing):
+    """Of the surface before the gap in its window before the touch: output and node; None: it has none."""
+    return before.disturbed(SETTLED, passing.touch - 1e-4)
+
+
 def _instants(passing):
     """(surface, outputs) of the approach and of the landing; without those that no window has."""
     before, behind = Surface(passing.results, BEFORE), Surface(passing.results, BEHIND)
     listed = []
-    strongest = before.disturbed(0.3e-3, passing.touch - 1e-4)  # a window, not the run's begin
-    if strongest is not None:
+    if strongest := strongest_disturbance(before, passing):
+        strongest, _ = strongest
         listed.append((before, sorted({before.nearest(before.time[strongest] + dt) for dt in APPROACH})))
     # Every window's end is an output too far away.
     near = [behind.nearest(passing.touch + dt) for dt in LANDING]

@@ -1,9 +1,10 @@
-"""The wave of the impact: the running surface's normal velocity by the distance from where the wheel first touches the
-second rail; how fast and how long it is (thesis 4.6.2)."""
+"""Waves on the running surface: its normal velocity by the distance from where they begin, how fast and how long they
+are. The impact's begin where the wheel first touches the second rail, a perturbation's where the velocity changes most
+while the wheel nears the gap (thesis 4.6)."""
 
 import numpy as np
 
-from surface import BEHIND, Surface
+from surface import BEFORE as BEFORE_GAP, BEHIND, Surface, strongest_disturbance
 
 NEAR, FAR = 0.006, 0.036  # m from the touch between which it is followed
 BEFORE, AFTER = 6e-6, 25e-6  # s about the touch
@@ -53,6 +54,14 @@ class RadialWave:
         return float(speed), float(2 * speed * (delays[end] - delays[begin]))
 
 
+def measured(wave):
+    """What the table says of it."""
+    if not wave.is_seen():
+        return "too few outputs of the surface then"
+    speed, length = wave.speed_and_length()
+    return f"{1e3 * length:.1f} mm, {1e-3 * speed:.2f} km/s"
+
+
 def findings(found):
     """Rows of the study's table, and by simulation the wave that was looked at."""
     rows, seen = [], {}
@@ -65,10 +74,13 @@ def findings(found):
         rows.append((name, "46.39 ms by its clock",
                      f"{1e3 * touch:.3f} ms, wheel {1e3 * passing.place(touch):.1f} mm from the gap"))
         wave = RadialWave(Surface(passing.results, BEHIND), passing.touched, touch)
-        found_there = "no outputs of the surface then"
         if wave.is_seen():
             seen[number] = wave
-            speed, length = wave.speed_and_length()
-            found_there = f"{1e3 * length:.1f} mm, {1e-3 * speed:.2f} km/s"
-        rows.append((f"simulation {number}: impact wave on the second rail", "10 mm, 3 km/s", found_there))
+        rows.append((f"simulation {number}: impact wave on the second rail", "10 mm, 3 km/s", measured(wave)))
+        before = Surface(passing.results, BEFORE_GAP)
+        if strongest := strongest_disturbance(before, passing):
+            output, node = strongest
+            wave = RadialWave(before, before.place[node, :2], before.time[output])
+            rows.append((f"simulation {number}: perturbation wave before the gap", "6 mm, 3 km/s",
+                         f"{measured(wave)}, {1e3 * before.time[output]:.3f} ms, {before.x[node]:.0f} mm"))
     return rows, seen

@@ -23,6 +23,7 @@ PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 sys.path[:0] = [str(STUDY), str(ROOT / "scripts")]
 import hammer  # noqa: E402
 import passing  # noqa: E402
+import scan  # noqa: E402
 import steps  # noqa: E402
 import surface  # noqa: E402
 import waves  # noqa: E402
@@ -88,6 +89,17 @@ class Cases(Folder):
         for sensor in range(1, 9):
             self.assertIn(f"sensor_{sensor}", said)
         self.assertNotIn("farther", said)
+
+
+    def test_the_settings_of_the_scan(self):
+        coarser = ["tracks.track.coarse_size=0.1", "tracks.track.core_size=0.1"]
+        made = steps.Steps(self.folder, PROGRAM)
+        seen = set()
+        for name, setting in scan.SETTINGS.items():
+            with self.subTest(name):
+                case = setting.case(made, STUDY / "hammer.toml", "scan")
+                seen.add(self.check(case, [*setting.overrides, *scan.MESH, *coarser]))
+        self.assertEqual(len(seen), len(scan.SETTINGS), "each changes something")
 
 
 class Once(Folder):

@@ -273,13 +273,13 @@ class Newton {
   Array<double* [4]> turned_from_;
 };
 
-/// Contacts have no friction as long as this lives.
-class WithoutFriction {
+/// Contacts have friction, or none, as long as this lives.
+class FrictionForNow {
  public:
-  explicit WithoutFriction(scene::Settle& wish) : wish_(wish), before_(wish.friction) { wish.friction = false; }
-  ~WithoutFriction() { wish_.friction = before_; }
-  WithoutFriction(const WithoutFriction&) = delete;
-  WithoutFriction& operator=(const WithoutFriction&) = delete;
+  FrictionForNow(scene::Settle& wish, bool friction) : wish_(wish), before_(wish.friction) { wish.friction = friction; }
+  ~FrictionForNow() { wish_.friction = before_; }
+  FrictionForNow(const FrictionForNow&) = delete;
+  FrictionForNow& operator=(const FrictionForNow&) = delete;
 
  private:
   scene::Settle& wish_;
@@ -288,7 +288,22 @@ class WithoutFriction {
 
 bool any_friction(const Model& model) {
   return std::any_of(model.contacts.begin(), model.contacts.end(),
-                     [&](const ContactPair& pair) { return has_friction(model.scene, pair, StepKind::settling); });
+                     [](const ContactPair& pair) { return pair.arrays.friction > 0; });
+}
+
+/// Newton's method from where the model is. Where it makes nothing better, the model is as it was.
+SettleReport go_on_settling(Model& model, const std::function<bool(const SettleReport&)>& go_on, bool friction,
+                            const SettleReport& before, int most_slow_steps) {
+  const StaticState reached = save_static_state(model);
+  SettleReport report;
+  {
+    const FrictionForNow own(model.scene.settle, friction);
+    report = Newton(model, go_on, before).run(most_slow_steps);
+  }
+  if (report.settled || report.unbalance < before.unbalance) return report;
+  restore_static_state(model, reached);
+  report.unbalance = before.unbalance;
+  return report;
 }
 
 /// For contacts in which many nodes slip: there friction depends on the way, and Newton's steps take a few per cent
@@ -299,18 +314,32 @@ SettleReport settle_without_friction_first(Model& model, const std::function<boo
                                            const StaticState& start, const SettleReport& tried) {
   const StaticState reached = save_static_state(model);
   restore_static_state(model, start);
-  SettleReport report;
-  {
-    const WithoutFriction frictionless(model.scene.settle);
-    report = Newton(model, go_on, tried).run(patience);
-  }
+  SettleReport from_start = tried;
+  from_start.unbalance = 1e300;
+  SettleReport report = go_on_settling(model, go_on, false, from_start, patience);
   const bool better = report.unbalance < tried.unbalance;
-  if (!better) restore_static_state(model, reached);
-  report = Newton(model, go_on, report).run();
+  if (!better) {
+    restore_static_state(model, reached);
+    report.unbalance = tried.unbalance;
+  }
+  report = go_on_settling(model, go_on, true, report, no_limit);
   if (better)
     report.remarks.push_back(
         fmt::format("with friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
                     "evaluations; then the scene settled without friction first, and with it from there",
+                    tried.unbalance, tried.steps));
+  return report;
+}
+
+/// Without friction nodes may come to rest in edges between facets, where the force jumps from one normal to the other.
+/// Then those that touch stick where they are, and what is left unbalanced is all that they hold.
+SettleReport hold_by_friction(Model& model, const std::function<bool(const SettleReport&)>& go_on,
+                              const SettleReport& tried) {
+  SettleReport report = go_on_settling(model, go_on, true, tried, no_limit);
+  if (report.settled)
+    report.remarks.push_back(
+        fmt::format("without friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
+                    "evaluations; nodes in contact stick from there on and hold what is left",
                     tried.unbalance, tried.steps));
   return report;
 }
@@ -333,11 +362,12 @@ SettleReport settle_by_newton(Model& model, const std::function<bool(const Settl
     stopped = stopped || !go_on(so_far);
     return !stopped;
   };
-  const bool friction = any_friction(model);
+  const bool rubs = any_friction(model), friction = rubs && model.scene.settle.friction;
   const StaticState start = friction ? save_static_state(model) : StaticState{};
-  SettleReport report = Newton(model, go_on_still, {}).run(friction ? patience : no_limit);
-  if (friction && !report.settled && !stopped && report.steps < model.scene.settle.max_steps)
-    report = settle_without_friction_first(model, go_on_still, start, report);
+  SettleReport report = Newton(model, go_on_still, {}).run(rubs ? patience : no_limit);
+  if (rubs && !report.settled && !stopped && report.steps < model.scene.settle.max_steps)
+    report = friction ? settle_without_friction_first(model, go_on_still, start, report)
+                      : hold_by_friction(model, go_on_still, report);
   for (ContactPair& pair : model.contacts) {
     Kokkos::deep_copy(pair.missed, 0);
     if (!pair.has_springs()) Kokkos::deep_copy(pair.multipliers.way_since_stuck, 0.0);

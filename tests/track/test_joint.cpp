@@ -97,7 +97,7 @@ TEST_CASE(
   CHECK(behind / before > 0.99);
 }
 
-TEST_CASE("plates in contact carry the load over as well, with more give", "[long]") {
+TEST_CASE("plates in contact carry the load over as well, with more give") {
   // With friction many nodes slip, and Newton's method settles it without first; without, a node rests in an edge.
   for (const char* friction : {"true", "false"}) {
     INFO("settles with friction: " << friction);

@@ -39,6 +39,8 @@ constexpr int idle_steps_of_floor = 3;
 constexpr int most_idle_steps = 25;
 /// Newton steps in which the residual has to halve where something else can be tried.
 constexpr int patience = 12;
+/// Unbalance that friction may hold in the end where the scene is to settle without it: more is no rest of edges.
+constexpr double most_held = 0.02;
 constexpr int no_limit = std::numeric_limits<int>::max();
 /// Multipliers are renewed when the unbalance is below that many tolerances.
 constexpr double renewal_unbalance = 30;
@@ -332,15 +334,16 @@ SettleReport settle_without_friction_first(Model& model, const std::function<boo
 }
 
 /// Without friction nodes may come to rest in edges between facets, where the force jumps from one normal to the other.
-/// Then those that touch stick where they are, and what is left unbalanced is all that they hold.
+/// Then those that touch stick where they are, and what is left unbalanced, if it is little, is all that they hold.
 SettleReport hold_by_friction(Model& model, const std::function<bool(const SettleReport&)>& go_on,
                               const SettleReport& tried) {
+  if (tried.unbalance > most_held) return go_on_settling(model, go_on, false, tried, no_limit);
   SettleReport report = go_on_settling(model, go_on, true, tried, no_limit);
-  if (report.settled)
-    report.remarks.push_back(
-        fmt::format("without friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
-                    "evaluations; nodes in contact stick from there on and hold what is left",
-                    tried.unbalance, tried.steps));
+  if (!report.settled) return go_on_settling(model, go_on, false, report, no_limit);
+  report.remarks.push_back(
+      fmt::format("without friction Newton's method came to an unbalanced force of {:.2g} of all forces in {} "
+                  "evaluations; nodes in contact stick from there on and hold what is left",
+                  tried.unbalance, tried.steps));
   return report;
 }
 

@@ -63,6 +63,19 @@ class Accelerance:
         best = max(turning, key=lambda i: level[i], default=None)
         return None if best is None else self.frequency[best]
 
+    def trough_behind(self, low, high, depth=0.05):
+        """The first trough between two frequencies from which the level rises by a depth in dB again, Hz; None: there
+        is none."""
+        lowest = None
+        for frequency, level in zip(self.frequency, self.decibels):
+            if not low <= frequency <= high:
+                continue
+            if lowest is None or level < lowest[1]:
+                lowest = (frequency, level)
+            elif level > lowest[1] + depth:
+                return lowest[0]
+        return None
+
 
 def findings(tables):
     """Rows of the study's table: what, the thesis's simulation, its measurement, what was found; Hz."""
@@ -80,7 +93,7 @@ def findings(tables):
 
     return [
         ("rail on fastening, f2: peak at the rail end, vertical", 260, 280, f2),
-        ("sleepers, f_a: trough behind it", 460, 440, at["rail_end_vertical"].extreme(f2 or 300, 800, -1)),
+        ("sleepers, f_a: trough behind it", 460, 440, at["rail_end_vertical"].trough_behind(f2 or 300, 800)),
         ("pinned-pinned, vertical, first: mid-span", 1100, 1050, at_mid_span("vertical", 900, 1300)),
         ("pinned-pinned, vertical, second: mid-span", 2550, 2750, at_mid_span("vertical", 2200, 3100)),
         ("pinned-pinned, lateral: mid-span", 600, 550, at_mid_span("lateral", 400, 700)),

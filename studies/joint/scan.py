@@ -57,6 +57,8 @@ SETTINGS = {
     "timber sleepers 2 m long in all": timber("half_length = 1.0"),
     "pads 0.1 m long": pads(0.1),
     "pads 0.22 m long": pads(0.22),
+    "timber sleepers 2.2 m long in all": timber("half_length = 1.1"),
+    "timber sleepers 2.4 m long in all": timber("half_length = 1.2"),
     "whole track, both rails": Setting(["tracks.track.both_rails=true"]),
     "plates bolted by 12.5 kN, friction 0.3": Setting(
         ["tracks.track.fishplate_fit=contact", "tracks.track.bolt_pretension=12500"],

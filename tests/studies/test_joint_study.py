@@ -159,13 +159,15 @@ class Measures(Folder):
     def test_peaks_and_troughs_of_an_accelerance(self):
         frequency = numpy.arange(100.0, 1000.0)
         decibels = 10 * numpy.exp(-(((frequency - 280) / 20) ** 2)) - 15 * numpy.exp(-(((frequency - 450) / 30) ** 2))
-        decibels += 0.01 * frequency
+        decibels += 0.001 * frequency
         with open(self.folder / "a.csv", "w") as file:
             file.write("kind,frequency,decibels,phase\n")
             file.writelines(f"direct,{f},{level},0\n" for f, level in zip(frequency, decibels))
         found = hammer.Accelerance(self.folder / "a.csv")
         self.assertAlmostEqual(found.extreme(200, 400, 1), 280, delta=2)
         self.assertAlmostEqual(found.extreme(300, 800, -1), 450, delta=2)
+        self.assertAlmostEqual(found.trough_behind(280, 800), 450, delta=2)
+        self.assertIsNone(found.trough_behind(600, 605), "a slope has no trough")
         self.assertIsNone(found.extreme(600, 900, 1), "a slope has no peak")
 
     def test_a_worn_joint_keeps_its_parameters(self):

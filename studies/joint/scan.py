@@ -17,52 +17,61 @@ MESH = ["tracks.track.zone_size=0.007", "tracks.track.coarse_size=0.05", "tracks
 class Setting:
     """What differs from the hammer's case."""
 
+    lines: dict = dataclasses.field(default_factory=dict)  # by the key that begins a line of the case, what it becomes
+    sections: str = ""  # added
     overrides: list = dataclasses.field(default_factory=list)
-    sections: str = ""  # added to the case
-    without: str = ""  # lines that begin so are left out
     places: tuple = PLACES
 
     def case(self, steps, original, name):
-        """The original, or a copy with the sections."""
-        if not self.sections and not self.without:
-            return original
+        """The case so changed."""
         text = original.read_text(encoding="utf-8")
-        if self.without:
-            text = re.sub(rf"^(?:{self.without}).*\n", "", text, flags=re.MULTILINE)
-        text += self.sections
+        for key, line in self.lines.items():
+            text, count = re.subn(rf"^{key} = .*\n", line and f"{line}\n", text, flags=re.MULTILINE)
+            if count != 1:
+                raise ValueError(f"{original} has {count} lines of {key}")
         path = steps.path(f"{name}.toml")
+        text += self.sections
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
         return path
 
 
+STIFF = {"fishplate_material": ""}  # plates of the rail's steel, and the default timber
+DEFAULTS = {**STIFF, "height": ""}
+
+
+def stiff(*overrides):
+    return Setting(DEFAULTS, overrides=list(overrides))
+
+
 def timber(line):
-    return Setting(sections=f'\n[sleepers.timber]\nbase = "timber"\n{line}\n', places=PLACES[:1])
+    return Setting({**STIFF, "height": line}, places=PLACES[:1])
 
 
 def pads(length):
-    return Setting(sections="".join(f'\n[sleepers.{kind}]\nbase = "{kind}"\npad_length = {length}\n'
-                                    for kind in ("timber", "concrete")))
+    return Setting({**STIFF, "height": f"pad_length = {length}"},
+                   f'\n[sleepers.concrete]\nbase = "concrete"\npad_length = {length}\n')
 
 
 SETTINGS = {
     "as the study has it": Setting(),
-    "plates 0.9 m long": Setting(["tracks.track.fishplate_length=0.9"]),
-    "plates 10 mm thick": Setting(["tracks.track.fishplate_thickness=0.01"]),
-    "plates of 21 GPa": Setting(["tracks.track.fishplate_material=soft"],
-                                "\n[materials.soft]\nyoungs_modulus = 21e9\npoissons_ratio = 0.3\ndensity = 7800\n"),
-    "no plates: two free ends": Setting(without="fishplates|bolt_pretension"),
+    "defaults": stiff(),
+    "plates 0.9 m long": stiff("tracks.track.fishplate_length=0.9"),
+    "plates 10 mm thick": stiff("tracks.track.fishplate_thickness=0.01"),
+    "plates of 21 GPa": Setting({"height": ""}),
+    "no plates: two free ends": Setting({**DEFAULTS, "fishplates": "", "bolt_pretension": ""}),
     "timber sleepers 0.17 m wide": timber("width = 0.17"),
-    "timber sleepers 0.25 m high": timber("height = 0.25"),
     "timber sleepers 2 m long in all": timber("half_length = 1.0"),
-    "pads 0.1 m long": pads(0.1),
-    "pads 0.22 m long": pads(0.22),
     "timber sleepers 2.2 m long in all": timber("half_length = 1.1"),
     "timber sleepers 2.4 m long in all": timber("half_length = 1.2"),
-    "whole track, both rails": Setting(["tracks.track.both_rails=true"]),
-    "plates bolted by 12.5 kN, friction 0.3": Setting(
-        ["tracks.track.fishplate_fit=contact", "tracks.track.bolt_pretension=12500"],
-        '\n[settle]\nmethod = "newton"\ntolerance = 1e-3\n', places=PLACES[:1]),
+    "timber sleepers 0.25 m high": timber("height = 0.25"),
+    "timber sleepers 0.13 m high": timber("height = 0.13"),
+    "timber sleepers 0.11 m high": timber("height = 0.11"),
+    "timber sleepers 0.11 m high, plates bolted by 12.5 kN": Setting(
+        {**STIFF, "bolt_pretension": "bolt_pretension = 12500"},
+        '\n[settle]\nmethod = "newton"\ntolerance = 1e-3\n', ["tracks.track.fishplate_fit=contact"], PLACES[:1]),
+    "pads 0.1 m long": pads(0.1),
+    "pads 0.22 m long": pads(0.22),
 }
 
 

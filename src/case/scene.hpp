@@ -1,16 +1,18 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "case/scene_bodies.hpp"
 #include "case/scene_meshes.hpp"
+#include "case/scene_run.hpp"
+#include "case/scene_track.hpp"
 #include "case/surface_names.hpp"
 
-/// What a case file says, read and checked: plain host structs in SI units, in the file's order.
+/// What a case file says, read and checked: plain host structs in SI units, in the file's order. Meshes, bodies,
+/// tracks and how it is run are in headers of their own.
 /// Names that refer to other entries have been checked to exist; names of sets inside a mesh (`part.set`) are resolved
 /// when the model is built, because a mesh may come from a file.
 namespace railwave::scene {
@@ -25,30 +27,6 @@ const Entry* find_entry(const std::vector<Entry>& entries, const std::string& na
   return nullptr;
 }
 
-struct Material : Place {
-  double youngs_modulus = 0;  ///< Pa
-  double poissons_ratio = 0;
-  double density = 0;                  ///< kg/m3
-  std::optional<double> yield_stress;  ///< Pa, von Mises; absent: elastic
-  double tangent_modulus = 0;          ///< Pa, slope of stress over strain beyond yield, uniaxial stress
-  double hardening_beta = 1;           ///< share of the hardening that is isotropic; the rest moves the yield surface
-  double isotropic_saturation = 0;     ///< Pa, by how much the flow stress grows in the end
-  double isotropic_rate = 0;           ///< of that over plastic strain
-  double back_stress_modulus = 0;      ///< Pa, by which the yield surface begins to move
-  double back_stress_recall = 0;       ///< share of the back stress that fades over plastic strain
-
-  /// lambda + 2 mu, Pa
-  double dilatational_modulus() const {
-    return youngs_modulus * (1 - poissons_ratio) / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio));
-  }
-  double shear_modulus() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
-  double bulk_modulus() const { return youngs_modulus / (3 * (1 - 2 * poissons_ratio)); }
-  /// C_d of thesis eq. 2.14b, m/s
-  double dilatational_speed() const { return std::sqrt(dilatational_modulus() / density); }
-  /// C_s, m/s
-  double shear_speed() const { return std::sqrt(shear_modulus() / density); }
-};
-
 /// A crack in a mesh: nodes doubled on a plane across the rail, its two faces surfaces NAME_before and NAME_behind.
 struct Seam : Place {
   std::string mesh;
@@ -56,33 +34,6 @@ struct Seam : Place {
   double length = 0;    ///< m, along y
   double depth = 0;     ///< m, along its plane
   double angle = 0;     ///< rad from the vertical, positive: deeper parts lie farther along x
-};
-
-enum class HourglassType { viscous, stiffness };
-
-struct Part : Place {
-  std::string mesh;
-  std::string material;
-  std::string element_set;                             ///< empty: the whole mesh
-  Vec3 position{0, 0, 0};                              ///< translation of the mesh, m
-  bool mirror = false;                                 ///< y of the mesh is turned round
-  double angle_of_attack = 0;                          ///< rad, about z through the mesh's origin, after mirroring
-  HourglassType hourglass = HourglassType::stiffness;  ///< chosen by scripts/hourglass_table: docs/hourglass.md
-  double hourglass_coefficient = 0.05;
-
-  /// With the coefficient that goes with a type unless one is given.
-  void take_hourglass(HourglassType type) {
-    hourglass = type;
-    hourglass_coefficient = type == HourglassType::stiffness ? 0.05 : 0.1;
-  }
-  double mass_damping = 0;           ///< 1/s: force on a node is that times its mass and velocity, against the velocity
-  double stiffness_damping = 0;      ///< s: viscous stress is that times what elasticity makes of the strain's rate
-  double linear_bulk_viscosity = 0;  ///< of volumes that shrink, over rho c l times the rate
-  double quadratic_bulk_viscosity = 0;  ///< the same over rho l^2 times its square
-
-  bool damped() const {
-    return mass_damping > 0 || stiffness_damping > 0 || linear_bulk_viscosity > 0 || quadratic_bulk_viscosity > 0;
-  }
 };
 
 /// Nodes of a part picked by where they are, as `part.NAME`: those in a box, or those near a position.
@@ -137,11 +88,6 @@ struct Curve : Place {
   double duration = 0;  ///< s, cosine_ramp: 1 after start + duration (thesis eq. 3.2); half_sine: zero after
   std::vector<std::array<double, 2>> points;  ///< table: (time, value), linear between, constant beyond
   std::string file;  ///< table: CSV of these (already joined to the case file's folder); empty: given in the case
-};
-
-struct PointMass : Place {
-  double mass = 0;  ///< kg; 0 only where beams end, which give it mass
-  Vec3 position{0, 0, 0};
 };
 
 enum class LoadType { nodal_force, pressure, traction, torque };
@@ -268,162 +214,6 @@ struct Tie : Place {
   std::string slave;                   ///< `part.surface`
   std::string master;                  ///< `part.surface`
   std::optional<double> max_distance;  ///< m from the master's faces; absent: a tenth of the face's shorter diagonal
-};
-
-/// automatic: Newton's method, and relaxation where that finds no equilibrium.
-enum class SettleMethod { automatic, newton, relaxation };
-
-/// Static equilibrium before the run; absent: the run starts from the undeformed mesh.
-struct Settle {
-  bool active = false;
-  SettleMethod method = SettleMethod::automatic;
-  double tolerance = 1e-3;  ///< residual force over applied force at which it counts as settled
-  int max_steps = 20000;
-  bool friction = true;      ///< false: contacts are frictionless while the scene settles
-  bool cache = true;         ///< keep the settled state in a file, and take it from there
-  std::string cache_folder;  ///< where that lies; empty: beside the results
-};
-
-struct Time {
-  double end = 0;           ///< s
-  double step_scale = 0.9;  ///< sf, thesis 3.3.6
-  double step = 0;          ///< s; 0: from elements and contact
-};
-
-enum class Precision { double_precision, mixed, single_precision };
-
-enum class StepEstimate { element, eigenvalue, global };
-
-/// What is kept of a run so that it can be taken up again.
-struct Checkpoint {
-  double interval = 300;  ///< wall seconds; 0: none but where the run is stopped
-  std::string file;       ///< empty: beside the results
-};
-
-/// How the time loop computes; what it computes is the other sections' matter.
-struct Solver {
-  Precision precision =
-      Precision::double_precision;  ///< mixed: elements in single, nodes in double; single: both in single
-  StepEstimate step_estimate = StepEstimate::element;  ///< what the stable step is taken from
-  bool subcycling = false;                             ///< coarse regions take larger steps than fine ones
-  int renew_steps = 20000;                             ///< steps between renewals of the global estimate; 0: never
-
-  bool elements_in_single() const { return precision != Precision::double_precision; }
-};
-
-/// Limits of the checks of a running solution: beyond one the run warns, beyond a fatal one it stops.
-struct Monitor {
-  bool active = true;
-  double energy_error = 0.05;       ///< of the balance, over what deformation has held and dissipated
-  double fatal_energy_error = 0.5;  ///< the same; the run stops
-  double kinetic_growth = 0.1;      ///< kinetic energy beyond what the run was given, over the same
-  double hourglass_share =
-      0.1;  ///< hourglass energy of a part, stored or dissipated within a millisecond, over that of its deformation
-  double hourglass_distortion = 0.3;  ///< hourglass displacement of an element over its size
-  double penetration = 0.1;           ///< of a contact node over the size of the face under it
-  double volume_ratio = 0.3;          ///< smallest Jacobian of an element over its undeformed one; the run stops at 0
-  double speed = 500;                 ///< m/s, of a node
-  double fatal_speed = 20000;         ///< m/s; the run stops
-  double contact_edge = 0.1;  ///< normal force of a contact node at an end of its surface over the contact's largest
-  double fine_zone = 0.1;     ///< the same outside the fine zone of a part
-  int chatter = 10;           ///< times that a contact node was seen to open and to close again
-  double box = 0;             ///< m, half the edge of what is written about a fault; 0: six times the element's size
-};
-
-enum class ResultsPrecision { double_precision, single };
-
-/// Without a list of names all are meant.
-inline bool is_among(const std::string& one, const std::optional<std::vector<std::string>>& names) {
-  return !names || std::find(names->begin(), names->end(), one) != names->end();
-}
-
-struct Output {
-  std::string file = "results.h5";  ///< relative to the folder the program runs in unless absolute
-  double history_interval = 0;      ///< s; 0: every step
-  double field_interval = 0;        ///< s; 0: only at the beginning and the end
-  std::vector<std::string>
-      field_sets;  ///< `part` or `part.element_set` or `part.surface`: element and node fields on these
-  std::vector<std::string> fields;  ///< names of case/field_table.hpp that serve fields
-  std::vector<std::string>
-      history_sets;  ///< `part.node_set` or point masses: mean motion; `part.element_set`: mean stress and strain
-  std::optional<std::vector<std::string>> history_beams;   ///< of which section forces are written; absent: all
-  std::optional<double> contact_margin;                    ///< m; absent: contact surfaces are written whole
-  std::optional<std::vector<std::string>> contact_fields;  ///< names of case/field_table.hpp; absent: all
-  std::vector<std::string> contact_sides = {"slave", "master"};
-  ResultsPrecision precision = ResultsPrecision::double_precision;  ///< of fields and contacts; histories are in double
-  std::optional<int> significant_digits;                            ///< of fields and contacts but places; absent: all
-  double progress_interval = 5;                                     ///< wall seconds between progress lines
-};
-
-/// Part of a run in which fields are written besides those of Output::field_interval. Absent lists: all.
-struct OutputWindow : Place {
-  double start = 0;                                    ///< s
-  std::optional<double> end;                           ///< s; absent: the run's
-  double interval = 0;                                 ///< s; 0: every step
-  std::optional<std::vector<std::string>> field_sets;  ///< of Output::field_sets
-  std::optional<std::vector<std::string>> contacts;    ///< names
-
-  bool has_set(const std::string& set) const { return is_among(set, field_sets); }
-  bool has_contact(const std::string& contact) const { return is_among(contact, contacts); }
-};
-
-/// What is under the rail at one place: half a sleeper, its fastening and its ballast. Absent: as `base` has it.
-struct Sleeper : Place {
-  enum class Base { concrete, timber };
-  Base base = Base::concrete;
-  std::string material;                              ///< empty: that of the base
-  std::optional<double> half_length, width, height;  ///< m: across the track from its centre, along it, up
-  std::optional<std::array<int, 3>> divisions;       ///< elements along x, y, z
-  std::optional<double> pad_thickness, pad_length;   ///< m: gap between foot and sleeper, extent along the rail
-  std::optional<Vec3> fastening_stiffness, fastening_damping;  ///< N/m, N s/m along x, y, z
-  std::optional<double> ballast_stiffness, ballast_damping;    ///< vertical, N/m, N s/m
-  std::optional<double> ballast_lateral_stiffness,
-      ballast_lateral_damping;  ///< N/m, N s/m under half a sleeper; absent: its middle is held
-  std::array<int, 2> fastening_spread{3, 3}, ballast_spread{2, 6};
-  enum class Pad { springs, solid };
-  Pad pad = Pad::springs;             ///< solid: a body between foot and sleeper, tied to both
-  std::optional<double> pad_modulus;  ///< Pa; absent: of the vertical stiffness
-  double pad_poissons_ratio = 0.3;
-  double pad_density = 1000;          ///< kg/m3
-  std::optional<double> pad_damping;  ///< s, stiffness damping; absent: of the vertical stiffness and damping
-  int pad_layers = 2;                 ///< elements through its thickness
-};
-
-enum class FishplateFit { tie, contact };
-
-/// Half a track or a whole one, generated: see case/expand.hpp for what it becomes.
-struct Track : Place {
-  RailMesh rail;
-  std::string rail_material;          ///< empty: elastic rail steel of its own
-  double rail_stiffness_damping = 0;  ///< s, Part::stiffness_damping of the rails
-  Vec3 position{0, 0, 0};
-  bool mirror = false;                                 ///< all its parts are mirrored
-  bool both_rails = false;                             ///< whole sleepers and the other rail
-  HourglassType hourglass = HourglassType::stiffness;  ///< of rails and sleepers
-  double rail_distance = 0.755;  ///< m, from the track's centre plane to the middle of the rail's foot
-  std::string sleeper = "concrete";
-  double pitch = 0.6;                   ///< m
-  std::optional<double> first_sleeper;  ///< x of the first regular one; absent: half a pitch from the rail's start
-  std::vector<double> positions;        ///< x of the regular ones instead
-  std::string other_sleeper = "timber";
-  std::vector<double> other_positions;
-  std::optional<double> pair_position;  ///< x of the middle of a pair of other sleepers
-  double pair_distance = 0.24;          ///< m
-  std::optional<double> gap_position;   ///< x of the middle of the gap between two rails
-  double gap = 0.006;                   ///< m
-  bool fishplates = false;              ///< and bolts, at the gap
-  FishplateFit fishplate_fit = FishplateFit::tie;
-  double fishplate_friction = 0.3;                                 ///< where they are in contact
-  std::string fishplate_material;                                  ///< empty: the rail's
-  double fishplate_length = 0.6;                                   ///< m
-  double fishplate_thickness = 0.02;                               ///< m
-  double fishplate_clearance = 0;                                  ///< m
-  std::optional<double> fishplate_size;                            ///< m
-  std::vector<double> bolt_positions{-0.23, -0.065, 0.065, 0.23};  ///< m along x from the gap's middle
-  std::optional<double>
-      bolt_height;                  ///< m above the foot's underside, before inclination; absent: the chamber's middle
-  double bolt_diameter = 0.024;     ///< m
-  double bolt_pretension = 12.5e3;  ///< N
 };
 
 struct Scene {

@@ -281,8 +281,7 @@ Section absorbing_layer_section() {
                     "wave, or twice as long as a bending wave, sends about 2 % of it back at most "
                     "(table in docs/verification.md); 2.5 m with reflection = 0.1 and dashpots on the end leave "
                     "less than 1 % of the energy of a 54E1 rail's waves from 300 Hz up. It slows rigid motion of the "
-                    "zone too: not for bodies "
-                    "that roll or travel. Statics and `modes` know nothing of it.");
+                    "zone too: not for bodies that roll or travel. Statics and `modes` know nothing of it.");
   section.keys = {
       key("target", &AbsorbingLayer::target, "the plane end before which it lies").names(surface).needed(),
       key("length", &AbsorbingLayer::length, "from the end into the body").in("m").within(above(0)).needed(),

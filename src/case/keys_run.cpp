@@ -37,9 +37,8 @@ Section settle_section() {
       key("max_steps", &Settle::max_steps, "give up after so many evaluations of the forces").within(at_least(1)),
       key("friction", &Settle::friction,
           "`false`: contacts are frictionless while the scene settles, and the run begins without shear, or with the "
-          "little "
-          "that holds nodes in edges between facets (docs/static-start.md). With friction, which a slope needs, part "
-          "of the shear remains that arose on the way into equilibrium"),
+          "little that holds nodes in edges between facets (docs/static-start.md). With friction, which a slope needs, "
+          "part of the shear remains that arose on the way into equilibrium"),
       key("cache", &Settle::cache,
           "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads "
           "begins with it"),

@@ -55,8 +55,7 @@ double bytes_of(const ContactDescription& contact, const RunDescription& descrip
     if (found == assembly.surfaces.end() || !output.has_side(slave)) return;
     double of_node = output.near_only() ? sizeof(int) : 0;
     for (const ContactFieldRow& row : contact_field_table())
-      if (has_values(row, slave, contact.falling_friction) &&
-          std::find(output.fields.begin(), output.fields.end(), row.name) != output.fields.end())
+      if (has_values(row, slave, contact.falling_friction) && output.has_any({row.name}))
         of_node += static_cast<double>(output.format.bytes() * row.components);
     bytes += of_node * nodes_written(found->second, assembly, output.margin);
   };

@@ -89,7 +89,8 @@ def findings(tables):
 
     def trough_behind_peak():
         """The first band that is lower than both beside it."""
-        behind = [pair for pair in decay if pair[0] >= (band(1700, 4200, 1) or 1700)]
+        peak = band(1700, 4200, 1) or 1700
+        behind = [pair for pair in decay if pair[0] >= peak]
         return next((here[0] for before, here, after in zip(behind, behind[1:], behind[2:])
                      if before[1] > here[1] < after[1]), None)
 

@@ -8,9 +8,7 @@ import hammer
 
 PLACES = ("rail_end_vertical", "mid_span_vertical", "mid_span_lateral")
 # Cheap: each setting is struck three times.
-MESH = ["tracks.track.zone_size=0.007", "tracks.track.coarse_size=0.05", "tracks.track.core_size=0.05",
-        "tracks.track.section_size=0.012", "tracks.track.web_columns=2", "tracks.track.zone_start=-0.03",
-        "time.end=0.02"]
+MESH = [*hammer.COARSE, "tracks.track.zone_size=0.007", "tracks.track.coarse_size=0.05", "tracks.track.core_size=0.05"]
 
 
 @dataclasses.dataclass

@@ -1,6 +1,8 @@
 """Velocity of the running surface beside the gap, less that of the whole: maps with the normal component as colour and
 the tangential one as arrows (fig. 4.25 to 4.28), and movies of them."""
 
+import functools
+
 import h5py
 import matplotlib.pyplot as plt
 import numpy as np
@@ -82,6 +84,12 @@ class Surface:
         return drawn
 
 
+@functools.cache
+def surface_of(results, name):
+    """The same Surface for all that ask for it: it holds every output's velocities."""
+    return Surface(results, name)
+
+
 def strongest_disturbance(before, passing):
     """Of the surface before the gap in its window before the touch: output and node; None: it has none."""
     return before.disturbed(SETTLED, passing.touch - 1e-4)
@@ -89,10 +97,10 @@ def strongest_disturbance(before, passing):
 
 def _instants(passing):
     """(surface, outputs) of the approach and of the landing; without those that no window has."""
-    before, behind = Surface(passing.results, BEFORE), Surface(passing.results, BEHIND)
+    before, behind = surface_of(passing.results, BEFORE), surface_of(passing.results, BEHIND)
     listed = []
-    if strongest := strongest_disturbance(before, passing):
-        strongest, _ = strongest
+    if found := strongest_disturbance(before, passing):
+        strongest, _ = found
         listed.append((before, sorted({before.nearest(before.time[strongest] + dt) for dt in APPROACH})))
     # Every window's end is an output too far away.
     near = [behind.nearest(passing.touch + dt) for dt in LANDING]

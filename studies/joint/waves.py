@@ -4,10 +4,10 @@ while the wheel nears the gap (thesis 4.6)."""
 
 import numpy as np
 
-from surface import BEFORE as BEFORE_GAP, BEHIND, Surface, strongest_disturbance
+from surface import BEFORE, BEHIND, strongest_disturbance, surface_of
 
 NEAR, FAR = 0.006, 0.036  # m from the touch between which it is followed
-BEFORE, AFTER = 6e-6, 25e-6  # s about the touch
+EARLIER, LATER = 6e-6, 25e-6  # s about the touch
 SPEEDS = np.arange(1500.0, 7000.0, 25.0)  # m/s, among which it is looked for
 LEAST_RINGS = 5
 
@@ -18,7 +18,7 @@ class RadialWave:
 
     def __init__(self, surface, origin, touch):
         """origin: x and y, m; touch: s"""
-        chosen = surface.between(touch - BEFORE, touch + AFTER)
+        chosen = surface.between(touch - EARLIER, touch + LATER)
         normal = surface.velocity[chosen][:, :, 2]
         normal = normal - np.median(normal, axis=1, keepdims=True)
         distance = np.hypot(*(surface.place[:, :2] - origin).T)
@@ -33,18 +33,19 @@ class RadialWave:
     def is_seen(self):
         return len(self.time) >= 12 and len(self.radius) >= LEAST_RINGS
 
-    def _stacked(self, speed, delays):
-        """Mean of the rings, each as it is when a wave of that speed has come to it."""
+    def _without_trend(self):
+        """Of each ring, over its deviation."""
         trend = np.polyfit(self.time, self.velocity, 2)
         own = self.velocity - np.array([np.polyval(one, self.time) for one in trend.T]).T
-        own = own / np.maximum(own.std(axis=0), 1e-300)
-        return np.mean([np.interp(delays + radius / speed, self.time, ring)
-                        for radius, ring in zip(self.radius, own.T)], axis=0)
+        return own / np.maximum(own.std(axis=0), 1e-300)
 
     def speed_and_length(self):
         """m/s, at which the rings add up to the strongest wave; m, twice the way between the zeros about its crest."""
         delays = np.arange(-3e-6, 10e-6, 0.1e-6)
-        stacks = [self._stacked(speed, delays) for speed in SPEEDS]
+        rings = self._without_trend().T
+        # Means of the rings, each as it is when a wave of that speed has come to it.
+        stacks = [np.mean([np.interp(delays + radius / speed, self.time, ring)
+                           for radius, ring in zip(self.radius, rings)], axis=0) for speed in SPEEDS]
         best = int(np.argmax([np.abs(stack).max() for stack in stacks]))
         stack, speed = stacks[best], SPEEDS[best]
         crest = int(np.abs(stack).argmax())
@@ -73,11 +74,11 @@ def findings(found):
             continue
         rows.append((name, "46.39 ms by its clock",
                      f"{1e3 * touch:.3f} ms, wheel {1e3 * passing.place(touch):.1f} mm from the gap"))
-        wave = RadialWave(Surface(passing.results, BEHIND), passing.touched, touch)
+        wave = RadialWave(surface_of(passing.results, BEHIND), passing.touched, touch)
         if wave.is_seen():
             seen[number] = wave
         rows.append((f"simulation {number}: impact wave on the second rail", "10 mm, 3 km/s", measured(wave)))
-        before = Surface(passing.results, BEFORE_GAP)
+        before = surface_of(passing.results, BEFORE)
         if strongest := strongest_disturbance(before, passing):
             output, node = strongest
             wave = RadialWave(before, before.place[node, :2], before.time[output])

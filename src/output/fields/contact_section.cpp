@@ -19,14 +19,13 @@ hdf5::Dataset make_growing(const hdf5::Group& group, const ContactFieldRow& row,
                            const NumberFormat& format, const hdf5::Storage& storage) {
   if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
   if (std::string(row.name) == "slipping") return group.create_growing<signed char>(row.name, shape, storage);
-  return format.in_single ? group.create_growing<float>(row.name, shape, storage)
-                          : group.create_growing<double>(row.name, shape, storage);
+  return format.make_growing(group, row.name, shape, storage);
 }
 
 }  // namespace
 
-ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact,
-                                               const ContactOutput& output) const {
+ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool slave,
+                                               const ContactDescription& contact) const {
   Side side;
   side.slave = slave;
   side.surface = slave ? &contact.slave_surface : &contact.master_surface;
@@ -36,33 +35,34 @@ ContactSection::Side ContactSection::make_side(const hdf5::Group& group, bool sl
   for (const auto& facet : side.surface->facets) corners.insert(corners.end(), facet.begin(), facet.end());
   group.write("facets", corners, {side.surface->facets.size(), 4});
   group.write("coordinates", side.surface->coordinates, {count, 3});
-  if (!output.has_side(slave)) {
+  if (!output_.has_side(slave)) {
     group.set_attribute("fields", "");
     return side;
   }
-  const hdf5::Group near = near_only_ ? group.create_group(hdf5::near_nodes) : hdf5::Group();
-  const hdf5::Group& columns = near_only_ ? near : group;
-  if (near_only_) {
+  const hdf5::Group near = output_.near_only() ? group.create_group(hdf5::near_nodes) : hdf5::Group();
+  const hdf5::Group& columns = output_.near_only() ? near : group;
+  if (output_.near_only()) {
     side.rows = group.create_growing<long>("rows", {}, times_in_block);
     const std::vector<long> ends = side.rows.read<long>();
     side.row_count = ends.empty() ? 0 : ends.back();
     side.nodes = near.create_growing<int>("node", {}, many_rows);
   }
   std::string names;
-  for (const std::string& name : output.fields) {
+  for (const std::string& name : output_.fields) {
     const ContactFieldRow& row = row_named(name);
     if (!has_values(row, slave, contact.falling_friction)) continue;
     names += (names.empty() ? "" : ", ") + name;
-    side.columns.push_back({&row, near_only_ ? make_growing(columns, row, {}, output.format, many_rows)
-                                             : make_growing(columns, row, {count}, output.format, each_time)});
+    side.columns.push_back({&row, output_.near_only()
+                                      ? make_growing(columns, row, {}, output_.format, many_rows)
+                                      : make_growing(columns, row, {count}, output_.format, each_time)});
   }
   group.set_attribute("fields", names);
   return side;
 }
 
-void ContactSection::Side::add(const ContactState& state, bool near_only, const NumberFormat& format) {
+void ContactSection::Side::add(const ContactState& state, const ContactOutput& output) {
   const ContactSide& now = slave ? state.slave : state.master;
-  if (near_only) {
+  if (output.near_only()) {
     row_count += static_cast<long>(now.nodes.size());
     rows.append(&row_count, 1);
     nodes.append(now.places.data(), now.places.size());
@@ -71,14 +71,14 @@ void ContactSection::Side::add(const ContactState& state, bool near_only, const 
   }
   for (Column& column : columns) {
     std::vector<double> values = contact_values(state, slave, *column.row);
-    format.round(column.row->name, values);
-    column.dataset.append(values.data(), near_only ? now.nodes.size() : 1);
+    output.format.round(column.row->name, values);
+    column.dataset.append(values.data(), output.near_only() ? now.nodes.size() : 1);
   }
 }
 
 ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactDescription& contact, int number,
                                const ContactOutput& output)
-    : number_(number), near_only_(output.near_only()), format_(output.format) {
+    : number_(number), output_(output) {
   const hdf5::Group group = contacts_group.create_group(contact.name);
   group.set_attribute("friction", contact.friction);
   const hdf5::Group slave = group.create_group("slave"), master = group.create_group("master");
@@ -91,8 +91,8 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactD
       surface_of_facet.insert(surface_of_facet.end(), contact.master_facets[k], static_cast<int>(k));
     master.write("surface_of_facet", surface_of_facet, {surface_of_facet.size()});
   }
-  sides_.push_back(make_side(slave, true, contact, output));
-  sides_.push_back(make_side(master, false, contact, output));
+  sides_.push_back(make_side(slave, true, contact));
+  sides_.push_back(make_side(master, false, contact));
   sides_.erase(
       std::remove_if(sides_.begin(), sides_.end(), [&](const Side& side) { return !output.has_side(side.slave); }),
       sides_.end());
@@ -102,7 +102,7 @@ ContactSection::ContactSection(const hdf5::Group& contacts_group, const ContactD
 
 void ContactSection::add_values(const FieldSource& source, long step) {
   const ContactState state = source.contact(number_);
-  for (Side& side : sides_) side.add(state, near_only_, format_);
+  for (Side& side : sides_) side.add(state, output_);
   steps_.append(&step, 1);
 }
 

@@ -84,14 +84,12 @@ class ContactSection {
     std::vector<Column> columns;
     hdf5::Dataset rows, nodes;  ///< of near nodes: how many rows there are up to each output, and whose they are
     long row_count = 0;
-    void add(const ContactState& state, bool near_only, const NumberFormat& format);
+    void add(const ContactState& state, const ContactOutput& output);
   };
-  Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact,
-                 const ContactOutput& output) const;
+  Side make_side(const hdf5::Group& group, bool slave, const ContactDescription& contact) const;
 
   int number_;
-  bool near_only_;
-  NumberFormat format_;
+  ContactOutput output_;
   std::vector<Side> sides_;
   hdf5::Dataset times_, steps_;
 };

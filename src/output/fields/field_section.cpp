@@ -24,8 +24,7 @@ FieldSection::FieldSection(const hdf5::Group& fields_group, const OutputSet& set
     if (!set.has(row)) continue;
     hdf5::Shape shape{set.numbers(row).size()};
     if (row.components > 1) shape.push_back(static_cast<hsize_t>(row.components));
-    columns_.push_back({&row, format.in_single ? group.create_growing<float>(name, shape, each_time)
-                                               : group.create_growing<double>(name, shape, each_time)});
+    columns_.push_back({&row, format.make_growing(group, name, shape, each_time)});
   }
   steps_ = group.create_growing<long>("step", {}, times_in_block);
   times_ = group.create_growing<double>("time", {}, times_in_block);  // last, see HistorySection

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "case/scene.hpp"
+#include "case/scene_run.hpp"
+#include "output/hdf5/hdf5.hpp"
 
 namespace railwave {
 
@@ -32,6 +33,13 @@ struct NumberFormat {
   explicit NumberFormat(const scene::Output& output = {})
       : in_single(output.precision == scene::ResultsPrecision::single),
         digits(output.significant_digits.value_or(15)) {}
+
+  /// A growing dataset of such numbers.
+  hdf5::Dataset make_growing(const hdf5::Group& group, const std::string& name, const hdf5::Shape& shape,
+                             const hdf5::Storage& storage) const {
+    return in_single ? group.create_growing<float>(name, shape, storage)
+                     : group.create_growing<double>(name, shape, storage);
+  }
 
   std::size_t bytes() const { return in_single ? sizeof(float) : sizeof(double); }
 

@@ -293,10 +293,12 @@ bool any_friction(const Model& model) {
                      [](const ContactPair& pair) { return pair.arrays.friction > 0; });
 }
 
-/// Newton's method from where the model is. Where it makes nothing better, the model is as it was.
+/// Newton's method from where the model is, or from another state. Where it makes nothing better, the model is as it
+/// was.
 SettleReport go_on_settling(Model& model, const std::function<bool(const SettleReport&)>& go_on, bool friction,
-                            const SettleReport& before, int most_slow_steps) {
+                            const SettleReport& before, int most_slow_steps, const StaticState* from = nullptr) {
   const StaticState reached = save_static_state(model);
+  if (from) restore_static_state(model, *from);
   SettleReport report;
   {
     const FrictionForNow own(model.scene.settle, friction);
@@ -314,16 +316,8 @@ SettleReport go_on_settling(Model& model, const std::function<bool(const SettleR
 /// as with bodies that friction alone holds, it goes on from what was tried.
 SettleReport settle_without_friction_first(Model& model, const std::function<bool(const SettleReport&)>& go_on,
                                            const StaticState& start, const SettleReport& tried) {
-  const StaticState reached = save_static_state(model);
-  restore_static_state(model, start);
-  SettleReport from_start = tried;
-  from_start.unbalance = 1e300;
-  SettleReport report = go_on_settling(model, go_on, false, from_start, patience);
+  SettleReport report = go_on_settling(model, go_on, false, tried, patience, &start);
   const bool better = report.unbalance < tried.unbalance;
-  if (!better) {
-    restore_static_state(model, reached);
-    report.unbalance = tried.unbalance;
-  }
   report = go_on_settling(model, go_on, true, report, no_limit);
   if (better)
     report.remarks.push_back(

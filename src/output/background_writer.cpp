@@ -20,6 +20,10 @@ BackgroundWriter::BackgroundWriter(std::string path, RunDescription description,
   thread_.add(hdf5::be_quiet);
 }
 
+void BackgroundWriter::settled(double unbalance, int evaluations) {
+  thread_.add([this, unbalance, evaluations] { writer_.settled(unbalance, evaluations); }, size_of_history);
+}
+
 void BackgroundWriter::history(const HistorySample& sample) {
   thread_.add([this, sample] { writer_.history(sample); }, size_of_history);
 }

@@ -25,6 +25,7 @@ class BackgroundWriter {
   BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far = {},
                    std::function<void()> on_failure = {});
 
+  void settled(double unbalance, int evaluations);
   void history(const HistorySample& sample);
 
   /// Fetches from `source` before it returns.

@@ -18,6 +18,7 @@
 #include "model/host_copy.hpp"
 #include "model/model.hpp"
 #include "output/paraview_files.hpp"
+#include "solve/statics/settle.hpp"
 #include "solve/tasks/beam_forces.hpp"
 #include "solve/time_loop.hpp"
 
@@ -196,6 +197,11 @@ void ResultsFile::writing(const Do& one) {
     throw std::runtime_error(fmt::format("{}; {}{}", error.what(), what_is_left,
                                          can_go_on ? ", and --restart goes on from the last checkpoint" : ""));
   }
+}
+
+void ResultsFile::settled(const Model&, const SettleReport& report) {
+  const int evaluations = report.taken_from.empty() ? report.steps : 0;
+  writing([&] { writer_->settled(report.unbalance, evaluations); });
 }
 
 void ResultsFile::history(const Model&, const HistorySample& sample) {

@@ -39,6 +39,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   void go_on_from(const RunState& state) { so_far_ = {state.history_rows, state.field_outputs}; }
 
   void begin(const Model& model) override;
+  void settled(const Model& model, const SettleReport& report) override;
   void history(const Model& model, const HistorySample& sample) override;
   void fields(const Model& model, const HistorySample& sample, const DueFields& due) override;
   void end(const Model& model, const RunSummary& summary) override;

@@ -280,6 +280,12 @@ void ResultsWriter::bring_to_disk() {
   disk::bring_to_disk(path_);
 }
 
+void ResultsWriter::settled(double unbalance, int evaluations) {
+  const hdf5::Group root = file_.root();
+  root.set_attribute("settled_unbalance", unbalance);
+  root.set_attribute("settling_evaluations", static_cast<long>(evaluations));
+}
+
 void ResultsWriter::end(const RunSummary& summary) {
   flush();
   const hdf5::Group root = file_.root();
@@ -289,6 +295,7 @@ void ResultsWriter::end(const RunSummary& summary) {
   root.set_attribute("steps", summary.steps);
   root.set_attribute("step_size", summary.step_size);
   root.set_attribute("wall_seconds", summary.wall_seconds);
+  root.set_attribute("output_seconds", summary.output_seconds);
   root.set_attribute("element_steps_per_second", summary.element_steps_per_second);
   root.set_attribute("left_out", summary.left_out);
   if (!summary.warnings.empty()) root.set_attribute("warnings", summary.warnings);

@@ -65,6 +65,9 @@ class ResultsWriter {
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
+  /// How far from equilibrium the run begins: sum of |unbalanced nodal force| over that of applied and contact forces,
+  /// and the evaluations of the forces that took; 0 for a state that was there already.
+  void settled(double unbalance, int evaluations);
   void history(const HistorySample& sample);
   /// @param choice of the sets and contacts that are written
   void fields(const FieldSource& source, double time, long step, const OutputChoice& choice);

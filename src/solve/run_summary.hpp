@@ -26,6 +26,7 @@ struct RunSummary {
   int checkpoints = 0;            ///< written
   double checkpoint_seconds = 0;  ///< s, the loop waited for these in all
   double monitor_seconds = 0;     ///< s, that checks of the monitor added to the run
+  double output_seconds = 0;      ///< s, that histories, fields and contact outputs added to it
   std::string account;            ///< how well the energy account was kept, or that nobody judged it
   std::string worst_values;       ///< the worst values that it saw, and their limits; empty: it saw nothing
   long first_step = 0;            ///< at which this process took the run up; 0 unless restarted

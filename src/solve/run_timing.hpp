@@ -18,30 +18,48 @@ class WallClock {
   Clock::time_point from_ = Clock::now();
 };
 
-/// What the monitor costs a run. A step that is sampled for the monitor alone costs what it takes beyond a usual step;
-/// where a sample was due anyhow, the monitor costs its own part.
-class MonitorTiming {
+/// Wall time of what was timed: pieces of work, or whole steps.
+class WorkTiming {
  public:
   void begin() {
     ExecutionSpace().fence();
     clock_.restart();
   }
-  void end(bool whole_step) {
+  void end() {
     ExecutionSpace().fence();
     seconds_ += clock_.seconds();
-    whole_steps_ += whole_step;
+    ++count_;
   }
-  /// @param of_run s, the wall time of all steps
-  double seconds(double of_run, long steps) const {
-    const long others = steps - whole_steps_;
-    const double usual = others > 0 ? std::max(0.0, of_run - seconds_) / static_cast<double>(others) : 0;
-    return std::max(0.0, seconds_ - static_cast<double>(whole_steps_) * usual);
-  }
+  double seconds() const { return seconds_; }
+  long count() const { return count_; }
 
  private:
   WallClock clock_;
   double seconds_ = 0;
-  long whole_steps_ = 0;
+  long count_ = 0;
+};
+
+/// What outputs and the monitor cost a run, s. A step that is sampled costs what it takes beyond a usual step. In a
+/// step with an output the monitor costs its own part, and the output the rest.
+class SampleTiming {
+ public:
+  WorkTiming output_steps, monitor_steps, monitor_at_outputs;
+
+  /// @param of_run s, the wall time of all steps
+  void finish(double of_run, long steps) {
+    const long usual_steps = steps - output_steps.count() - monitor_steps.count();
+    const double of_usual_steps = of_run - output_steps.seconds() - monitor_steps.seconds();
+    usual_ = usual_steps > 0 ? std::max(0.0, of_usual_steps) / static_cast<double>(usual_steps) : 0;
+  }
+  double outputs() const { return std::max(0.0, beyond_usual(output_steps) - monitor_at_outputs.seconds()); }
+  double monitor() const { return std::max(0.0, beyond_usual(monitor_steps)) + monitor_at_outputs.seconds(); }
+
+ private:
+  double beyond_usual(const WorkTiming& steps) const {
+    return steps.seconds() - static_cast<double>(steps.count()) * usual_;
+  }
+
+  double usual_ = 0;  ///< s, of a step without samples
 };
 
 }  // namespace railwave

@@ -168,7 +168,7 @@ class TimeLoop {
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
     only_fields_ = fields_due_.any() && !memory_.due.history() && !stopping_ && !first_ && !monitor_due;
-    if (sampled_ && !output_due_) monitor_timing_.begin();
+    if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
   }
 
   void monitor_and_output() {
@@ -192,9 +192,9 @@ class TimeLoop {
 
   /// Looks for faults and reports them.
   void monitor(HistorySample& sample) {
-    if (output_due_) monitor_timing_.begin();
+    if (output_due_) timing_.monitor_at_outputs.begin();
     const std::vector<Fault> found = memory_.monitor.check(sample);
-    if (output_due_) monitor_timing_.end(false);
+    if (output_due_) timing_.monitor_at_outputs.end();
     for (const Fault& fault : found)
       for (RunObserver* observer : observers_) observer->warning(model_, fault);
     const Fault* fault = memory_.monitor.fatal();
@@ -230,15 +230,16 @@ class TimeLoop {
 
   void end_step() {
     instant_.elapsed = memory_.elapsed = model_.step_size;
-    if (sampled_ && !output_due_) monitor_timing_.end(true);
+    if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).end();
   }
 
   RunSummary summary() {
     const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
     if (!trouble.empty()) summary_.warnings.push_back(trouble);
     summary_.wall_seconds = since_first_step_.seconds();  // until all is written
-    summary_.monitor_seconds =
-        monitor_timing_.seconds(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
+    timing_.finish(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
+    summary_.monitor_seconds = timing_.monitor();
+    summary_.output_seconds = timing_.outputs();
     summary_.completed = summary_.reason.empty();
     summary_.left_out = model_.left_out;
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
@@ -258,7 +259,7 @@ class TimeLoop {
   LoopMemory memory_;
   StepPlans plans_;
   RunSummary summary_;
-  MonitorTiming monitor_timing_;
+  SampleTiming timing_;
   Instant instant_;
   bool first_ = false;     ///< of all steps of the run, not of one that goes on from a checkpoint
   bool stopping_ = false;  ///< after this step

@@ -107,6 +107,14 @@ TEST_CASE("the summary tells the worst that the monitor saw and what its checks 
   CHECK_THAT(show(1, summary).text, !ContainsSubstring("monitor"));
 }
 
+TEST_CASE("the summary tells what outputs took") {
+  RunSummary summary;
+  summary.wall_seconds = 200;
+  CHECK_THAT(show(1, summary).text, !ContainsSubstring("outputs took"));
+  summary.output_seconds = 15;
+  CHECK_THAT(show(1, summary).text, ContainsSubstring("\n  outputs took 15 s, 7.5 % of the run\n"));
+}
+
 TEST_CASE("with subcycling the rate counts the updates that were made, and the summary tells what is saved") {
   ProgressPlan planned = plan();
   planned.updates_saved = 2.5;

@@ -8,7 +8,7 @@ SIZES = (2e-3, 1.4e-3, 1e-3)  # m, of the zone's elements
 COARSE_SIZES = (7e-3, 6e-3, 5e-3)
 SCALES = (0.9, 0.6)  # of the stable step, at the least size
 # The forces are in the histories.
-NO_FIELDS = [f"output_windows.{window}.interval=1" for window in ("passage", "approach", "landing")]
+NO_FIELDS = [f"output_windows.{window}.interval=1" for window in ("passage", "approach", "landing", "slipping")]
 
 
 def sized(size):
@@ -19,15 +19,19 @@ def sized(size):
 
 
 def run(steps, case, coarse):
-    """Runs those that differ from simulation 3. Returns (size, m; scale; passing.History)."""
+    """Runs those that differ from simulation 3, and that one where it is not there yet. Returns (size, m; scale;
+    passing.History)."""
     sizes = COARSE_SIZES if coarse else SIZES
     listed = [(size, SCALES[0]) for size in sizes] + [(sizes[-1], scale) for scale in SCALES[1:]]
     start = passing.COARSE_START if coarse else passing.START
     common = [*passing.settings(steps, 3, coarse), *NO_FIELDS]
     found = []
     for size, scale in listed:
-        name = f"convergence_{1e3 * size:g}_mm_{scale:g}"
-        results = steps.run(name, case, [*common, *sized(size), f"time.step_scale={scale}"])
+        if not coarse and (size, scale) == (SIZES[-1], SCALES[0]):  # as the case has it
+            results = passing.run(steps, case, 3, coarse)
+        else:
+            name = f"convergence_{1e3 * size:g}_mm_{scale:g}"
+            results = steps.run(name, case, [*common, *sized(size), f"time.step_scale={scale}"])
         found.append((size, scale, passing.History(results, start)))
     return found
 
@@ -39,8 +43,8 @@ def findings(found):
     for size, scale, one in found:
         force, place = one.peak_force()
         rows.append((
-            f"simulation 3, elements of {1e3 * size:g} mm, {scale:g} of the stable step: largest force behind the gap",
-            "", f"{force:.1f} kN, {1e3 * place:.1f} mm behind it ({100 * (force / finest - 1):+.1f} %)",
+            f"simulation 3, elements of {1e3 * size:g} mm, {scale:g} of the stable step: force of the first impact",
+            "", f"{force:.1f} kN, {1e3 * place:.1f} mm behind the gap ({100 * (force / finest - 1):+.1f} %)",
         ))
     return rows
 
@@ -59,6 +63,6 @@ def draw(found):
         by_size.plot(*zip(*points), "o-", label=f"step {scale:g} of the stable one")
     by_size.set_xlim(left=0)
     by_size.set_xlabel("elements, mm")
-    by_size.set_ylabel("largest force behind the gap, kN")
+    by_size.set_ylabel("force of the first impact, kN")
     by_size.legend()
     return figure

@@ -12,7 +12,12 @@ from steps import rows_of
 START = 1.32  # m, from where the wheel begins to the gap's middle: the thesis's places count from there
 SPEED = 27.78  # m/s
 INTERVAL = 5e-5  # s, of the contact solutions that are kept node by node
+# Places of the wheel, m from the gap's middle, between which it meets the rail behind it, and meets it again (4.5.2).
+IMPACTS = {"first": (-0.01, 0.03), "second": (0.03, 0.08)}
+# Where the footprint is narrow and where it is wide (4.5.2), m.
+BANDS = ((1.310, 1.317), (1.330, 1.350), (1.380, 1.390))
 ELASTIC = ["parts.wheelset.material=elastic", "tracks.track.rail_material=elastic"]
+SETTLED = 0.3e-3  # s, from when on a run has forgotten its beginning
 SIMULATIONS = {1: "elastic, nominal surface", 2: "bilinear, nominal surface", 3: "bilinear, worn surface"}
 # Begins 40 mm before the gap, in elements of 5 mm: for two processors, to see that all is well.
 COARSE_START = 0.04
@@ -32,6 +37,8 @@ COARSE = [
     "output_windows.approach.start=1e-4", "output_windows.approach.end=3e-4",
     "output_windows.approach.interval=5e-6", "output_windows.landing.start=1.0e-3",
     "output_windows.landing.end=2.0e-3", "output_windows.landing.interval=5e-6",
+    "output_windows.slipping.start=2.4e-3", "output_windows.slipping.end=2.6e-3",
+    "output_windows.slipping.interval=5e-6",
 ]
 
 
@@ -53,11 +60,16 @@ def settings(steps, number, coarse):
     return overrides
 
 
+def run(steps, case, number, coarse):
+    """The results file of a simulation."""
+    return steps.run(f"simulation_{number}", case, settings(steps, number, coarse))
+
+
 def simulate(steps, case, coarse, numbers):
     """Runs the simulations; their contact solutions. Returns a Passing for each."""
     found = {}
     for number in numbers:
-        results = steps.run(f"simulation_{number}", case, settings(steps, number, coarse))
+        results = run(steps, case, number, coarse)
         table = steps.path(f"contact_{number}.csv")
         words = [steps.program, "contact", results, "--csv", table, "--overwrite"]
         steps.once(f"contact_{number}", [results], words, lambda words=words: steps.command(*words, quiet=True))
@@ -93,6 +105,8 @@ class History:
             self.force = np.linalg.norm(history["contact/tread/normal_force"][:], axis=1)
             self.balance = np.abs(history["energy/balance_error"][:]).max() / history["energy/internal"][:].max()
             self.seconds = float(file.attrs.get("wall_seconds", np.nan))
+            self.unbalance = float(file.attrs.get("settled_unbalance", np.nan))
+            self.outputs_share = float(file.attrs.get("output_seconds", np.nan)) / self.seconds
             self.friction = float(file["contact/tread"].attrs["friction"])
             self.megabytes = results.stat().st_size / 1e6
 
@@ -100,11 +114,15 @@ class History:
         """Of the wheel's centre along the track, from the gap's middle, m."""
         return SPEED * time - self.start
 
-    def peak_force(self):
-        """Largest normal force from 10 mm before the gap on: kN, and where, m from the gap."""
-        behind = self.place(self.time) > -0.01
-        k = np.flatnonzero(behind)[self.force[behind].argmax()]
-        return 1e-3 * self.force[k], self.place(self.time[k])
+    def peak_force(self, impact="first"):
+        """Largest normal force of an impact: kN, and where, m from the gap; nan: it has no peak there."""
+        first, last = IMPACTS[impact]
+        place = self.place(self.time)
+        within = np.flatnonzero((place > first) & (place < last))
+        k = within[self.force[within].argmax()] if len(within) else None
+        if k is None or k in (within[0], within[-1]):
+            return np.nan, np.nan
+        return 1e-3 * self.force[k], place[k]
 
 
 class Passing(History):
@@ -119,39 +137,66 @@ class Passing(History):
                 column: np.array([float(row[column] or "nan") for row in rows])
                 for column in (
                     "time", "nodes_in_contact", "area", "peak_nodal_pressure", "peak_shear", "normal_force",
-                    "creep_force", "centre_x", "slipping_by_force", "slipping_by_velocity", "semi_axis_along",
+                    "creep_force", "centre_x", "centre_y", "slipping_by_force", "slipping_by_velocity",
+                    "semi_axis_along", "semi_axis_across",
                 )
             }
         )
+
+    def at(self, time):
+        """The patch at the output nearest to a time; None: nothing touches then."""
+        if not len(self.patch.time):
+            return None
+        k = int(np.abs(self.patch.time - time).argmin())
+        here = types.SimpleNamespace(**{name: float(values[k]) for name, values in vars(self.patch).items()})
+        return here if here.nodes_in_contact > 0 else None
 
     def mean_before(self, column, nearest=0.02):
         """Mean of a column of the patches while the whole patch is on the first rail."""
         before = (self.patch.centre_x < -nearest) & (self.patch.nodes_in_contact > 0)
         return float(getattr(self.patch, column)[before].mean()) if before.any() else float("nan")
 
+    def in_bands(self, column):
+        """Means of a column of the patches in each of BANDS, over that before the gap; nan: none there."""
+        x, values = self.patch.centre_x + START, getattr(self.patch, column)
+        means = [values[(x > first) & (x < last)] for first, last in BANDS]
+        return [float(of.mean() / self.mean_before(column, 0.04)) if len(of) else np.nan for of in means]
+
     def slipping(self):
         """Share of the patch's nodes that slip, by output."""
         with np.errstate(invalid="ignore"):
             return self.patch.slipping_by_force / self.patch.nodes_in_contact
 
-    def near_nodes(self):
+    def near_nodes(self, *more):
         """Of each output at which there are any: time, s; of the wheel's nodes near the patch their places, m from the
-        gap, normal force, N, and tangential force along the track on the wheel, N."""
+        gap, normal force, N, and the named fields beside these."""
         with h5py.File(self.results, "r") as file:
             contact = file["contact/tread"]
             near, coordinates = contact["slave/near"], contact["slave/coordinates"][:]
+            columns = [near[name] for name in ("node", "displacement", "normal_force", *more)]
             first = 0
             for time, last in zip(contact["time"][:], contact["slave/rows"][:]):
                 if last > first:
-                    rows = slice(first, last)
-                    places = coordinates[near["node"][rows]] + near["displacement"][rows]
-                    normal = np.linalg.norm(near["normal_force"][rows], axis=1)
-                    yield float(time), places, normal, near["tangential_force"][rows, 0]
+                    node, displacement, force, *rest = (column[first:last] for column in columns)
+                    if "node" in more:
+                        rest[more.index("node")] = node
+                    yield (float(time), coordinates[node] + displacement, np.linalg.norm(force, axis=1), *rest)
                 first = last
+
+    def front(self, time):
+        """x of the foremost node that touches at the output nearest to a time, m from the gap."""
+        with h5py.File(self.results, "r") as file:
+            contact = file["contact/tread"]
+            rows = np.concatenate([[0], contact["slave/rows"][:]])
+            k = int(np.abs(contact["time"][:] - time).argmin())
+            here, near = slice(rows[k], rows[k + 1]), contact["slave/near"]
+            touching = np.linalg.norm(near["normal_force"][here], axis=1) > 1e-3
+            x = contact["slave/coordinates"][:][near["node"][here], 0] + near["displacement"][here, 0]
+            return float(x[touching].max())
 
     @functools.cached_property
     def _first_touch(self):
-        for time, places, normal, _ in self.near_nodes():
+        for time, places, normal in self.near_nodes():
             touching = (places[:, 0] > 0) & (normal > 1e-3)
             if self.place(time) >= -0.05 and touching.any():
                 return time, places[touching, :2].mean(axis=0)
@@ -171,15 +216,35 @@ class Passing(History):
         """Where and when the rail behind the gap is pushed along the rolling direction, by nodes whose tangential force
         is more than a share of friction's bound: first and last time, s, least and largest place, m; None: never."""
         times, places = [], []
-        for time, near, normal, tangential in self.near_nodes():
+        for time, near, normal, tangential in self.near_nodes("tangential_force"):
             x = near[:, 0]
             if not -0.02 < self.place(time) < 0.02:
                 continue
-            pushed = (x > 0) & (normal > 1) & (-tangential > share * self.friction * normal)  # the wheel's is opposite
+            along = -tangential[:, 0]  # the wheel's is opposite
+            pushed = (x > 0) & (normal > 1) & (along > share * self.friction * normal)
             if pushed.any():
                 times.append(time)
                 places += [x[pushed].min(), x[pushed].max()]
         return (min(times), max(times), min(places), max(places)) if times else None
+
+    def disturbances(self):
+        """Of each output from SETTLED to 0.1 ms before the touch: time, s, and by how much the slip of a node in the
+        leading half of the patch changed since the output before, at most, m/s."""
+        found, before = [], {}
+        for time, places, normal, node, slip in self.near_nodes("node", "slip_velocity"):
+            if not SETTLED < time < self.touch - 1e-4:
+                continue
+            leads = (normal > 20) & (places[:, 0] > places[normal > 20, 0].mean())
+            now = dict(zip(node[leads].tolist(), slip[leads]))
+            changes = [np.linalg.norm(now[n] - before[n]) for n in now.keys() & before.keys()]
+            if changes:
+                found.append((time, max(changes)))
+            before = now
+        return np.array(found).reshape(-1, 2).T
+
+
+def impact_text(force, place):
+    return "no peak there" if np.isnan(force) else f"{force:.1f} kN at {1e3 * (START + place):.0f} mm"
 
 
 def findings(found):
@@ -188,14 +253,19 @@ def findings(found):
     peaks = {number: one.peak_force() for number, one in found.items()}
     for number, one in sorted(found.items()):
         name = f"simulation {number}"
-        force, place = peaks[number]
         pressure, area = 1e-6 * one.mean_before("peak_nodal_pressure"), 1e6 * one.mean_before("area")
         rows += [
-            (f"{name}: largest force behind the gap", "", f"{force:.1f} kN, {1e3 * place:.0f} mm behind it"),
+            (f"{name}: force of the first impact", "at 1330 to 1350 mm",
+             impact_text(*peaks[number])),
+            (f"{name}: force of the second", "at 1380 to 1390 mm", impact_text(*one.peak_force("second"))),
             (f"{name}: largest pressure before the gap, mean", "", f"{pressure:.0f} MPa"),
             (f"{name}: area of the patch before the gap, mean", "", f"{area:.0f} mm2"),
             (f"{name}: largest pressure of the passage", "", f"{1e-6 * one.patch.peak_nodal_pressure.max():.0f} MPa"),
         ]
+        for what, column in (("area", "area"), ("width", "semi_axis_across")):
+            rows.append((f"{name}: {what} of the patch at 1310 to 1317, 1330 to 1350, 1380 to 1390 mm, over before",
+                         "small, large, large" if number == 3 else "",
+                         ", ".join("none" if np.isnan(ratio) else f"{ratio:.2f}" for ratio in one.in_bands(column))))
         slipping = one.slipping()
         landed = one.place(one.patch.time) > 0
         if np.isfinite(slipping[landed]).any():
@@ -215,12 +285,14 @@ def findings(found):
             f" {1e3 * positive[1]:.3f} ms",
         ))
         rows += [
+            (f"{name}: static start, unbalanced force over all forces", "", f"{one.unbalance:.1e}"),
             (f"{name}: energy balance over the largest elastic energy", "", f"{100 * one.balance:.4f} %"),
-            (f"{name}: results, wall time", "", f"{one.megabytes:.1f} MB, {one.seconds:.0f} s"),
+            (f"{name}: results, wall time of the loop, of which outputs", "",
+             f"{one.megabytes:.1f} MB, {one.seconds:.0f} s, {100 * one.outputs_share:.1f} %"),
         ]
     if len(found) > 1:
         order = sorted(peaks, key=lambda number: -peaks[number][0])
-        rows.append(("order of the forces behind the gap", "3 > 2 > 1", " > ".join(str(number) for number in order)))
+        rows.append(("order of the forces of the first impact", "3 > 2 > 1", " > ".join(str(n) for n in order)))
         pressure = sorted(found, key=lambda number: -found[number].mean_before("peak_nodal_pressure"))
         rows.append(("order of the pressures before the gap", "1 is highest", " > ".join(str(n) for n in pressure)))
     return rows

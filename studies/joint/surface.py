@@ -10,7 +10,7 @@ from matplotlib.tri import Triangulation
 from PIL import Image
 
 from instants import show_gap
-from passing import START
+from passing import SETTLED, START
 from pictures import style
 from pictures.panels import nice
 
@@ -20,7 +20,6 @@ LANDING = (0, 5e-6, 10e-6, 350e-6, 372e-6)
 APPROACH = (-12e-6, 0, 25e-6)  # before and after the strongest disturbance (fig. 4.25, 4.26)
 ARROWS = 2.5  # mm between them
 FRAMES = 50  # of a movie, one each output
-SETTLED = 0.3e-3  # s, from when on the run has forgotten its beginning
 MOVIE_RATE = 10  # frames a second
 
 
@@ -43,6 +42,12 @@ class Surface:
 
     def nearest(self, time):
         return int(np.abs(self.time - time).argmin())
+
+    def last_window(self):
+        """Begin and end of the last outputs that follow each other closely, s; those at the run's ends stand alone."""
+        starts = np.flatnonzero(np.diff(self.time) > 10e-6) + 1
+        pieces = [piece for piece in np.split(self.time, starts) if len(piece) > 2]
+        return (float(pieces[-1][0]), float(pieces[-1][-1])) if pieces else (0.0, 0.0)
 
     def between(self, begin, end):
         return np.flatnonzero((self.time >= begin) & (self.time <= end))
@@ -121,7 +126,7 @@ def draw_maps(passing):
         drawn = surface.draw(axes, output, largest)
         later = 1e6 * (surface.time[output] - passing.touch)
         axes.set_title(f"simulation {passing.number}: {1e3 * surface.time[output]:.3f} ms,"
-                       f" {later:+.0f} \N{MICRO SIGN}s from the touch", fontsize=style.SMALL)
+                       f" {later:+.0f} \N{MICRO SIGN}s from the touch", fontsize=style.SMALL, loc="left")
         axes.set_ylabel("lateral, mm")
         figure.colorbar(drawn, ax=axes, label="normal velocity, m/s")
     grid[-1, 0].set_xlabel("place along the rail, mm")

@@ -30,7 +30,7 @@ import waves  # noqa: E402
 import worn_joint  # noqa: E402
 
 # Stands for the program: writes results that are complete at its second call, and counts its calls.
-FAKE = """#!/usr/bin/python3
+FAKE = f"""#!{sys.executable}
 import pathlib, sys, h5py
 results = next(word for word in sys.argv if word.startswith("output.file="))[len("output.file="):]
 calls = pathlib.Path(results).with_suffix(".calls")
@@ -134,6 +134,27 @@ class Once(Folder):
 
 
 class Measures(Folder):
+    def test_waves_ahead_of_a_patch(self):
+        """A wave of 0.49 MHz and 6.1 mm that dies away ahead of a patch, among noise, on a surface that sways."""
+        frequency, length = 0.49e6, 6.1e-3
+        x, y = numpy.arange(0.003, 0.0501, 0.001), numpy.arange(0.750, 0.7601, 0.001)
+        grid = numpy.array([(a, b, 0.17) for b in y for a in x])
+        time = 48.45e-3 + 0.28e-6 * numpy.arange(350)
+        phase = 2 * numpy.pi * (frequency * time[:, None] - grid[None, :, 0] / length)
+        noise = numpy.random.default_rng(1).normal(size=phase.shape)
+        swaying = 0.2 * numpy.sin(2 * numpy.pi * 2e4 * time)[:, None]
+        made = argparse.Namespace(size=1e-3, place=grid, time=time, between=lambda begin, end: numpy.arange(len(time)))
+        made.velocity = numpy.zeros((*phase.shape, 3))
+        made.velocity[..., 2] = numpy.exp(-(grid[None, :, 0] - 0.03) / 0.02) * numpy.sin(phase) + noise + swaying
+        wave = waves.WavesAhead(made, time[0], time[-1], 0.028, 0.755)
+        self.assertTrue(wave.is_seen())
+        (found, speed, share), = wave.listed()
+        self.assertAlmostEqual(found / frequency, 1, delta=0.03)
+        self.assertAlmostEqual(speed / found / length, 1, delta=0.05)
+        self.assertGreater(share, 0.45)
+        made.velocity[..., 2] = noise + swaying
+        self.assertEqual(waves.WavesAhead(made, time[0], time[-1], 0.028, 0.755).listed(), [])
+
     def test_speed_and_length_of_a_wave(self):
         """A burst of three waves that goes out from a place beside the surface's middle."""
         speed, length, origin, touch = 2980.0, 0.010, numpy.array([0.004, 0.744]), 1e-3

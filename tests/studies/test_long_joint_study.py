@@ -37,12 +37,12 @@ class Whole(unittest.TestCase):
         self.assertTrue(250 < f2 < 450, f2)
         for number in (1, 2, 3):
             name = f"simulation {number}"
-            force = float(found[f"{name}: largest force behind the gap"].split()[0])
+            force = float(found[f"{name}: force of the first impact"].split()[0])
             self.assertTrue(100 < force < 600, force)
             balance = float(found[f"{name}: energy balance over the largest elastic energy"].split()[0])
             self.assertLess(balance, 0.5)
             self.assertNotEqual(found[f"{name}: first touch of the second rail"], "none")
-        self.assertIn("order of the forces behind the gap", found)
+        self.assertIn("order of the forces of the first impact", found)
 
 
 if __name__ == "__main__":

@@ -35,7 +35,7 @@ def patch_frames(title, contact, outputs, resolution):
     levels = pressure_levels(max(p.pressure.max() for p in everything))
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in everything)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in everything)
-    parting = parting_levels(max([1e-6] + [np.abs(p.parting).max() for p in everything]))
+    parting = parting_levels(everything)
     top = max(top_of(patches[0].cut()) for patches in shown)
     way = [min(p.centre[0] + p.x.min() for p in everything), max(p.centre[0] + p.x.max() for p in everything)]
     sides = [min(p.centre[1] + p.y.min() for p in everything), max(p.centre[1] + p.y.max() for p in everything)]
@@ -77,7 +77,7 @@ def patch_frames(title, contact, outputs, resolution):
         draw_parting(slip, patch, fine, parting)
         draw_arrows(slip, patch, patch.slip_x, patch.slip_y, style.SLIP, largest=speed)
         draw_letters(slip, patch, patch.slips_by_velocity)
-        slip.set_title("micro-slip, parting", fontsize=style.SMALL)
+        slip.set_title("micro-slip" if parting is None else "micro-slip, parting", fontsize=style.SMALL)
         for axes in (stress, slip):
             set_window(axes, half)
             axes.xaxis.label.set_size(style.SMALL)

@@ -56,15 +56,24 @@ def draw_edge(axes, fine):
     axes.tricontour(fine.mesh, fine.square_of_pressure, levels=[0], colors="black", linewidths=0.9)
 
 
-def parting_levels(fastest):
-    return MaxNLocator(14, symmetric=True).tick_values(-fastest, fastest)
+def parting_levels(patches):
+    """None: the surfaces do not move along the normal but by rounding, or the results have no velocities."""
+    fastest = max((np.abs(patch.parting).max() for patch in patches), default=0)
+    return MaxNLocator(14, symmetric=True).tick_values(-fastest, fastest) if fastest > 1e-6 else None
 
 
 def draw_parting(axes, patch, fine, levels):
-    """Colours by the velocity at which the surfaces part (positive) or approach."""
-    colours = axes.tricontourf(*fine.refine(patch.parting), levels=levels, cmap=style.PARTING_MAP)
+    """Colours by the velocity at which the surfaces part (positive) or approach; None where there are no levels."""
+    colours = None
+    if levels is not None:
+        colours = axes.tricontourf(*fine.refine(patch.parting), levels=levels, cmap=style.PARTING_MAP)
     draw_edge(axes, fine)
     return colours
+
+
+def add_parting_bar(figure, colours, label, **options):
+    if colours is not None:
+        figure.colorbar(colours, label=label, **options)
 
 
 def draw_stick_boundary(axes, patch, fine, slips):

@@ -5,7 +5,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 
 from . import style
-from .panels import (Fine, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
+from .panels import (Fine, add_parting_bar, draw_arrows, draw_cut, draw_letters, draw_parting, draw_pressure,
                      draw_stick_boundary, parting_levels, pressure_levels, set_window, top_of)
 
 
@@ -49,10 +49,6 @@ def _places(ratio):
     return figure, [figure.add_subplot(place) for place in places]
 
 
-def _parting_levels(patches):
-    return parting_levels(max([1e-6] + [np.abs(p.parting).max() for p in patches]))  # slower ones are rounding
-
-
 def draw_patch(title, contact, patch):
     """One instant: the cut along the centre, the patch with its stresses, the micro-slip. Returns a figure."""
     half, fine, cut = patch.half_size(), Fine(patch), patch.cut()
@@ -82,8 +78,8 @@ def draw_patch(title, contact, patch):
     ]
     stress.legend(handles=handles, fontsize=style.TINY, loc="upper left")
 
-    colours = draw_parting(slip, patch, fine, _parting_levels([patch]))
-    figure.colorbar(colours, ax=slip, label="surfaces part (+), approach (-), m/s", shrink=0.9)
+    colours = draw_parting(slip, patch, fine, parting_levels([patch]))
+    add_parting_bar(figure, colours, "surfaces part (+), approach (-), m/s", ax=slip, shrink=0.9)
     draw_stick_boundary(slip, patch, fine, patch.slips_by_velocity)
     draw_arrows(slip, patch, patch.slip_x, patch.slip_y, style.SLIP, key=("micro-slip", "m/s"))
     draw_letters(slip, patch, patch.slips_by_velocity)
@@ -111,7 +107,7 @@ def draw_row(title, contact, count=6, indices=None):
     levels = pressure_levels(max(p.pressure.max() for p in patches))
     shear = max(np.hypot(p.shear_x, p.shear_y).max() for p in patches)
     speed = max(np.hypot(p.slip_x, p.slip_y)[p.touching].max() for p in patches)
-    parting, cuts = _parting_levels(patches), [p.cut() for p in patches]
+    parting, cuts = parting_levels(patches), [p.cut() for p in patches]
     top = max(top_of(cut) for cut in cuts)
     width, n = 2.1, len(patches)
     height = width * half[1] / half[0]
@@ -148,9 +144,12 @@ def draw_row(title, contact, count=6, indices=None):
         for axes in (line, stress, slip):
             axes.tick_params(labelsize=style.TINY, labelleft=first)
             axes.xaxis.label.set_size(style.SMALL)
+    lowest = min(line.get_ylim()[0] for line in grid[0])
+    for line in grid[0]:  # one scale, which the first one's ticks are for
+        line.set_ylim(lowest, top)
     grid[0, 0].set_ylabel("stress, MPa")
     figure.colorbar(pressure_colours, ax=grid[1, :], label="pressure, MPa")
-    figure.colorbar(parting_colours, ax=grid[2, :], label="surfaces part (+),\napproach (-), m/s")
+    add_parting_bar(figure, parting_colours, "surfaces part (+),\napproach (-), m/s", ax=grid[2, :])
     return figure
 
 

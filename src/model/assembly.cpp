@@ -17,6 +17,7 @@
 #include "mesh/vectors.hpp"
 #include "model/beams/beams.hpp"
 #include "model/sets/place_sets.hpp"
+#include "model/sets/point_search.hpp"
 
 namespace railwave {
 namespace {
@@ -119,22 +120,58 @@ double distance_to_triangle(const Vec3& origin, const Vec3& direction, const Vec
   return dot(e2, q) / determinant;
 }
 
+/// The least way along a direction of unit length on which one of the nodes meets one of the faces; infinity: none
+/// does.
+double distance_to_faces(const Assembly& assembly, const std::vector<int>& nodes, const Vec3& direction,
+                         const std::vector<Face>& faces) {
+  // Seen along the direction a node meets only those faces that it lies in.
+  const int steepest =
+      static_cast<int>(std::max_element(direction.begin(), direction.end(),
+                                        [](double a, double b) { return std::fabs(a) < std::fabs(b); }) -
+                       direction.begin());
+  const auto seen = [&](const Vec3& x) {
+    Vec3 y{0, 0, 0};
+    for (int i = 0; i < 3; ++i)
+      if (i != steepest) y[i] = x[i] - x[steepest] * direction[i] / direction[steepest];
+    return y;
+  };
+  std::vector<Vec3> places;
+  std::vector<int> numbers;
+  Bounds around = no_bounds;
+  for (const int n : nodes) {
+    numbers.push_back(static_cast<int>(places.size()));
+    places.push_back(seen(assembly.nodes[n]));
+    widen(around, places.back());
+  }
+  const NodeGrid grid(places, numbers, around);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Face& face : faces) {
+    const auto corner = assembly.face_nodes(face);
+    Bounds of_face = no_bounds;
+    for (const int n : corner) widen(of_face, seen(assembly.nodes[n]));
+    const double slack = 1e-6 * length(difference(of_face[1], of_face[0]));
+    for (int i = 0; i < 3; ++i) {
+      of_face[0][i] -= slack;
+      of_face[1][i] += slack;
+    }
+    grid.within(of_face, [&](int k) {
+      for (int second : {1, 2})
+        nearest =
+            std::min(nearest, distance_to_triangle(assembly.nodes[nodes[k]], direction, assembly.nodes[corner[0]],
+                                                   assembly.nodes[corner[second]], assembly.nodes[corner[second + 1]]));
+    });
+  }
+  return nearest;
+}
+
 /// Moves the slave's part along the contact's direction until its first node touches the master.
 void close_gap(const scene::Scene& scene, const scene::Contact& contact, Assembly& assembly) {
   Vec3 direction = *contact.close_gap;
-  const double length = std::sqrt(dot(direction, direction));
-  for (double& d : direction) d /= length;
-  double nearest = std::numeric_limits<double>::infinity();
-  const auto& slaves = surface_nodes(assembly, find_surface(scene, assembly, contact, "slave", contact.slave));
-  const auto master = master_faces(scene, assembly, contact);
-  for (int n : slaves)
-    for (const Face& face : master) {
-      const auto corner = assembly.face_nodes(face);
-      for (int second : {1, 2})
-        nearest =
-            std::min(nearest, distance_to_triangle(assembly.nodes[n], direction, assembly.nodes[corner[0]],
-                                                   assembly.nodes[corner[second]], assembly.nodes[corner[second + 1]]));
-    }
+  const double size = length(direction);
+  for (double& d : direction) d /= size;
+  const double nearest = distance_to_faces(
+      assembly, surface_nodes(assembly, find_surface(scene, assembly, contact, "slave", contact.slave)), direction,
+      master_faces(scene, assembly, contact));
   if (!std::isfinite(nearest))
     throw InputError(
         fmt::format("{}:{}: [contacts.{}] close_gap: moved along [{}, {}, {}], no node of '{}' ever meets '{}'; "

@@ -96,7 +96,7 @@ void count_inside(const Assembly& assembly, const Assembly::PartRange& part, con
     if (holds(where, assembly.nodes[n])) nodes.push_back(n);
   overlap.nodes = part.node_count;
   if (nodes.empty()) return;
-  const NodeGrid grid(assembly, nodes, where);
+  const NodeGrid grid(assembly.nodes, nodes, where);
   std::vector<char> counted(part.node_count, 0);
   for (int e = around.first_element; e < around.first_element + around.element_count; ++e) {
     Bounds bounds = no_bounds;

@@ -100,7 +100,7 @@ std::vector<int> nodes_inside(const Assembly& assembly, const std::vector<int>& 
                               const Assembly::PartRange& part) {
   Bounds where = no_bounds;
   for (int n : nodes) widen(where, assembly.nodes[n]);
-  const NodeGrid grid(assembly, nodes, where);
+  const NodeGrid grid(assembly.nodes, nodes, where);
   std::map<int, double> share;
   for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
     const auto& corners = assembly.elements[e];

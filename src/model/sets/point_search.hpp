@@ -41,14 +41,15 @@ inline bool holds(const Bounds& bounds, const Vec3& x) {
 /// Nodes in a grid of cells, to be asked for those within bounds.
 class NodeGrid {
  public:
-  /// @param bounds that hold all of them
-  NodeGrid(const Assembly& assembly, const std::vector<int>& nodes, const Bounds& bounds)
-      : assembly_(assembly), low_(bounds[0]) {
+  /// @param places of all nodes, m; they outlive the grid
+  /// @param bounds that hold those of `nodes`
+  NodeGrid(const std::vector<Vec3>& places, const std::vector<int>& nodes, const Bounds& bounds)
+      : places_(places), low_(bounds[0]) {
     double volume = 1;
     for (int i = 0; i < 3; ++i) volume *= std::max(bounds[1][i] - bounds[0][i], 1e-12);
     cell_ = std::max(std::cbrt(volume / static_cast<double>(nodes.size())), 1e-9);
     for (int i = 0; i < 3; ++i) cell_ = std::max(cell_, (bounds[1][i] - bounds[0][i]) / 1000);
-    for (int n : nodes) cells_[key(cell_of(assembly.nodes[n]))].push_back(n);
+    for (int n : nodes) cells_[key(cell_of(places[n]))].push_back(n);
   }
 
   template <class Take>
@@ -59,7 +60,7 @@ class NodeGrid {
         for (long k = first[2]; k <= last[2]; ++k)
           if (const auto found = cells_.find(key({i, j, k})); found != cells_.end())
             for (int n : found->second)
-              if (holds(bounds, assembly_.nodes[n])) take(n);
+              if (holds(bounds, places_[n])) take(n);
   }
 
  private:
@@ -71,7 +72,7 @@ class NodeGrid {
   }
   static long key(const std::array<long, 3>& cell) { return ((cell[0] + 1) * 1024 + cell[1] + 1) * 1024 + cell[2] + 1; }
 
-  const Assembly& assembly_;
+  const std::vector<Vec3>& places_;
   Vec3 low_;
   double cell_ = 1;  ///< m
   std::unordered_map<long, std::vector<int>> cells_;

@@ -151,6 +151,7 @@ double distance_to_faces(const Assembly& assembly, const std::vector<int>& nodes
     for (const int n : corner) widen(of_face, seen(assembly.nodes[n]));
     const double slack = 1e-6 * length(difference(of_face[1], of_face[0]));
     for (int i = 0; i < 3; ++i) {
+      if (i == steepest) continue;  // all are at 0 there
       of_face[0][i] -= slack;
       of_face[1][i] += slack;
     }

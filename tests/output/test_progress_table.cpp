@@ -107,7 +107,7 @@ TEST_CASE("the summary tells the worst that the monitor saw and what its checks 
   CHECK_THAT(show(1, summary).text, !ContainsSubstring("monitor"));
 }
 
-TEST_CASE("the summary tells what outputs took") {
+TEST_CASE("the summary has what outputs took") {
   RunSummary summary;
   summary.wall_seconds = 200;
   CHECK_THAT(show(1, summary).text, !ContainsSubstring("outputs took"));

@@ -262,8 +262,9 @@ def findings(found):
             (f"{name}: area of the patch before the gap, mean", "", f"{area:.0f} mm2"),
             (f"{name}: largest pressure of the passage", "", f"{1e-6 * one.patch.peak_nodal_pressure.max():.0f} MPa"),
         ]
+        bands = ", ".join(f"{1e3 * first:.0f} to {1e3 * last:.0f}" for first, last in BANDS)
         for what, column in (("area", "area"), ("width", "semi_axis_across")):
-            rows.append((f"{name}: {what} of the patch at 1310 to 1317, 1330 to 1350, 1380 to 1390 mm, over before",
+            rows.append((f"{name}: {what} of the patch at {bands} mm, over before",
                          "small, large, large" if number == 3 else "",
                          ", ".join("none" if np.isnan(ratio) else f"{ratio:.2f}" for ratio in one.in_bands(column))))
         slipping = one.slipping()

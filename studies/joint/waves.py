@@ -70,8 +70,8 @@ class WavesAhead:
 
     def __init__(self, surface, begin, end, front, middle):
         """begin, end: s; front: x, m, ahead of which they are looked for; middle: y of the centre line, m"""
-        self.time = surface.time[surface.between(begin, end)]
-        velocity = surface.velocity[surface.between(begin, end)][:, :, 2].astype(float)
+        chosen = surface.between(begin, end)
+        self.time, velocity = surface.time[chosen], surface.velocity[chosen][:, :, 2].astype(float)
         x = surface.place[:, 0].round(5)
         line = (np.abs(surface.place[:, 1] - middle) < 0.75 * surface.size) & (x > front) & (x < front + REACH)
         self.x = np.unique(x[line])
@@ -87,12 +87,13 @@ class WavesAhead:
         moved = np.array([np.interp(even, self.time, one) for one in self.velocity.T]).T
         count = min(round(PIECE / step), len(even))
         frequency = np.fft.rfftfreq(count, step)
-        later = 2j * np.pi * np.multiply.outer(1 / COHERENT_SPEEDS, np.outer(frequency, self.x - self.x[0]))
+        way = np.outer(frequency, self.x - self.x[0])
+        together_at = np.exp(2j * np.pi * np.multiply.outer(1 / COHERENT_SPEEDS, way))  # by speed, frequency, place
         together, apart = 0, 0
         for first in range(0, len(even) - count + 1, max(count // 2, 1)):
             piece = moved[first:first + count]
             spectrum = np.fft.rfft((piece - piece.mean(axis=0)) * np.hanning(count)[:, None], axis=0)
-            together = together + np.abs((spectrum * np.exp(later)).sum(axis=2)) ** 2
+            together = together + np.abs((spectrum * together_at).sum(axis=2)) ** 2
             apart = apart + len(self.x) * (np.abs(spectrum) ** 2).sum(axis=1)
         share = together / np.maximum(apart, 1e-300)
         return frequency, share.max(axis=0), COHERENT_SPEEDS[share.argmax(axis=0)]
@@ -158,18 +159,17 @@ def findings(found):
             continue
         rows.append((name, "46.39 ms by its clock",
                      f"{1e3 * touch:.3f} ms, wheel {1e3 * passing.place(touch):.1f} mm from the gap"))
-        wave = RadialWave(surface_of(passing.results, BEHIND), passing.touched, touch)
+        surface = surface_of(passing.results, BEHIND)
+        wave = RadialWave(surface, passing.touched, touch)
         if wave.is_seen():
             seen[number] = wave
+        begin, end = surface.last_window()
         rows += [
             (f"simulation {number}: first crest of the impact's wave, as half of one", "10 mm, 3 km/s", measured(wave)),
             (f"simulation {number}: perturbation wave before the gap", "6 mm, 3 km/s, 43.603 ms, 1244 mm",
              perturbation(passing)),
-        ]
-        surface = surface_of(passing.results, BEHIND)
-        begin, end = surface.last_window()
-        rows += [
-            (f"simulation {number}: waves ahead of the landing patch, within 60 us (share that moves as one wave)",
+            (f"simulation {number}: waves ahead of the landing patch, within {1e6 * LANDED:.0f} us (share that moves as"
+             " one wave)",
              "10 mm (3), 20 and 40 mm (2), 3 km/s", waves_ahead(passing, touch - EARLIER, touch + LANDED)),
             (f"simulation {number}: waves of large creepage, {1e3 * begin:.2f} to {1e3 * end:.2f} ms",
              "495 kHz, 6 mm, 3 km/s (7.2)", waves_ahead(passing, begin, end)),

@@ -73,6 +73,13 @@ struct StaticUnbalance {
   }
 };
 
+/// Sum of the lengths of the nodes' vectors.
+struct SumOfLengths {
+  static constexpr int values = 1;
+  NodeVector vectors;
+  KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const { sum[0] += norm(row(vectors, n)); }
+};
+
 /// x = origin + share * way
 struct GoAlong {
   NodeVector x, origin, way;

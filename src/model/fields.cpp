@@ -1,6 +1,7 @@
 #include "model/fields.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "mesh/hexahedron.hpp"
 #include "model/boundaries/ties.hpp"
@@ -12,22 +13,27 @@
 namespace railwave {
 namespace {
 
+/// Fields of nodes, one field after the other.
 struct FetchNodes {
+  static constexpr int most_fields = 4;
   SubcycledAcceleration acceleration;
   double lag;
-  NodeField field;
+  NodeField field[most_fields];
+  int field_count, wanted_count;
   Array<const int*> wanted;
   Array<double*> result;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
     const int n = wanted(i);
-    Vector3 value = row(nodes.position, n);
-    if (field == NodeField::displacement) value = value - row(nodes.reference, n);
-    if (field == NodeField::velocity)
-      value = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
-    if (field == NodeField::acceleration) value = acceleration.plain(n);
-    for (int k = 0; k < 3; ++k) result(3 * i + k) = value[k];
+    for (int f = 0; f < field_count; ++f) {
+      Vector3 value = row(nodes.position, n);
+      if (field[f] == NodeField::displacement) value = value - row(nodes.reference, n);
+      if (field[f] == NodeField::velocity)
+        value = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+      if (field[f] == NodeField::acceleration) value = acceleration.plain(n);
+      for (int k = 0; k < 3; ++k) result(3 * (static_cast<std::size_t>(f) * wanted_count + i) + k) = value[k];
+    }
   }
 };
 
@@ -98,13 +104,23 @@ HostField plastic_strain_in(const ElementModel& elements, const std::vector<int>
   return {1, to_vector(result)};
 }
 
-HostField own_node_field(const NodalState& nodal, NodeField field, const std::vector<int>& nodes) {
-  const auto result = unset_array<double*>("node field", 3 * nodes.size());
-  Kokkos::parallel_for(
-      "fetch_nodes", Range(0, static_cast<int>(nodes.size())),
-      FetchNodes{nodal.subcycled_acceleration(), nodal.velocity_lag, field, to_device("wanted", nodes), result});
-  return {3, to_vector(result)};
+/// Of the fields one after the other.
+std::vector<double> own_node_fields(const NodalState& nodal, const std::vector<NodeField>& fields,
+                                    const std::vector<int>& nodes) {
+  const int count = static_cast<int>(nodes.size());
+  FetchNodes fetch{nodal.subcycled_acceleration(),
+                   nodal.velocity_lag,
+                   {},
+                   static_cast<int>(fields.size()),
+                   count,
+                   to_device("wanted", nodes),
+                   unset_array<double*>("node fields", 3 * fields.size() * nodes.size())};
+  std::copy(fields.begin(), fields.end(), fetch.field);
+  Kokkos::parallel_for("fetch_nodes", Range(0, count), fetch);
+  return to_vector(fetch.result);
 }
+
+bool follows_masters(NodeField field) { return field == NodeField::velocity || field == NodeField::acceleration; }
 
 /// Gives tied nodes the velocity or acceleration of the face they lie on: the scheme has none for them.
 void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes,
@@ -117,7 +133,7 @@ void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, 
       masters.insert(masters.end(), tied->face, tied->face + 4);
     }
   if (masters.empty()) return;
-  const auto of_masters = own_node_field(nodal, field, masters).values;
+  const std::vector<double> of_masters = own_node_fields(nodal, {field}, masters);
   std::size_t next = 0;
   for (const std::size_t i : of_slaves) {
     const TiedPlace& tied = *ties.place_of(nodes[i]);
@@ -129,11 +145,24 @@ void follow_masters(const NodalState& nodal, const Ties& ties, NodeField field, 
 
 }  // namespace
 
+std::vector<HostField> node_fields(const NodalState& nodal, const Ties& ties, const std::vector<NodeField>& fields,
+                                   const std::vector<int>& nodes) {
+  if (fields.size() > FetchNodes::most_fields) throw std::logic_error("more fields of nodes than there are");
+  const std::vector<double> all = own_node_fields(nodal, fields, nodes);
+  std::vector<HostField> result;
+  auto next = all.begin();
+  for (const NodeField field : fields) {
+    const auto end = next + static_cast<std::ptrdiff_t>(3 * nodes.size());
+    std::vector<double> values(next, end);
+    if (follows_masters(field) && ties.arrays.active()) follow_masters(nodal, ties, field, nodes, values);
+    result.push_back({3, std::move(values)});
+    next = end;
+  }
+  return result;
+}
+
 HostField node_field(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes) {
-  HostField values = own_node_field(nodal, field, nodes);
-  const bool follows = field == NodeField::velocity || field == NodeField::acceleration;
-  if (follows && ties.arrays.active()) follow_masters(nodal, ties, field, nodes, values.values);
-  return values;
+  return std::move(node_fields(nodal, ties, {field}, nodes).front());
 }
 
 HostField element_stress(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted) {

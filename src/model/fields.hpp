@@ -33,6 +33,10 @@ enum class NodeField { position, displacement, velocity, acceleration };
 /// acceleration as (v(n-1/2) + v(n+1/2))/2 and a(n). Components: 3, m, m/s, m/s2.
 HostField node_field(const NodalState& nodal, const Ties& ties, NodeField field, const std::vector<int>& nodes);
 
+/// Several of them, by one copy from the device.
+std::vector<HostField> node_fields(const NodalState& nodal, const Ties& ties, const std::vector<NodeField>& fields,
+                                   const std::vector<int>& nodes);
+
 /// Cauchy stress at the present instant of the elements wanted (model element numbers): xx, yy, zz, xy, yz, zx in Pa.
 HostField element_stress(const ElementModel& elements, const NodeArrays& nodes, const std::vector<int>& wanted);
 

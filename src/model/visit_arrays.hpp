@@ -131,6 +131,12 @@ void visit_arrays(const Named<Visitor>& visit, NodeSets& sets) {
 }
 
 template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, MotionHistories& histories) {
+  visit(ArrayUse::constant, "node", histories.node);
+  visit(ArrayUse::constant, "weight", histories.weight);
+}
+
+template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, LoadArrays& load) {
   visit(ArrayUse::constant, "amplitude", load.amplitude);
   visit(ArrayUse::constant, "facets", load.facets);
@@ -305,6 +311,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   if (model.element_histories) visit_arrays(of("element_histories_"), *model.element_histories);
   visit_arrays(of("extra_"), model.external);
   visit_arrays(of("sets_"), model.sets);
+  visit_arrays(of("motion_histories_"), model.motion_histories);
   each("load", model.loads);
   visit_arrays(of("connectors_"), model.connectors.arrays);
   visit_arrays(of("torques_"), model.torques);

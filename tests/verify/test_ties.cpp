@@ -5,6 +5,7 @@
 
 using namespace railwave;
 using namespace railwave::verify;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 namespace {
@@ -146,6 +147,27 @@ TEST_CASE("ties keep linear and angular momentum to rounding, and energy in bala
     const double largest = largest_energy(recorder.samples.back().energy);
     INFO("gap " << gap << ": worst imbalance " << worst / largest);
     CHECK(worst < 1e-4 * largest);
+  }
+}
+
+TEST_CASE("the history of a set that is tied in part is the mean of its nodes' motion, tied ones as their faces move") {
+  TiedBlocks blocks;
+  scene::Scene scene = blocks.scene(2e-5);
+  scene.output.history_sets = {"fine"};
+  Model model;
+  build_model(scene, model);
+  set_velocity(model, [](const Vec3& x, int) {
+    return Vec3{10 * std::sin(40 * x[2]), 20 * x[0] - 5, 8 * std::cos(50 * x[1])};
+  });
+  march(model, 20, [] {});
+  const std::vector<int>& nodes = model.assembly.node_sets.at("fine");
+  REQUIRE(std::any_of(nodes.begin(), nodes.end(), [&](int n) { return model.ties.place_of(n) != nullptr; }));
+  const MeanMotion found = take_sample(model, model.step_size).sets.at(0);
+  for (const auto& [field, of_set] : {std::pair{NodeField::displacement, found.displacement},
+                                      {NodeField::velocity, found.velocity},
+                                      {NodeField::acceleration, found.acceleration}}) {
+    const Vec3 expected = mean(model, field, nodes);
+    for (int i = 0; i < 3; ++i) CHECK_THAT(of_set[i], WithinAbs(expected[i], 1e-10 * norm(expected)));
   }
 }
 

@@ -22,7 +22,8 @@ namespace {
 struct TouchingSlave {
   int slave, status, segment, unused;
   double place[2];
-  double position[3], normal[3], tangential[3];
+  double low[3], high[3];  ///< box around the slave and its segment
+  double normal[3], tangential[3];
 
   double share(int corner) const { return segment_shape(corner, place[0], place[1]); }
 };
@@ -71,8 +72,14 @@ struct TouchingSlaves {
     one.segment = contact.tracked(s);
     one.unused = 0;
     for (int i = 0; i < 2; ++i) one.place[i] = contact.place(s, i);
+    const Segment segment = contact.surface(one.segment);
     for (int i = 0; i < 3; ++i) {
-      one.position[i] = position(contact.slave_nodes(s), i);
+      one.low[i] = one.high[i] = position(contact.slave_nodes(s), i);
+      for (int k = 0; k < 4; ++k) {
+        const double x = position(contact.node_of(segment.node[k]), i);
+        one.low[i] = x < one.low[i] ? x : one.low[i];
+        one.high[i] = x > one.high[i] ? x : one.high[i];
+      }
       one.normal[i] = contact.normal_force(s, i);
       one.tangential[i] = contact.tangential_force(s, i);
     }
@@ -146,18 +153,12 @@ WantedNodes all_nodes(std::size_t count) {
   return wanted_nodes(std::move(places), count);
 }
 
-/// Around the touching slave nodes and the segments under them, and by the margin wider.
-Bounds box_of_contact(const NodalState& nodal, const Ties& ties, const ContactPair& pair,
-                      const std::vector<TouchingSlave>& touching) {
-  Bounds box = no_bounds;
-  std::vector<int> corners;
+/// Widens a box to hold the touching slave nodes and the segments under them.
+void widen_by(Bounds& box, const std::vector<TouchingSlave>& touching) {
   for (const TouchingSlave& one : touching) {
-    widen(box, {one.position[0], one.position[1], one.position[2]});
-    for (const int m : pair.master_segments[one.segment]) corners.push_back(pair.master_nodes[m]);
+    widen(box, {one.low[0], one.low[1], one.low[2]});
+    widen(box, {one.high[0], one.high[1], one.high[2]});
   }
-  const std::vector<double> position = node_field(nodal, ties, NodeField::position, corners).values;
-  for (std::size_t i = 0; i < position.size(); i += 3) widen(box, {position[i], position[i + 1], position[i + 2]});
-  return box;
 }
 
 /// Area and normal of the wanted nodes, by all facets around them; those facets of which all corners are wanted.
@@ -193,17 +194,28 @@ void add_geometry(const NodalState& nodal, const Ties& ties, const std::vector<i
   side.position = std::move(position);
 }
 
-ContactSide bare_side(const NodalState& nodal, const Ties& ties, const std::vector<int>& surface,
-                      const std::vector<std::array<int, 4>>& facets, const WantedNodes& wanted, bool shape) {
+ContactSide bare_side(const std::vector<int>& surface, const WantedNodes& wanted) {
   ContactSide side;
   side.places = wanted.places;
   for (const int place : wanted.places) side.nodes.push_back(surface[place]);
-  if (shape) add_geometry(nodal, ties, surface, facets, wanted, side);
-  side.displacement = node_field(nodal, ties, NodeField::displacement, side.nodes).values;
-  side.velocity = node_field(nodal, ties, NodeField::velocity, side.nodes).values;
   side.normal_force.assign(3 * side.nodes.size(), 0);
   side.tangential_force.assign(3 * side.nodes.size(), 0);
   return side;
+}
+
+/// Displacements and velocities of both sides, by one copy from the device.
+void add_motion(const NodalState& nodal, const Ties& ties, ContactSide& slave, ContactSide& master) {
+  std::vector<int> nodes = slave.nodes;
+  nodes.insert(nodes.end(), master.nodes.begin(), master.nodes.end());
+  const auto fields = node_fields(nodal, ties, {NodeField::displacement, NodeField::velocity}, nodes);
+  const auto share_out = [&](const std::vector<double>& values, std::vector<double>& of_slave,
+                             std::vector<double>& of_master) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(3 * slave.nodes.size());
+    of_slave.assign(values.begin(), middle);
+    of_master.assign(middle, values.end());
+  };
+  share_out(fields[0].values, slave.displacement, master.displacement);
+  share_out(fields[1].values, slave.velocity, master.velocity);
 }
 
 /// Present gap of the far nodes in the window: a step projects the near ones only.
@@ -334,12 +346,8 @@ ContactState contact_state(const NodalState& nodal, const Ties& ties, const std:
       half ? touching_slaves(nodal.nodes, *half) : std::vector<TouchingSlave>{};
   Bounds box = no_bounds;
   if (wish.margin) {
-    box = box_of_contact(nodal, ties, pair, touching);
-    if (half) {
-      const Bounds other = box_of_contact(nodal, ties, *half, touching_half);
-      for (const Vec3& corner : other)
-        if (other[0][0] <= other[1][0]) widen(box, corner);
-    }
+    widen_by(box, touching);
+    widen_by(box, touching_half);
     for (int i = 0; i < 3; ++i) {
       box[0][i] -= *wish.margin;
       box[1][i] += *wish.margin;
@@ -359,8 +367,12 @@ ContactState contact_state(const NodalState& nodal, const Ties& ties, const std:
   ContactState state;
   state.name = pair.contact->name;
   state.friction = pair.arrays.friction;
-  state.slave = bare_side(nodal, ties, pair.slave_nodes, pair.slave_facets, slave, wish.shape && wish.slave);
-  state.master = bare_side(nodal, ties, pair.master_nodes, pair.master_segments, master, wish.shape && wish.master);
+  state.slave = bare_side(pair.slave_nodes, slave);
+  state.master = bare_side(pair.master_nodes, master);
+  add_motion(nodal, ties, state.slave, state.master);
+  if (wish.shape && wish.slave) add_geometry(nodal, ties, pair.slave_nodes, pair.slave_facets, slave, state.slave);
+  if (wish.shape && wish.master)
+    add_geometry(nodal, ties, pair.master_nodes, pair.master_segments, master, state.master);
   add_forces(nodal, pair, touching, slave, master, state.slave, state.master);
   if (half) add_forces(nodal, *half, touching_half, master, slave, state.master, state.slave);
 

@@ -34,11 +34,20 @@ struct ConnectorModel {
   std::vector<double> share;  ///< weight, negative at `from`
 };
 
+/// Nodes of which the histories of sets are the weighted means. A tied node is listed for its displacement, and the
+/// corners of the face it lies on for its velocity and acceleration: the scheme has none for it.
+struct MotionHistories {
+  std::vector<int> first;     ///< of each of LoadModel::history_sets in the arrays, one more than sets
+  Array<int*> node;           ///< model node numbers
+  Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
+};
+
 /// Loads, connectors, and the node sets that both act on or that histories follow.
 struct LoadModel {
   NodeSets sets;
   std::vector<int> first_of_set;  ///< host copy of sets.first
   std::vector<int> history_sets;  ///< set numbers of those of scene.output.history_sets whose motion is written
+  MotionHistories motion_histories;
   std::vector<LoadArrays> loads;
   ConnectorModel connectors;
   TorqueArrays torques;

@@ -13,7 +13,8 @@ namespace {
 constexpr hsize_t largest_chunk = 65536;  // values: small enough for HDF5's chunk cache of 1 MiB
 
 /// Fletcher32 takes a chunk of zeros for sound, which is what a file system leaves of a lost block; a zlib stream, even
-/// one that is not compressed, it cannot be. Without compression all chunks of a dataset have one size.
+/// one that is not compressed, it cannot be. Without compression all chunks of a dataset have one size, which those
+/// that grow row by row need; what is written at once is compressed.
 void add_checks(hid_t properties, bool compressed, const std::string& what) {
   if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     if (compressed) check(H5Pset_shuffle(properties), what);
@@ -139,7 +140,7 @@ void Group::write(const std::string& name, const std::vector<T>& values, const S
   if (by == Check::by_chunk && !values.empty() && !shape.empty()) {
     const Shape chunk = chunk_of(shape);
     check(H5Pset_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data()), what);
-    add_checks(properties.get(), false, what);
+    add_checks(properties.get(), true, what);
   }
   const hid_t id =
       H5Dcreate2(id_.get(), name.c_str(), native_type<T>(), space.get(), H5P_DEFAULT, properties.get(), H5P_DEFAULT);

@@ -5,8 +5,6 @@
 
 #include "kernels/monitor/monitor_terms.hpp"
 #include "model/elements/element_histories.hpp"
-#include "model/fields.hpp"
-#include "model/host_copy.hpp"
 #include "solve/monitor/energies.hpp"
 #include "solve/tasks/beam_forces.hpp"
 
@@ -33,19 +31,22 @@ struct NodalEnergy {
 struct MeanMotionSum {
   static constexpr int values = 9;
   SubcycledAcceleration acceleration;
-  NodeSets sets;
+  Array<const int*> node;
+  Array<const double* [2]> weight;
   int begin;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
-    const int n = sets.nodes(begin + k);
-    const double w = sets.weight(begin + k);
-    const Vector3 a = acceleration.plain(n), moved = row(nodes.position, n) - row(nodes.reference, n);
+    const int n = node(begin + k);
+    const double of_place = weight(begin + k, 0), of_motion = weight(begin + k, 1);
+    const Vector3 moved = row(nodes.position, n) - row(nodes.reference, n);
+    for (int i = 0; i < 3; ++i) sum[i] += of_place * moved[i];
+    if (of_motion == 0) return;  // a tied node has next to no mass: its own acceleration may be no number
+    const Vector3 a = acceleration.plain(n);
     const Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
     for (int i = 0; i < 3; ++i) {
-      sum[i] += w * moved[i];
-      sum[3 + i] += w * v[i];
-      sum[6 + i] += w * a[i];
+      sum[3 + i] += of_motion * v[i];
+      sum[6 + i] += of_motion * a[i];
     }
   }
 };
@@ -117,33 +118,21 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
-/// On the host, for tied nodes move as their masters do.
-MeanMotion mean_motion_with_ties(const NodalState& nodal, const Ties& ties, const LoadModel& loads, int set) {
-  const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
-  const auto all = to_host(loads.sets.nodes);
-  const auto weight = to_host(loads.sets.weight);
-  const std::vector<int> nodes(all.data() + begin, all.data() + end);
-  MeanMotion mean;
-  for (auto [field, sum] : {std::pair{NodeField::displacement, &mean.displacement},
-                            {NodeField::velocity, &mean.velocity},
-                            {NodeField::acceleration, &mean.acceleration}}) {
-    const auto values = node_field(nodal, ties, field, nodes).values;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      for (int i = 0; i < 3; ++i) (*sum)[i] += weight(begin + static_cast<int>(k)) * values[3 * k + i];
+/// Means of all histories of motion, when the sums are fetched.
+void queue_mean_motions(const NodalState& nodal, const MotionHistories& histories, std::vector<MeanMotion>& means,
+                        Reductions& sums) {
+  means.resize(histories.first.size() - 1);
+  for (std::size_t s = 0; s < means.size(); ++s) {
+    const int begin = histories.first[s], end = histories.first[s + 1];
+    sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), histories.node, histories.weight, begin, nodal.velocity_lag},
+             end - begin, [&mean = means[s]](const double* sum) {
+               for (int i = 0; i < 3; ++i) {
+                 mean.displacement[i] = sum[i];
+                 mean.velocity[i] = sum[3 + i];
+                 mean.acceleration[i] = sum[6 + i];
+               }
+             });
   }
-  return mean;
-}
-
-void queue_mean_motion(const NodalState& nodal, const LoadModel& loads, int set, MeanMotion& mean, Reductions& sums) {
-  const int begin = loads.first_of_set[set], end = loads.first_of_set[set + 1];
-  sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), loads.sets, begin, nodal.velocity_lag}, end - begin,
-           [&mean](const double* sum) {
-             for (int i = 0; i < 3; ++i) {
-               mean.displacement[i] = sum[i];
-               mean.velocity[i] = sum[3 + i];
-               mean.acceleration[i] = sum[6 + i];
-             }
-           });
 }
 
 }  // namespace
@@ -168,15 +157,8 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
 }
 
 void add_history_values(const Model& model, HistorySample& sample) {
-  const bool tied = model.ties.arrays.active();
-  sample.sets.resize(model.history_sets.size());
   Reductions sums(*model.reduction_space);
-  for (std::size_t s = 0; s < sample.sets.size(); ++s) {
-    if (tied)
-      sample.sets[s] = mean_motion_with_ties(model, model.ties, model, model.history_sets[s]);
-    else
-      queue_mean_motion(model, model, model.history_sets[s], sample.sets[s], sums);
-  }
+  queue_mean_motions(model, model.motion_histories, sample.sets, sums);
   queue_element_means(model, model.nodes, sample.elements, sums);
   queue_load_totals(model, model.loads, sample.loads, sums);
   sums.fetch();

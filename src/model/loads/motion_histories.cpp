@@ -1,0 +1,32 @@
+#include "model/boundaries/ties.hpp"
+#include "model/build_steps.hpp"
+#include "model/host_copy.hpp"
+#include "model/loads/load_model.hpp"
+
+namespace railwave {
+
+void build_motion_histories(const Ties& ties, LoadModel& loads) {
+  const std::vector<int> nodes = to_vector(loads.sets.nodes);
+  const std::vector<double> weights = to_vector(loads.sets.weight);
+  std::vector<int> node;
+  std::vector<std::array<double, 2>> weight;
+  MotionHistories& histories = loads.motion_histories;
+  histories.first = {0};
+  for (const int set : loads.history_sets) {
+    for (int k = loads.first_of_set[set]; k < loads.first_of_set[set + 1]; ++k) {
+      const TiedPlace* tied = ties.place_of(nodes[k]);
+      node.push_back(nodes[k]);
+      weight.push_back({weights[k], tied ? 0 : weights[k]});
+      if (!tied) continue;
+      for (int corner = 0; corner < 4; ++corner) {
+        node.push_back(tied->face[corner]);
+        weight.push_back({0, weights[k] * tied->weight[corner]});
+      }
+    }
+    histories.first.push_back(static_cast<int>(node.size()));
+  }
+  histories.node = to_device("nodes of motion histories", node);
+  histories.weight = to_device("weights of motion histories", weight);
+}
+
+}  // namespace railwave

@@ -14,7 +14,7 @@ from passing import SETTLED, START
 from pictures import style
 from pictures.panels import nice
 
-BEFORE, BEHIND = "track_rail.before_gap", "track_rail_2.behind_gap"
+BEFORE, BEHIND, AHEAD = "track_rail.before_gap", "track_rail_2.behind_gap", "track_rail_2.ahead"
 # After the first touch of the second rail, s: the wave of the impact (fig. 4.27), longer ones (4.28).
 LANDING = (0, 5e-6, 10e-6, 350e-6, 372e-6)
 APPROACH = (-12e-6, 0, 25e-6)  # before and after the strongest disturbance (fig. 4.25, 4.26)

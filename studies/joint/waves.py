@@ -2,19 +2,24 @@
 are. The impact's begin where the wheel first touches the second rail, a perturbation's where the velocity changes most
 when the slip in the patch's leading half jumps (thesis 4.6)."""
 
+import copy
+
 import numpy as np
 
-from surface import BEFORE, BEHIND, surface_of
+from surface import AHEAD, BEFORE, BEHIND, surface_of
 
 NEAR, FAR = 0.006, 0.036  # m from the touch between which it is followed
 EARLIER, LATER = 6e-6, 25e-6  # s about the touch
 SPEEDS = np.arange(1500.0, 7000.0, 25.0)  # m/s, among which it is looked for
 LEAST_RINGS = 5
-AHEAD, REACH = 0.003, 0.025  # m ahead of the patch from which on, and over which, waves are looked for
+FROM, REACH = 0.003, 0.025  # m ahead of the patch from which on, and over which, waves are looked for
 PIECE = 64e-6  # s, of the record that is transformed at once
 COHERENT_SPEEDS = np.arange(2000.0, 6500.0, 50.0)  # m/s
 SURFACE_SPEEDS = (2500.0, 3500.0)  # m/s, of waves along a surface, about Rayleigh's 2980
-COHERENT = 0.45  # share of the power that moves as one wave from which on that stands out; noise has a tenth
+# Share of the power that moves as one wave from which on that stands out, and by how much it exceeds what noise of as
+# many outputs at as many places reaches in one of a hundred frequencies: a tenth at 25 places, more than half at five.
+COHERENT, BEYOND_NOISE = 0.45, 1.2
+NOISE_DRAWS = 40
 LANDED = 60e-6  # s after the touch in which the impact's waves are looked for
 # A disturbance stands out that is so many times the median of all outputs': nodes that come in and go out, each 36 us,
 # make twice the median.
@@ -80,6 +85,16 @@ class WavesAhead:
     def is_seen(self):
         return len(self.time) >= 32 and len(self.x) >= LEAST_RINGS
 
+    def limit(self):
+        """The share from which on a wave stands out."""
+        noise = copy.copy(self)
+        random = np.random.default_rng(0)
+        shares = []
+        for _ in range(NOISE_DRAWS):
+            noise.velocity = random.normal(size=self.velocity.shape)
+            shares.append(noise.coherence()[1][2:-1])
+        return max(COHERENT, BEYOND_NOISE * float(np.quantile(shares, 0.99)))
+
     def coherence(self):
         """Hz; the largest share of the power that any speed of COHERENT_SPEEDS adds up, by frequency; m/s, that one."""
         step = (self.time[-1] - self.time[0]) / (len(self.time) - 1)
@@ -102,17 +117,18 @@ class WavesAhead:
         """(frequency, Hz; speed, m/s; share) of those that stand out, the longest first: no sound waves, which are
         faster."""
         frequency, share, speed = self.coherence()
+        limit = self.limit()
         return [(float(frequency[k]), float(speed[k]), float(share[k])) for k in range(2, len(frequency) - 1)
-                if share[k - 1] <= share[k] > share[k + 1] and share[k] > COHERENT
+                if share[k - 1] <= share[k] > share[k + 1] and share[k] > limit
                 and SURFACE_SPEEDS[0] < speed[k] < SURFACE_SPEEDS[1]]
 
 
-def waves_ahead(passing, begin, end):
-    """What the table says of the waves ahead of the patch behind the gap between two times, s."""
+def waves_ahead(passing, name, begin, end):
+    """What the table says of the waves ahead of the patch on a surface behind the gap between two times, s."""
     patch = passing.at(end)
     if patch is None:
         return "no contact then"
-    waves = WavesAhead(surface_of(passing.results, BEHIND), begin, end, passing.front(end) + AHEAD, patch.centre_y)
+    waves = WavesAhead(surface_of(passing.results, name), begin, end, passing.front(end) + FROM, patch.centre_y)
     if not waves.is_seen():
         return "too few outputs of the surface then"
     listed = [f"{1e3 * speed / frequency:.1f} mm {1e-3 * speed:.2f} km/s {1e-3 * frequency:.0f} kHz ({share:.2f})"
@@ -163,15 +179,15 @@ def findings(found):
         wave = RadialWave(surface, passing.touched, touch)
         if wave.is_seen():
             seen[number] = wave
-        begin, end = surface.last_window()
+        begin, end = surface_of(passing.results, AHEAD).last_window()
         rows += [
             (f"simulation {number}: first crest of the impact's wave, as half of one", "10 mm, 3 km/s", measured(wave)),
             (f"simulation {number}: perturbation wave before the gap", "6 mm, 3 km/s, 43.603 ms, 1244 mm",
              perturbation(passing)),
             (f"simulation {number}: waves ahead of the landing patch, within {1e6 * LANDED:.0f} us (share that moves as"
              " one wave)",
-             "10 mm (3), 20 and 40 mm (2), 3 km/s", waves_ahead(passing, touch - EARLIER, touch + LANDED)),
+             "10 mm (3), 20 and 40 mm (2), 3 km/s", waves_ahead(passing, BEHIND, touch - EARLIER, touch + LANDED)),
             (f"simulation {number}: waves of large creepage, {1e3 * begin:.2f} to {1e3 * end:.2f} ms",
-             "495 kHz, 6 mm, 3 km/s (7.2)", waves_ahead(passing, begin, end)),
+             "495 kHz, 6 mm, 3 km/s (7.2)", waves_ahead(passing, AHEAD, begin, end)),
         ]
     return rows, seen

@@ -214,7 +214,8 @@ Section motion_section() {
           .in("m")
           .otherwise("the centre of mass of `around`, or of each part"),
       key("around", &InitialMotion::around,
-          "a node set whose centre of mass is the centre of the rotation: an axle's bore")
+          "a node set whose centre of mass is the centre of the rotation; of a wheel, wheelset, roller or cylinder "
+          "that turns about its axis, or a set of it as its bore: that axis")
           .names(node_set | whole_part | point)
           .otherwise("each part's own"),
   };

@@ -34,6 +34,23 @@ Vec3 centre_of(const AssembledScene& assembled, const scene::InitialMotion& moti
   return centre_of_mass(assembled, nodes);
 }
 
+/// Of a motion that rolls, its first round part; else the one that `around` or a set of which it names, if the angular
+/// velocity is along its axis.
+std::optional<RoundPart> part_turned_about_its_axis(const AssembledScene& assembled,
+                                                    const scene::InitialMotion& motion) {
+  if (motion.centre) return std::nullopt;
+  if (motion.rolling) {
+    for (const std::string& name : motion.parts)
+      if (auto round = round_part(assembled, name)) return round;
+    return std::nullopt;
+  }
+  auto round = round_part(assembled, motion.around.substr(0, motion.around.find('.')));
+  constexpr double along = 1e-6;
+  const Vec3& w = motion.angular_velocity;
+  if (round && length(cross(w, round->own_axis)) > along * length(w)) return std::nullopt;
+  return round;
+}
+
 /// The angular velocity about its axis with which one part rolls, and from what it was found.
 struct Rolling {
   RoundPart round;
@@ -157,19 +174,16 @@ void resolve(const AssembledScene& assembled, scene::InitialMotion& motion) {
 }  // namespace
 
 std::optional<CarriedAxis> carried_axis(const AssembledScene& assembled, const scene::InitialMotion& motion) {
-  if (!motion.rolling || motion.centre) return std::nullopt;
-  for (const std::string& name : motion.parts)
-    if (const auto round = round_part(assembled, name)) {
-      CarriedAxis axis;
-      axis.point = round->origin;
-      axis.nodes = motion.around.empty()
-                       ? &assembled.assembly.node_sets.at(name)
-                       : &find_node_set(assembled.scene, assembled.assembly, motion, "around", motion.around);
-      const Vec3 mean = centre_of_mass(assembled, *axis.nodes);
-      axis.from_mean = difference(axis.point, mean);
-      return axis;
-    }
-  return std::nullopt;
+  const auto round = part_turned_about_its_axis(assembled, motion);
+  if (!round) return std::nullopt;
+  CarriedAxis axis;
+  axis.point = round->origin;
+  axis.nodes = motion.around.empty()
+                   ? &assembled.assembly.node_sets.at(round->part->name)
+                   : &find_node_set(assembled.scene, assembled.assembly, motion, "around", motion.around);
+  const Vec3 mean = centre_of_mass(assembled, *axis.nodes);
+  axis.from_mean = difference(axis.point, mean);
+  return axis;
 }
 
 void resolve_rolling(AssembledScene& assembled) {

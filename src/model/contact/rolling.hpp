@@ -15,8 +15,9 @@ namespace railwave {
 // a millimetre off the nominal radius; of several places (a wheelset's two wheels) the mean; `rolling_radius` instead,
 // if given. What lies across the way, as an angle of attack makes it, slides.
 
-/// What a motion with rolling = true turns about: the axis of its round part, which nodes of a bore, by their masses,
-/// only nearly have for their centre.
+/// What a motion turns about that rolls, or has its `around` on a round part: the axis of that part, which nodes of a
+/// bore, by their masses, only nearly have for their centre. In a mesh that is finer below they have it by millimetres
+/// too low: turned about it a wheelset of a ton, in balance about its axle, pulled by kilonewtons.
 struct CarriedAxis {
   Vec3 point{0, 0, 0};  ///< m, undeformed
   const std::vector<int>* nodes =
@@ -24,7 +25,8 @@ struct CarriedAxis {
   Vec3 from_mean{0, 0, 0};  ///< m, from there to the point
 };
 
-/// Nothing for motions that do not roll, have a `centre`, or no round part.
+/// Nothing for motions that have a `centre` or no round part, and for those that do not roll and whose angular velocity
+/// is not along the axis of the part that `around` names.
 std::optional<CarriedAxis> carried_axis(const AssembledScene& assembled, const scene::InitialMotion& motion);
 
 /// The velocity that the initial motions give a part at a place, m/s; those that roll count once they are resolved.

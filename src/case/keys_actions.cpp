@@ -237,7 +237,9 @@ Section prescribed_section() {
           .in("rad/s"),
       key("centre", &PrescribedMotion::centre, "centre of the rotation when the run begins")
           .in("m")
-          .otherwise("the set's centre of mass"),
+          .otherwise(
+              "of a wheel, wheelset, roller or cylinder that turns about its axis that axis; else the set's centre "
+              "of mass"),
       key("curve", &PrescribedMotion::curve,
           "factor on both velocities that changes with time; give the other nodes of a body "
           "that is to move from the start an [initial_motion]")

@@ -187,7 +187,7 @@ struct PrescribedMotion : Place {
   std::string target;              ///< `part.node_set`
   Vec3 velocity{0, 0, 0};          ///< m/s, of the centre
   Vec3 angular_velocity{0, 0, 0};  ///< rad/s, about an axis of fixed direction through the moving centre
-  std::optional<Vec3> centre;      ///< m, where the run begins; absent: the set's centre of mass
+  std::optional<Vec3> centre;      ///< m, where the run begins; absent: see centre_of_rotation() of round_part.hpp
   std::string curve;               ///< factor on both; empty: constant 1
   Vec3 displacement{0, 0, 0};      ///< m, besides what the velocities make
   std::string displacement_curve;  ///< factor on that

@@ -88,3 +88,21 @@ TEST_CASE("a wheelset that turns about its bore is in balance, however its mesh 
     CHECK(std::hypot(axis[0] - bore[0], axis[2] - bore[2]) > 5e-5);
   }
 }
+
+TEST_CASE("a bore whose rotation is prescribed turns about its axis, however its mesh is graded") {
+  scene::Scene scene = read_case(source_folder + "/cases/verify/rolling.toml");
+  scene.prescribed_motions.at(0).centre.reset();
+  Model model;
+  build_model(scene, model);
+  const PrescribedSet& set = model.prescribed.at(0);
+  const auto& bore = model.assembly.node_sets.at(set.motion->target);
+  double nearest = 1e300, farthest = 0;
+  for (const int n : bore) {
+    const Vec3 arm = model.assembly.nodes[n] - set.centre;
+    nearest = std::min(nearest, std::hypot(arm[0], arm[2]));
+    farthest = std::max(farthest, std::hypot(arm[0], arm[2]));
+  }
+  CHECK(farthest - nearest < 1e-9);
+  const Vec3 off = centre_of_mass(model, bore) - set.centre;
+  CHECK(std::hypot(off[0], off[2]) > 1e-6);
+}

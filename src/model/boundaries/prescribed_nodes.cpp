@@ -1,4 +1,5 @@
 #include "model/boundaries/prescribed_nodes.hpp"
+#include "model/checks/round_part.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ void build_prescribed_motions(const AssembledScene& assembled, std::vector<Presc
     set.displacement_curve = curve_of(assembled.scene, motion.displacement_curve);
     refuse_jump(assembled.scene, motion, set.displacement_curve);
     hold_directions(motion, set.held);
-    set.centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
+    set.centre = centre_of_rotation(assembled, motion, nodes);
     set.nodes = to_device("nodes of prescribed motion", nodes);
     set.work = Array<double*>("work of prescribed motion", nodes.size());
     prescribed.push_back(set);

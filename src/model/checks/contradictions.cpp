@@ -14,6 +14,7 @@
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
 #include "model/checks/inside_bodies.hpp"
+#include "model/checks/round_part.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/loads/load_model.hpp"
 
@@ -54,7 +55,7 @@ void refuse_moved_constraints(const AssembledScene& assembled) {
   double fastest = 0, farthest = 0;
   for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-    const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
+    const Vec3 centre = centre_of_rotation(assembled, motion, nodes);
     for (int n : nodes) {
       const Prescribed here = prescribed_at(motion, centre, assembled.assembly.nodes[n]);
       fastest = std::max(fastest, length(here.velocity));
@@ -241,7 +242,7 @@ std::string holder_of(const AssembledScene& assembled, int node) {
 /// m, no less than any node of that motion goes in the run.
 double travel_of(const AssembledScene& assembled, const scene::PrescribedMotion& motion) {
   const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-  const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
+  const Vec3 centre = centre_of_rotation(assembled, motion, nodes);
   double fastest = 0;
   for (int n : nodes)
     fastest = std::max(fastest, length(prescribed_at(motion, centre, assembled.assembly.nodes[n]).velocity));

@@ -1,4 +1,5 @@
 #include "model/checks/doubts.hpp"
+#include "model/checks/round_part.hpp"
 
 #include <fmt/format.h>
 
@@ -86,7 +87,7 @@ void unlike_starts(const AssembledScene& assembled, Doubts& doubts) {
         });
     if (own == assembled.scene.initial_motions.end()) continue;
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-    const Vec3 centre = motion.centre ? *motion.centre : centre_of_mass(assembled, nodes);
+    const Vec3 centre = centre_of_rotation(assembled, motion, nodes);
     const double factor = curve_value(curve_of(assembled.scene, motion.curve), 0);
     double most = 0, fastest = 0, prescribed_speed = 0, initial_speed = 0;
     for (int n : nodes) {

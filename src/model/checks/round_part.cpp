@@ -126,6 +126,18 @@ NearestFace nearest_of(const Assembly& assembly, const Profile& profile, const s
 
 }  // namespace
 
+bool turns_about(const Vec3& angular_velocity, const Vec3& axis) {
+  constexpr double along = 1e-6;
+  return length(angular_velocity) > 0 && length(cross(angular_velocity, axis)) <= along * length(angular_velocity);
+}
+
+Vec3 centre_of_rotation(const AssembledScene& assembled, const scene::PrescribedMotion& motion,
+                        const std::vector<int>& nodes) {
+  if (motion.centre) return *motion.centre;
+  const auto round = round_part(assembled, part_of_name(motion.target));
+  return round && turns_about(motion.angular_velocity, round->axis) ? round->origin : centre_of_mass(assembled, nodes);
+}
+
 std::optional<RoundPart> round_part(const AssembledScene& assembled, const std::string& name) {
   const scene::Scene& scene = assembled.scene;
   for (std::size_t p = 0; p < scene.parts.size(); ++p) {

@@ -20,6 +20,14 @@ struct RoundPart {
 /// Nothing where the name is a point's, or of a part with another mesh.
 std::optional<RoundPart> round_part(const AssembledScene& assembled, const std::string& name);
 
+/// Whether an angular velocity turns about an axis of that direction.
+bool turns_about(const Vec3& angular_velocity, const Vec3& axis);
+
+/// Centre of the rotation of a prescribed motion when the run begins, m: of a round part that turns about its axis a
+/// point of that axis, which the nodes of a bore, by their masses, only nearly have for their centre.
+Vec3 centre_of_rotation(const AssembledScene& assembled, const scene::PrescribedMotion& motion,
+                        const std::vector<int>& nodes);
+
 /// Where a round part is nearest to the other surface of a contact.
 struct Touch {
   const scene::Contact* contact = nullptr;

@@ -44,7 +44,7 @@ class BodyWay {
       if (part_of_name(motion.target) == part) prescribed_ = &motion;
     if (prescribed_ == nullptr) return;
     const auto& nodes = find_node_set(assembled.scene, assembled.assembly, *prescribed_, "target", prescribed_->target);
-    const Vec3 own = prescribed_->centre ? *prescribed_->centre : centre_of_mass(assembled, nodes);
+    const Vec3 own = centre_of_rotation(assembled, *prescribed_, nodes);
     prescribed_velocity_ = sum(prescribed_->velocity, cross(prescribed_->angular_velocity, difference(place, own)));
     if (length(prescribed_->angular_velocity) > 0) {
       spin_ = prescribed_->angular_velocity;

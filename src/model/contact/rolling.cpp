@@ -44,10 +44,8 @@ std::optional<RoundPart> part_turned_about_its_axis(const AssembledScene& assemb
       if (auto round = round_part(assembled, name)) return round;
     return std::nullopt;
   }
-  auto round = round_part(assembled, motion.around.substr(0, motion.around.find('.')));
-  constexpr double along = 1e-6;
-  const Vec3& w = motion.angular_velocity;
-  if (round && length(cross(w, round->own_axis)) > along * length(w)) return std::nullopt;
+  auto round = round_part(assembled, part_of_name(motion.around));
+  if (round && !turns_about(motion.angular_velocity, round->own_axis)) return std::nullopt;
   return round;
 }
 

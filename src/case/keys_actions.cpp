@@ -212,7 +212,7 @@ Section motion_section() {
           .otherwise("found from the meshes"),
       key("centre", &InitialMotion::centre, "centre of the rotation")
           .in("m")
-          .otherwise("the centre of mass of `around`, or of each part"),
+          .otherwise("that of `around`, or the centre of mass of each part"),
       key("around", &InitialMotion::around,
           "a node set whose centre of mass is the centre of the rotation; of a wheel, wheelset, roller or cylinder "
           "that turns about its axis, or a set of it as its bore: that axis")

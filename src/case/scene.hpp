@@ -177,8 +177,8 @@ struct InitialMotion : Place {
   bool rolling =
       false;  ///< the angular velocity is the one that rolls; the model fills it in, see model/contact/rolling.hpp
   std::optional<double> rolling_radius;  ///< m, for that; absent: where the part touches, or its mesh's nominal radius
-  std::optional<Vec3> centre;            ///< of rotation; absent: the centre of mass of `around`, or of each part
-  std::string around;  ///< node set whose centre of mass is the centre of rotation, e.g. an axle's bore
+  std::optional<Vec3> centre;            ///< of rotation; absent: see rotation_centre() of solve/statics/settle.hpp
+  std::string around;                    ///< node set whose centre is that of the rotation, e.g. an axle's bore
 };
 
 /// A node set that moves as a rigid body does whose motion is known, in all directions or some; held in these while the

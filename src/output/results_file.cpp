@@ -49,12 +49,18 @@ class ModelFields : public FieldSource {
   ContactWish wish_;
 };
 
+/// m, 3 of each node.
+std::vector<double> undeformed_places(const NodalState& nodal, const Ties& ties, const std::vector<int>& nodes) {
+  auto fields = node_fields(nodal, ties, {NodeField::position, NodeField::displacement}, nodes);
+  std::vector<double>& place = fields[0].values;
+  const std::vector<double>& moved = fields[1].values;
+  for (std::size_t i = 0; i < moved.size(); ++i) place[i] -= moved[i];
+  return std::move(place);
+}
+
 ContactSurface surface_of(const NodalState& nodal, const Ties& ties, const std::vector<int>& nodes,
                           const std::vector<std::array<int, 4>>& facets) {
-  ContactSurface surface{nodes, facets, node_field(nodal, ties, NodeField::position, nodes).values};
-  const std::vector<double> moved = node_field(nodal, ties, NodeField::displacement, nodes).values;
-  for (std::size_t i = 0; i < moved.size(); ++i) surface.coordinates[i] -= moved[i];
-  return surface;
+  return {nodes, facets, undeformed_places(nodal, ties, nodes)};
 }
 
 /// Numbers of the beams that output.history_beams names.
@@ -100,12 +106,10 @@ Vec3 undeformed_position(const NodalState& nodal, const Ties& ties, const LoadMo
   const auto all = to_host(loads.sets.nodes);
   const auto weight = to_host(loads.sets.weight);
   const std::vector<int> nodes(all.data() + begin, all.data() + end);
-  const auto position = node_field(nodal, ties, NodeField::position, nodes).values,
-             displacement = node_field(nodal, ties, NodeField::displacement, nodes).values;
+  const std::vector<double> place = undeformed_places(nodal, ties, nodes);
   Vec3 mean{};
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    for (int i = 0; i < 3; ++i)
-      mean[i] += weight(begin + static_cast<int>(k)) * (position[3 * k + i] - displacement[3 * k + i]);
+    for (int i = 0; i < 3; ++i) mean[i] += weight(begin + static_cast<int>(k)) * place[3 * k + i];
   return mean;
 }
 

@@ -1,5 +1,4 @@
 #include "model/boundaries/prescribed_nodes.hpp"
-#include "model/checks/round_part.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/build_steps.hpp"
+#include "model/checks/round_part.hpp"
 #include "model/host_copy.hpp"
 #include "model/loads/load_model.hpp"
 

@@ -1,5 +1,4 @@
 #include "model/checks/doubts.hpp"
-#include "model/checks/round_part.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/checks/inside_bodies.hpp"
+#include "model/checks/round_part.hpp"
 #include "model/contact/initial_overlap.hpp"
 #include "model/contact/rolling.hpp"
 #include "model/loads/load_model.hpp"

@@ -73,8 +73,8 @@ std::string what_drifts(const AssembledScene& assembled, const NodeVector& unbal
 /// Forces of an instant of Newton's method, in which pairs with multipliers press as `press` has them.
 std::vector<Task> newton_tasks(Model& model, std::function<void()> press);
 
-/// The point about which an initial motion turns a part: `centre`, else the centre of mass of `around`, else the
-/// part's.
+/// The point about which an initial motion turns a part: `centre`, else the axis of a round part (see
+/// carried_axis() of model/contact/rolling.hpp), else the centre of mass of `around`, else the part's.
 Vec3 rotation_centre(const AssembledScene& assembled, const scene::InitialMotion& motion, const std::string& part,
                      const Array<double* [3]>& position);
 

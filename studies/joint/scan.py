@@ -56,7 +56,7 @@ SETTINGS = {
     "defaults": stiff(),
     "plates 0.9 m long": stiff("tracks.track.fishplate_length=0.9"),
     "plates 10 mm thick": stiff("tracks.track.fishplate_thickness=0.01"),
-    "plates of 21 GPa": Setting({"height": ""}),
+    "plates of 21 GPa": Setting({"height": ""}, overrides=["materials.plates.youngs_modulus=21e9"]),
     "no plates: two free ends": Setting({**DEFAULTS, "fishplates": "", "bolt_pretension": ""}),
     "timber sleepers 0.17 m wide": timber("width = 0.17"),
     "timber sleepers 2 m long in all": timber("half_length = 1.0"),
@@ -65,6 +65,7 @@ SETTINGS = {
     "timber sleepers 0.25 m high": timber("height = 0.25"),
     "timber sleepers 0.13 m high": timber("height = 0.13"),
     "timber sleepers 0.11 m high": timber("height = 0.11"),
+    "timber sleepers 0.11 m high, plates of 21 GPa": Setting(overrides=["materials.plates.youngs_modulus=21e9"]),
     "timber sleepers 0.11 m high, plates bolted by 12.5 kN": Setting(
         {**STIFF, "bolt_pretension": "bolt_pretension = 12500"},
         '\n[settle]\nmethod = "newton"\ntolerance = 1e-3\n', ["tracks.track.fishplate_fit=contact"], PLACES[:1]),

@@ -2,6 +2,7 @@
 
 #include "kernels/contact/contact_normals.hpp"
 #include "kernels/contact/contact_track.hpp"
+#include "kernels/contact/laws/falling_friction.hpp"
 #include "kernels/contact/multiplier_arrays.hpp"
 
 namespace railwave {
@@ -55,6 +56,8 @@ struct ContactMultiplier {
   FreeMotion free_motion;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
+  FallingFriction falling_friction;
+  Array<double*> friction_state;  ///< of it, value by value, each by slave node; empty where friction is constant
 
   static constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
@@ -101,6 +104,8 @@ struct ContactMultiplier {
     r.force = r.pending = Vector3{{0, 0, 0}};
     r.pressing = r.compliance = 0;
     r.slips = 1;
+    if constexpr (Friction)
+      r.friction = friction(s, touched && r.active != 0, status == status_slips ? r.moved : Vector3{{0, 0, 0}});
     if (r.active == 0) return;
 
     r.node[0] = near.node;
@@ -135,6 +140,21 @@ struct ContactMultiplier {
       r.pending = r.pending + tangential;
     }
     r.force = r.pending;
+  }
+
+  /// The coefficient that bounds the force to be found, by how the node has slid up to now. What one that sticks creeps
+  /// in a step is not sliding: it is taken back.
+  KOKKOS_INLINE_FUNCTION double friction(int s, bool touched, const Vector3& slid) const {
+    if (friction_state.extent(0) == 0) return falling_friction.at_rest;
+    double state[FallingFriction::state_values];
+    const int slaves = search.contact.slave_count;
+    for (int k = 0; k < FallingFriction::state_values; ++k) state[k] = friction_state(k * slaves + s);
+    if (touched)
+      falling_friction.coefficient({slid, first_touch.last.elapsed}, state);
+    else
+      falling_friction.forget(state);
+    for (int k = 0; k < FallingFriction::state_values; ++k) friction_state(k * slaves + s) = state[k];
+    return state[FallingFriction::now];
   }
 
   KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, int master, double weight) const {
@@ -175,9 +195,7 @@ struct ContactMultiplier {
   }
 
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
-    const ContactArrays& contact = search.contact;
-    const int s = near.slave;
-    MultiplierRow& r = multipliers.rows(s);
+    MultiplierRow& r = multipliers.rows(near.slave);
     if (r.active == 0) return;
     if (r.compliance == 0) {
       for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.predicted[k];
@@ -194,7 +212,7 @@ struct ContactMultiplier {
     r.slips = 1;
     if constexpr (Friction) {
       Vector3 tangential = r.force - r.pressing * r.normal - (1 / r.compliance) * (moves - opening * r.normal);
-      const double bound = contact.friction * pressing, size = norm(tangential);
+      const double bound = r.friction * pressing, size = norm(tangential);
       r.slips = size > bound ? 1 : 0;
       if (size > bound) tangential = (bound / size) * tangential;
       force = force + tangential;

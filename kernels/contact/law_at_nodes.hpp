@@ -62,10 +62,7 @@ struct LawAtNodes {
 
   /// @param moved de of the contact point over the master in the last step, m
   KOKKOS_INLINE_FUNCTION double friction(const LastStep& last, const Vector3& moved, State& state) const {
-    double slip = 0;
-    if constexpr (has_state)
-      if (last.elapsed > 0) slip = norm(moved) / last.elapsed;
-    return law.friction(slip, state.values);
+    return law.friction({moved, last.elapsed}, state.values);
   }
 
   KOKKOS_INLINE_FUNCTION void part(const ContactSearch& search, const LastStep& last, int node, const Projection& now,

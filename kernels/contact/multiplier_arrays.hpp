@@ -19,6 +19,7 @@ struct alignas(16) MultiplierRow {
   Vector3 pending;                              ///< N, what has still to be handed to the nodes
   Vector3 moved;                                ///< m, over the master's material since the step before
   double pressing;                              ///< N, normal part of `force`
+  double friction;                              ///< coefficient
   double gap;                                   ///< m
   double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master; 0: not
                       ///< known yet

@@ -5,6 +5,7 @@ for."""
 import numpy as np
 
 from verification.exact import Carter, Hertz, HertzLine, Mindlin
+from verification.falling import falling
 from verification.measured import enclosed, outlines, shares
 from verification.rolling import rolling
 from verification.setting import RADIUS, Outcome, rms, rolling_motion, steady, zone
@@ -183,4 +184,5 @@ CASES = {
     "cattaneo": cattaneo,
     "carter": carter,
     "rolling": rolling,
+    "falling": falling,
 }

@@ -47,48 +47,86 @@ def solve_linear(apply, right, tolerance, most=500):
     return np.linalg.solve(upper[:j + 1, :j + 1], turned[:j + 1]) @ np.array(basis[:j + 1])
 
 
-class SteadyRolling:
-    """@param hertz the normal contact (verification.exact.Hertz); creepages longitudinal, lateral, spin (1/m); `cells`
-    over each axis of its ellipse. Arrays over the cells inside: x, y, pressure, shear (n, 2), slips, slip (n, 2) over
-    the way."""
+class FallingFriction:
+    """Friction that falls with the speed of slip from `static` to `dynamic` (thesis eq. 2.29): dynamic + (static -
+    dynamic) exp(-decay v). v is the size of the slip velocity as a passing particle remembers it: its mean over the
+    past, weighted by exp(-t / memory); without memory the present one. @param decay s/m; speed of rolling, m/s; memory,
+    s"""
 
-    def __init__(self, hertz, friction, creepages, cells=40):
-        self.hertz, self.friction, self.creepages, self.cells = hertz, friction, tuple(creepages), cells
-        self.h, self.k = 2 * hertz.a / cells, 2 * hertz.b / cells
-        place = np.arange(cells) - 0.5 * (cells - 1)
-        column, row = np.meshgrid(np.arange(cells), np.arange(cells))
-        inside = (place[column] * self.h / hertz.a) ** 2 + (place[row] * self.k / hertz.b) ** 2 < 1
-        self.column, self.row = column[inside], row[inside]
-        self.x, self.y = place[self.column] * self.h, place[self.row] * self.k
-        pressure = hertz.pressure(self.x, self.y)
-        self.pressure = pressure * hertz.force / (pressure.sum() * self.h * self.k)
+    def __init__(self, static, dynamic, decay, speed, memory=0.0):
+        self.static, self.dynamic, self.decay, self.speed, self.memory = static, dynamic, decay, speed, memory
+
+    def along(self, slip, h):
+        """Coefficients from the slip over the way, (cells of length h from the leading edge on, rows, 2)."""
+        velocity = self.speed * slip
+        if self.memory > 0:
+            kept, now = np.exp(-h / self.speed / self.memory), np.zeros(velocity.shape[1:])
+            for k in range(len(velocity)):
+                now = velocity[k] = kept * now + (1 - kept) * velocity[k]
+        return self.dynamic + (self.static - self.dynamic) * np.exp(-self.decay * np.linalg.norm(velocity, axis=-1))
+
+
+class RollingContact:
+    """Steady rolling of a patch of any pressure. @param pressure (rows, columns), Pa, 0 outside the patch; x, y of the
+    middles of its columns and rows, m, equally spaced; material as verification.exact.Steel; friction a coefficient or
+    FallingFriction; creepages longitudinal, lateral, spin (1/m), the latter about (0, 0). Arrays over the cells of the
+    patch: x, y, pressure, coefficient of friction, shear (n, 2), slips, slip (n, 2) over the way."""
+
+    def __init__(self, pressure, x, y, material, friction, creepages):
+        self.material, self.friction, self.creepages = material, friction, tuple(creepages)
+        self.columns, self.rows, self.h, self.k = len(x), len(y), x[1] - x[0], y[1] - y[0]
+        self.grid_x, self.grid_y = x, y
+        self.row, self.column = np.nonzero(pressure > 0)
+        self.x, self.y, self.pressure = x[self.column], y[self.row], pressure[self.row, self.column]
         self._prepare()
-        self._solve()
+        if not isinstance(friction, FallingFriction):
+            self._solve(friction * np.ones_like(self.x), np.zeros(2 * len(self.x)))
+        else:
+            self._solve_falling()
 
     def _prepare(self):
         """Transform of what a cell's traction does to the slip of the others; both bodies' displacement: 1 / pi G."""
-        reach = np.fft.fftfreq(2 * self.cells, 1 / (2 * self.cells))
-        dx, dy = np.meshgrid(reach * self.h, reach * self.k)
+        dx, dy = np.meshgrid(*(np.fft.fftfreq(2 * n, 1 / (2 * n)) * size
+                               for n, size in ((self.columns, self.h), (self.rows, self.k))))
         xx, yy, xy = influence(dx, dy, self.h, self.k) - influence(dx + self.h, dy, self.h, self.k)
-        nu = self.hertz.material.poissons_ratio
+        nu = self.material.poissons_ratio
         kernel = np.array([xx + (1 - nu) * yy, yy + (1 - nu) * xx, nu * xy]) / (
-            np.pi * self.hertz.material.shear_modulus()
+            np.pi * self.material.shear_modulus()
         )
         self.own, self.kernel = kernel[0, 0, 0], np.fft.rfft2(kernel)
 
     def _elastic_slip(self, q):
         """u(x) - u(x + h) of the tractions q: all along x, then all along y."""
-        grid = np.zeros((2, 2 * self.cells, 2 * self.cells))
+        grid = np.zeros((2, 2 * self.rows, 2 * self.columns))
         grid[:, self.row, self.column] = q.reshape(2, -1)
         along, across = np.fft.rfft2(grid)
         k = self.kernel
         slip = np.fft.irfft2(np.stack([k[0] * along + k[2] * across, k[2] * along + k[1] * across]), s=grid.shape[1:])
         return slip[:, self.row, self.column].ravel()
 
-    def _solve(self):
-        """Newton's iteration on q = projection of (q - rate S) onto the friction circle, which is the whole of
-        Coulomb's law."""
-        n, bound, rate = len(self.x), self.friction * self.pressure, 1 / self.own
+    def _solve_falling(self):
+        """Solutions of given coefficients, which are then made those of its slip, until they are. They contract: faster
+        slip by a share of less friction takes away 2 V p |mu'| / G of that share."""
+        coefficient, shear = self.friction.static * np.ones_like(self.x), np.zeros(2 * len(self.x))
+        for _ in range(200):
+            self._solve(coefficient, shear)
+            wished = self._coefficients()
+            if np.abs(wished - coefficient).max() < 1e-5 * self.friction.static:
+                return
+            coefficient, shear = coefficient + 0.6 * (wished - coefficient), self.shear.T.ravel()
+        raise RuntimeError(f"steady rolling: falling friction finds no end at creepages {self.creepages}, "
+                           f"{self.columns} by {self.rows} cells")
+
+    def _coefficients(self):
+        """By cell, of the slip there is. Each row is passed from its leading edge on."""
+        slip = np.zeros((self.columns, self.rows, 2))
+        slip[self.column, self.row] = np.where(self.slips[:, None], self.slip, 0)
+        return self.friction.along(slip[::-1], self.h)[::-1][self.column, self.row]
+
+    def _solve(self, coefficient, q):
+        """Newton's iteration, from the tractions q, on q = projection of (q - rate S) onto the friction circle, which
+        is the whole of Coulomb's law."""
+        n, bound, rate = len(self.x), coefficient * self.pressure, 1 / self.own
         longitudinal, lateral, spin = self.creepages
         rigid = self.h * np.concatenate([-longitudinal - spin * self.y, -lateral + spin * self.x])
 
@@ -99,7 +137,6 @@ class SteadyRolling:
             share = np.minimum(1, bound / size)
             return q - trial * np.tile(share, 2), slip, trial[:n] / size, trial[n:] / size, share
 
-        q = np.zeros(2 * n)
         now = state(q)
         for _ in range(100):
             error, slip, tx, ty, share = now
@@ -126,12 +163,45 @@ class SteadyRolling:
             q = q + length * step
         else:
             raise RuntimeError(
-                f"steady rolling: no solution found for creepages {self.creepages} on {self.cells} cells"
+                f"steady rolling: no solution found for creepages {self.creepages}, {self.columns} by {self.rows} cells"
             )
+        self.coefficient = coefficient
         self.shear, self.slip, self.slips = q.reshape(2, n).T, slip.reshape(2, n).T / self.h, slips
         self.force = self.shear.sum(axis=0) * self.h * self.k
         self.moment = np.sum(self.x * self.shear[:, 1] - self.y * self.shear[:, 0]) * self.h * self.k
         self.stick_share = 1 - slips.mean()
+
+    def nearest(self, values, x, y):
+        """Of values over the cells, those of the cell at each place; 0 outside."""
+        column, row = (
+            np.floor((place - first) / size + 0.5).astype(int)
+            for place, first, size in ((x, self.grid_x[0], self.h), (y, self.grid_y[0], self.k))
+        )
+        inside = (column >= 0) & (column < self.columns) & (row >= 0) & (row < self.rows)
+        grid = np.zeros((self.rows, self.columns, *values.shape[1:]), dtype=values.dtype)
+        grid[self.row, self.column] = values
+        found = grid[np.clip(row, 0, self.rows - 1), np.clip(column, 0, self.columns - 1)]
+        found[~inside] = 0
+        return found
+
+    def grid(self):
+        """x, y and shear (rows, columns, 2) for interpolation; nan outside the patch."""
+        shear = np.full((self.rows, self.columns, 2), np.nan)
+        shear[self.row, self.column] = self.shear
+        return self.grid_x, self.grid_y, shear
+
+
+class SteadyRolling(RollingContact):
+    """The same of a Hertzian ellipse. @param hertz the normal contact (verification.exact.Hertz); `cells` over each
+    axis of its ellipse"""
+
+    def __init__(self, hertz, friction, creepages, cells=40):
+        self.hertz, self.cells = hertz, cells
+        place = np.arange(cells) - 0.5 * (cells - 1)
+        x, y = place * 2 * hertz.a / cells, place * 2 * hertz.b / cells
+        pressure = hertz.pressure(x, y[:, None])
+        pressure *= hertz.force / (pressure.sum() * (x[1] - x[0]) * (y[1] - y[0]))
+        super().__init__(pressure, x, y, hertz.material, friction, creepages)
 
     def creepages_round(self, inner, outer, points=60):
         """Longitudinal, lateral creepage and spin of the rigid motion that fits best, by least squares, the surfaces'
@@ -154,25 +224,6 @@ class SteadyRolling:
         longitudinal, lateral, spin = np.linalg.lstsq(np.column_stack([np.concatenate(column) for column in (
             (-one, none), (none, -one), (-y, x))]), -strain, rcond=None)[0]
         return self.creepages[0] + longitudinal, self.creepages[1] + lateral, self.creepages[2] + spin
-
-    def nearest(self, values, x, y):
-        """Of values over the cells, those of the cell at each place; 0 outside."""
-        column, row = (
-            np.floor(place / size + 0.5 * self.cells).astype(int) for place, size in ((x, self.h), (y, self.k))
-        )
-        inside = (column >= 0) & (column < self.cells) & (row >= 0) & (row < self.cells)
-        grid = np.zeros((self.cells, self.cells, *values.shape[1:]), dtype=values.dtype)
-        grid[self.row, self.column] = values
-        found = grid[np.clip(row, 0, self.cells - 1), np.clip(column, 0, self.cells - 1)]
-        found[~inside] = 0
-        return found
-
-    def grid(self):
-        """x, y and shear (rows, columns, 2) for interpolation; nan outside the patch."""
-        shear = np.full((self.cells, self.cells, 2), np.nan)
-        shear[self.row, self.column] = self.shear
-        place = np.arange(self.cells) - 0.5 * (self.cells - 1)
-        return place * self.h, place * self.k, shear
 
 
 def converged(hertz, friction, creepages, cells=40):

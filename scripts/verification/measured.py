@@ -106,7 +106,7 @@ class State:
             return values.reshape(shape + values.shape[1:])
 
         self.time = contact["time"][index]
-        self.friction = float(contact.attrs["friction"])
+        self.friction = take("friction") if "friction" in slave else float(contact.attrs["friction"])
         self.x, self.y = take("position")[..., 0], take("position")[..., 1]
         self.pressure, self.area, self.shear = take("pressure"), take("area"), take("shear")
         self.slipping, self.slip_velocity = take("slipping"), take("slip_velocity")

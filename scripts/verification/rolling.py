@@ -88,7 +88,7 @@ def interpolate(grid, px, py):
     return np.where(good[..., None], result, np.nan)
 
 
-def motion_of(creepages, normal):
+def motion_of(creepages, normal, speed=SPEED):
     """Overrides. Spin: the roller turns at a constant rate about an axis that leans from y towards z, so that its
     lowest point has no velocity across. Its own axis meanwhile turns about z, by the spin times the way s, and about x,
     by spin s^2 / 2 R, which moves the patch off the crown's middle; the creepage along is made zero there at the middle
@@ -98,8 +98,8 @@ def motion_of(creepages, normal):
         Hertz(126680, RADIUS, RADIUS_ACROSS).approach - Hertz(normal, RADIUS, RADIUS_ACROSS).approach
     )
     aside = RADIUS_ACROSS * spin * (7 / 8 * WAY) ** 2 / (2 * RADIUS)
-    turning = SPEED * (1 + longitudinal + FREE_ROLLING + spin * aside) / RADIUS
-    return rolling_motion(SPEED, -lateral * SPEED, turning, height, spin * SPEED)
+    turning = speed * (1 + longitudinal + FREE_ROLLING + spin * aside) / RADIUS
+    return rolling_motion(speed, -lateral * speed, turning, height, spin * speed)
 
 
 def exact_set(letter, hertz, force, solution):
@@ -137,8 +137,8 @@ def sampled_stick(solution, state, x, y):
     """Of the exact solution, known at the run's nodes only: stick shares as they are measured in the run, over the
     solution's own."""
     shear, sticks = (solution.nearest(values, x, y) for values in (solution.shear, ~solution.slips))
-    pressure = solution.hertz.pressure(x, y)
-    return np.array(stick_shares(x, y, pressure, shear, sticks, state.area, solution.friction)) / solution.stick_share
+    pressure, friction = solution.hertz.pressure(x, y), solution.nearest(solution.coefficient, x, y)
+    return np.array(stick_shares(x, y, pressure, shear, sticks, state.area, friction)) / solution.stick_share
 
 
 def rolling(run, label, elements, overrides, points):

@@ -69,6 +69,12 @@ Section contact_section() {
       key("friction_decay", &Contact::friction_decay, "how fast friction falls from `friction` to `dynamic_friction`")
           .in("s/m")
           .within(at_least(0)),
+      key("friction_memory", &Contact::friction_memory,
+          "of falling friction: the speed that counts is that of the sliding velocity's mean over the past, weighted "
+          "by "
+          "exp(-t/friction_memory); 0: the present speed, at which nodes stick and slip in turn (docs/contact.md)")
+          .in("s")
+          .within(between(0, 1)),
       key("algorithm", &Contact::algorithm,
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the "
           "next step, nor slips where friction holds it")

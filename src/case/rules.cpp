@@ -202,6 +202,10 @@ void check_falling_friction(const scene::Contact& contact, EntryCheck& check) {
                    fmt::format("is {}, must be smaller than friction ({}), from which it falls",
                                *contact.dynamic_friction, said(check, {"friction", contact.friction})));
   }
+  if (check.given("friction_memory") && contact.friction_decay == 0)
+    check.complain("friction_memory",
+                   "has no effect without dynamic_friction and friction_decay; give those too, or leave "
+                   "friction_memory out");
 }
 
 void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
@@ -220,10 +224,10 @@ void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
   }
 }
 
-/// Multipliers know a constant friction, and one surface whose nodes must not enter the other.
+/// Multipliers have no springs, and one surface whose nodes must not enter the other.
 void check_algorithm(const scene::Contact& contact, EntryCheck& check) {
   if (!check.sound({"algorithm"}) || contact.algorithm == scene::ContactAlgorithm::penalty) return;
-  for (const char* key : {"dynamic_friction", "friction_decay", "penalty_growth", "damping", "symmetric"})
+  for (const char* key : {"penalty_growth", "damping", "symmetric"})
     if (check.given(key))
       check.complain(key, "belongs to the penalty algorithm; leave it out, or set algorithm = \"penalty\"");
 }

@@ -149,12 +149,16 @@ enum class ContactNormals { facet, smooth };
 /// faces; those as wide as one always.
 inline constexpr double usual_bridged_gap = 1e-3;
 
+/// s: of friction that falls with the speed of sliding; docs/contact.md has what contacts of rail and wheel need.
+inline constexpr double usual_friction_memory = 4e-5;
+
 struct Contact : Place {
   std::string slave;                       ///< `part.surface`
   SurfaceNames master;                     ///< `part.surface`; several are one surface
   double friction = 0;                     ///< Coulomb coefficient, at rest where it falls with the sliding speed
   std::optional<double> dynamic_friction;  ///< at high speed, mu_d of thesis eq. 2.29
   double friction_decay = 0;               ///< c of thesis eq. 2.29, s/m; 0: friction is constant
+  double friction_memory = usual_friction_memory;  ///< s, see kernels/contact/laws/falling_friction.hpp
   ContactAlgorithm algorithm = ContactAlgorithm::penalty;
   ContactNormals normals = ContactNormals::facet;  ///< of the master, along which it presses
   int sweeps = 2;                                  ///< of the multipliers' iteration, in a step

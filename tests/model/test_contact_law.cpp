@@ -94,18 +94,19 @@ TEST_CASE("laws are functions of numbers: force and energy of a linear penalty, 
   CHECK(linear.touches(in, nullptr));
   CHECK_FALSE(linear.touches(out, nullptr));
   CHECK(linear.pressing(in, nullptr) == 2e-6 * 5e8);
-  CHECK(linear.friction(3, nullptr) == 0.4);
+  CHECK(linear.friction({{{3e-9, 0, 0}}, 1e-9}, nullptr) == 0.4);
   CHECK(linear.stored(in, 1e6, 9e4) == 0.5 * 1.09e6 / 5e8);
 
   const PenaltyGrowth::Point points[] = {{0, 1, 0, 0, 0}};
-  GrowingPenalty growing{{points, 1}, 0.4, 0.1, 2, true, 0};
+  GrowingPenalty growing{{points, 1}, {0.4, 0.1, 2, 0}, true, 0};
   double state[GrowingPenalty::state_values] = {};
   CHECK(growing.pressing(in, state) == linear.pressing(in, nullptr));
   CHECK(growing.stored(in, 1e6, 9e4) == linear.stored(in, 1e6, 9e4));
-  CHECK_THAT(growing.friction(0.5, state), WithinRel(0.1 + 0.3 * std::exp(-1.0), 1e-14));
-  CHECK(state[GrowingPenalty::friction_now] == growing.friction(0.5, state));
+  const Sliding half_a_metre{{{3e-9, 4e-9, 0}}, 1e-8};  // a second
+  CHECK_THAT(growing.friction(half_a_metre, state), WithinRel(0.1 + 0.3 * std::exp(-1.0), 1e-14));
+  CHECK(state[ContactLawTrait<GrowingPenalty>::friction_now] == growing.friction(half_a_metre, state));
   growing.part(out, state);
-  CHECK(state[GrowingPenalty::friction_now] == 0.4);
+  CHECK(state[ContactLawTrait<GrowingPenalty>::friction_now] == 0.4);
 
   AugmentedPenalty augmented{{0.4}, 4};
   double multiplier[] = {1500};
@@ -119,7 +120,7 @@ TEST_CASE("what the dashpot of a growing penalty takes is what it has done over 
   // A mass meets a damped spring: the sum of its own energy, the spring's and what is dissipated stays.
   const PenaltyGrowth::Point points[] = {{0, 1, 2e5, 0, 0}};
   const double damping = GENERATE(0.05, 0.5, 1.5), mass = 0.02, stiffness = 3e8;
-  const GrowingPenalty law{{points, 1}, 0, 0, 0, false, damping};
+  const GrowingPenalty law{{points, 1}, {0, 0, 0, 0}, false, damping};
   double state[GrowingPenalty::state_values] = {};
   const double step = 1e-9;
   double gap = 1e-9, speed = 0.1, stored = 0;
@@ -144,4 +145,34 @@ TEST_CASE("what the dashpot of a growing penalty takes is what it has done over 
     gap -= step * speed;
   }
   CHECK(law.dissipated(state) > 0.1 * given);
+}
+
+TEST_CASE("falling friction sees the mean velocity of the past, not how nodes vibrate about it") {
+  const double memory = 4e-5, step = 1e-7, speed = 0.3;
+  const FallingFriction law{0.5, 0.32, 6, memory};
+  const auto after = [&](double time, double vibration) {
+    double state[FallingFriction::state_values] = {0.5, 0, 0, 0};
+    const int steps = static_cast<int>(std::lround(time / step));
+    for (int k = 0; k < steps; ++k) {
+      const double now = speed + (k % 2 == 0 ? vibration : -vibration);
+      law.coefficient({{{0, step * now, 0}}, step}, state);
+    }
+    return state[FallingFriction::now];
+  };
+  for (const double time : {1e-5, 4e-5, 2e-4}) {
+    const double seen = speed * (1 - std::exp(-time / memory));
+    CHECK_THAT(after(time, 0), WithinRel(0.32 + 0.18 * std::exp(-6 * seen), 1e-9));
+    // To and fro at 5 MHz, faster than it slides.
+    CHECK_THAT(after(time, 0.4), WithinRel(after(time, 0), 1e-3));
+  }
+  double state[FallingFriction::state_values] = {0.5, 0, 0, 0};
+  law.coefficient({{{1, 0, 0}}, 0}, state);  // no time has passed: while a scene settles
+  CHECK(state[FallingFriction::now] == 0.5);
+  FallingFriction at_once = law;
+  at_once.memory = 0;
+  at_once.coefficient({{{step * speed, 0, 0}}, step}, state);
+  CHECK_THAT(state[FallingFriction::now], WithinRel(0.32 + 0.18 * std::exp(-6 * speed), 1e-14));
+  law.forget(state);
+  CHECK(state[FallingFriction::now] == 0.5);
+  CHECK(state[FallingFriction::remembered] == 0);
 }

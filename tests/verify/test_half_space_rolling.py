@@ -11,7 +11,9 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "scripts"))
 from verification.exact import Hertz, Steel  # noqa: E402
-from verification.half_space import SteadyRolling, converged, creepage_for_force, influence  # noqa: E402
+from verification.half_space import (  # noqa: E402
+    FallingFriction, SteadyRolling, converged, creepage_for_force, influence,
+)
 from verification.rolling import DATA, interpolate, reference_field, table_5_2  # noqa: E402
 from verification.stick_measure import sampled  # noqa: E402
 
@@ -114,6 +116,36 @@ class HalfSpaceRolling(unittest.TestCase):
             slips = solution.slips & (slip > 1e-3 * slip.max())
             against = np.sum(solution.shear * solution.slip, axis=1)[slips] / (size * slip)[slips]
             self.assertLess(against.max(), -1 + 1e-5)
+
+    def test_falling_friction(self):
+        """Against CONTACT's creep force of 0.370 of the normal force and peak shear of 602 MPa; the bound that makes
+        them is that of each cell's own slip."""
+        hertz = Hertz(110e3, 0.46, 0.30)
+        law, creepages = FallingFriction(0.5, 0.32, 6, 27.78), (0.005, 0, 0)
+        force, _ = converged(hertz, law, creepages, 60)
+        self.assertLess(abs(force[0] / hertz.force / 0.370 - 1), 0.01)
+        solution = SteadyRolling(hertz, law, creepages, 60)
+        size = np.linalg.norm(solution.shear, axis=1)
+        self.assertLess(abs(size.max() / 602e6 - 1), 0.03)
+        slip = 27.78 * np.linalg.norm(solution.slip, axis=1)
+        wished = 0.32 + 0.18 * np.exp(-6 * np.where(solution.slips, slip, 0))
+        self.assertLess(np.abs(solution.coefficient - wished).max(), 1e-4)
+        self.assertLess(np.abs(size / (wished * solution.pressure) - 1)[solution.slips].max(), 1e-3)
+        # Constant where it does not fall.
+        constant = SteadyRolling(hertz, FallingFriction(0.4, 0.4, 6, 27.78, 4e-5), creepages, 20)
+        np.testing.assert_allclose(constant.shear, SteadyRolling(hertz, 0.4, creepages, 20).shear, atol=1e3)
+
+    def test_memory_of_friction(self):
+        """What a particle remembers is the mean of its past's slip; friction comes down later, and more force is
+        left."""
+        law = FallingFriction(0.5, 0.32, 6, 30, 1e-4)
+        slip, h = np.full((2000, 1, 2), [0.003, 0.004]), 1e-5
+        seen = 30 * 0.005 * (1 - np.exp(-np.arange(1, 2001) * h / (30 * 1e-4)))
+        np.testing.assert_allclose(law.along(slip, h)[:, 0], 0.32 + 0.18 * np.exp(-6 * seen), rtol=1e-9)
+        hertz = Hertz(110e3, 0.46, 0.30)
+        forces = [SteadyRolling(hertz, FallingFriction(0.5, 0.32, 6, 27.78, memory), (0.005, 0, 0), 30).force[0]
+                  for memory in (0, 2e-5, 4e-5)]
+        self.assertTrue(1.005 * forces[0] < forces[1] < 0.995 * forces[2] < 1.03 * forces[0], forces)
 
     def test_stick_area_is_measured_right_at_a_runs_nodes(self):
         """Ten elements over the minor axis, half and a sixth of the patch sticking."""

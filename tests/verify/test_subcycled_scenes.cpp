@@ -23,7 +23,7 @@ scene::Scene block_on_coarse_one(const Vec3& lower_size, const std::array<int, 3
   return scene;
 }
 
-struct Sliding {
+struct SlidingRun {
   std::vector<double> time;
   std::vector<Vec3> force;  ///< N, on the upper block
   double gain = 0, imbalance = 0;
@@ -39,7 +39,7 @@ struct Sliding {
 };
 
 /// The upper block slides at 20 m/s while it is pressed on, up to 20 kN.
-Sliding slide(bool subcycling) {
+SlidingRun slide(bool subcycling) {
   scene::Scene scene = block_on_coarse_one({0.24, 0.24, 0.16}, {12, 12, 8}, 0.3);
   scene.solver.subcycling = subcycling;
   add_ramp(scene, "press", 0, 1e-4);
@@ -49,7 +49,7 @@ Sliding slide(bool subcycling) {
   build_model(scene, model);
   Recorder recorder;
   run(model, {&recorder});
-  Sliding result;
+  SlidingRun result;
   result.gain = model.subcycling.gain();
   for (const HistorySample& sample : recorder.samples) {
     CHECK(model.subcycling.in_phase(sample.step));
@@ -96,7 +96,7 @@ Flow flow(double share, bool subcycling) {
 }  // namespace
 
 TEST_CASE("contact forces and friction of a sliding block are the same with subcycling below it") {
-  const Sliding plain = slide(false), subcycled = slide(true);
+  const SlidingRun plain = slide(false), subcycled = slide(true);
   CHECK(subcycled.gain > 1.5);
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < subcycled.time.size(); ++k) {

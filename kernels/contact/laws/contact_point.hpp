@@ -13,7 +13,7 @@
 /// | `spring(k)` | N/m, of the springs of a segment whose penalty has k |
 /// | `touches(point, state)` | whether there is contact |
 /// | `pressing(point, state)` | N, the normal force, never a pull unless the law is one of adhesion |
-/// | `friction(slip, state)` | coefficient that bounds the tangential force, at a speed of sliding, m/s |
+/// | `friction(sliding, state)` | coefficient that bounds the tangential force, see laws/falling_friction.hpp |
 /// | `part(point, state)` | the node has come off |
 /// | `stored(point, normal_square, tangential_square)` | J in the springs, from the forces' squares, N2 |
 /// | `dissipated(state)` | J that the law has taken out so far, beside friction |

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kernels/contact/laws/contact_point.hpp"
+#include "kernels/contact/laws/falling_friction.hpp"
 
 namespace railwave {
 
@@ -40,16 +41,16 @@ struct PenaltyGrowth {
 /// A penalty that grows with penetration, friction that falls with the speed of sliding, and a dashpot beside the
 /// spring: each is there with its parameters, and none with those of the linear penalty.
 struct GrowingPenalty {
-  static constexpr int state_values = 3;
-  static constexpr int friction_now = 0;    ///< of the state: coefficient that acts
-  static constexpr int damping_force = 1;   ///< N, pressing, what damping adds to the penalty
-  static constexpr int damping_energy = 2;  ///< J dissipated so far
+  static constexpr int friction_state = 0;  ///< of the state: FallingFriction's
+  static constexpr int damping_force =
+      FallingFriction::state_values;                        ///< N, pressing, what damping adds to the penalty
+  static constexpr int damping_energy = damping_force + 1;  ///< J dissipated so far
+  static constexpr int state_values = damping_energy + 1;
 
   PenaltyGrowth growth;
-  double static_friction, dynamic_friction;
-  double friction_decay;  ///< c, s/m
-  bool falling;           ///< friction falls
-  double damping;         ///< share of critical damping; 0: none
+  FallingFriction falling_friction;
+  bool falling;    ///< friction falls
+  double damping;  ///< share of critical damping; 0: none
 
   KOKKOS_INLINE_FUNCTION bool asks_approach() const { return damping != 0; }
   KOKKOS_INLINE_FUNCTION double spring(double stiffness) const { return stiffness; }
@@ -68,18 +69,15 @@ struct GrowingPenalty {
     return damped;
   }
 
-  /// Falling friction, thesis eqs. 2.29: mu_d + (mu_s - mu_d) exp(-c |u|), u = de / dt. The force at t_n is bounded by
-  /// the normal force at t_n and the coefficient of the movement from t_(n-1) to t_n, and the coefficient that made the
-  /// bound is kept beside the two forces: they are of one instant (thesis 5.3.2.3 shows what it is to mix instants).
-  KOKKOS_INLINE_FUNCTION double friction(double slip, double* state) const {
-    if (!falling) return static_friction;
-    const double extra = static_friction - dynamic_friction;
-    state[friction_now] = dynamic_friction + extra * std::exp(-friction_decay * slip);
-    return state[friction_now];
+  /// The force at t_n is bounded by the normal force at t_n and the coefficient of the movement up to t_n, and the
+  /// coefficient that made the bound is kept beside the two forces: they are of one instant (thesis 5.3.2.3 shows what
+  /// it is to mix instants).
+  KOKKOS_INLINE_FUNCTION double friction(const Sliding& sliding, double* state) const {
+    return falling ? falling_friction.coefficient(sliding, state + friction_state) : falling_friction.at_rest;
   }
 
   KOKKOS_INLINE_FUNCTION void part(const ContactPoint& point, double* state) const {
-    if (falling) state[friction_now] = static_friction;
+    if (falling) falling_friction.forget(state + friction_state);
     if (damping != 0) book(point, 0, state);
   }
 

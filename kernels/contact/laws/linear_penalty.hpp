@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/contact/laws/contact_point.hpp"
+#include "kernels/contact/laws/falling_friction.hpp"
 
 namespace railwave {
 
@@ -18,7 +19,7 @@ struct LinearPenalty {
   KOKKOS_INLINE_FUNCTION double pressing(const ContactPoint& point, double* /*state*/) const {
     return -point.gap * point.stiffness;
   }
-  KOKKOS_INLINE_FUNCTION double friction(double /*slip*/, double* /*state*/) const { return coefficient; }
+  KOKKOS_INLINE_FUNCTION double friction(const Sliding& /*sliding*/, double* /*state*/) const { return coefficient; }
   KOKKOS_INLINE_FUNCTION void part(const ContactPoint& /*point*/, double* /*state*/) const {}
   KOKKOS_INLINE_FUNCTION double stored(const ContactPoint& point, double normal_square,
                                        double tangential_square) const {

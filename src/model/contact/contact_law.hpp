@@ -14,6 +14,12 @@ namespace railwave {
 /// src/case/keys_contacts.cpp).
 using ContactLaws = TypeList<LinearPenalty, GrowingPenalty>;
 
+/// Of a contact whose friction falls; of others the coefficient at rest.
+inline FallingFriction falling_friction(const scene::Contact& contact) {
+  return {contact.friction, contact.dynamic_friction.value_or(contact.friction), contact.friction_decay,
+          contact.friction_memory};
+}
+
 /// What a law is to the host.
 template <class Law>
 struct ContactLawTrait;
@@ -34,14 +40,12 @@ struct ContactLawTrait<LinearPenalty> {
 template <>
 struct ContactLawTrait<GrowingPenalty> {
   static constexpr bool with_smooth_normals = true;
-  static constexpr int friction_now = GrowingPenalty::friction_now;
+  static constexpr int friction_now = GrowingPenalty::friction_state + FallingFriction::now;
   static bool is_of(const scene::Contact& /*contact*/) { return true; }
   /// Nothing is damped while a scene settles: it has no time.
   static GrowingPenalty law(const scene::Contact& contact, const ContactLawArrays& arrays, bool settling) {
     return {{arrays.growth.data(), static_cast<int>(arrays.growth.extent(0))},
-            contact.friction,
-            contact.dynamic_friction.value_or(contact.friction),
-            contact.friction_decay,
+            falling_friction(contact),
             contact.falling_friction(),
             settling ? 0 : contact.damping};
   }

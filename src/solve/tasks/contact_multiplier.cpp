@@ -22,15 +22,24 @@ FreeMotion free_motion(const NodalState& nodal, const Instant& instant, const Re
 using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<true>,
                                    ContactMultiplier<false, SmoothNormals>, ContactMultiplier<true, SmoothNormals>>;
 
+static_assert(GrowingPenalty::friction_state == 0, "multipliers take the first values of the law's state");
+
 template <class Normals>
 AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion,
                               double elapsed, bool friction) {
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
-  if (friction)
-    return ContactMultiplier<true, Normals>{search, pair.window,      nodal.external.sum,
-                                            motion, pair.multipliers, first_touch(nodal, elapsed)};
-  return ContactMultiplier<false, Normals>{search, pair.window,      nodal.external.sum,
-                                           motion, pair.multipliers, first_touch(nodal, elapsed)};
+  const auto with = [&](auto has_friction) -> AnyMultiplier {
+    return ContactMultiplier<decltype(has_friction)::value, Normals>{
+        search,
+        pair.window,
+        nodal.external.sum,
+        motion,
+        pair.multipliers,
+        first_touch(nodal, elapsed),
+        falling_friction(*pair.contact),
+        pair.contact->falling_friction() ? pair.law.state : Array<double*>()};
+  };
+  return friction ? with(std::true_type()) : with(std::false_type());
 }
 
 AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion, double elapsed,

@@ -56,10 +56,13 @@ struct Nearest {
   double distance = 1e300;  ///< m, from the face itself, within its sides
 };
 
-Nearest nearest_face(const std::vector<MasterFace>& faces, const Vector3& x) {
+/// @param guess a face that may be near: it saves looking closely at most of the others
+Nearest nearest_face(const std::vector<MasterFace>& faces, const Vector3& x, int guess) {
   Nearest nearest;
+  double within = norm(x - faces[guess].centre) + faces[guess].radius;
   for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (norm(x - faces[f].centre) - faces[f].radius > nearest.distance) continue;
+    within = std::fmin(within, nearest.distance);
+    if (norm(x - faces[f].centre) - faces[f].radius > within) continue;
     const SeenSegment seen = faces[f].seen_from(x);
     const SegmentPlace place = ContactProjection::nearest_place(seen, {0, 0});
     const double distance = norm(seen.point(place.clamped()));
@@ -165,9 +168,11 @@ void add_tie(const AssembledScene& assembled, const scene::Tie& tie, Conflicts& 
   for (const Face& face : find_surface(assembled.scene, assembly, tie, "master", tie.master))
     faces.emplace_back(assembly, face);
   std::vector<std::string> far;
+  int guess = 0;
   for (int n : slaves) {
     const Vector3 x = vector(assembly.nodes[n]);
-    const Nearest nearest = nearest_face(faces, x);
+    const Nearest nearest = nearest_face(faces, x, guess);
+    guess = nearest.face;
     const MasterFace& face = faces[nearest.face];
     const double allowed = tie.max_distance.value_or(default_distance * face.diagonal);
     if (nearest.distance > allowed || nearest.place.outside() > most_outside) {
@@ -218,9 +223,11 @@ void refuse_coarse_slaves(const AssembledScene& assembled, const Ties& ties) {
     std::vector<MasterFace> faces;
     for (const Face& face : find_surface(assembled.scene, assembly, tie, "slave", tie.slave))
       faces.emplace_back(assembly, face);
+    int guess = 0;
     for (int n : surface_nodes(assembly, find_surface(assembled.scene, assembly, tie, "master", tie.master))) {
       if (weight[n] > least_weight) continue;
-      const Nearest nearest = nearest_face(faces, vector(assembly.nodes[n]));
+      const Nearest nearest = nearest_face(faces, vector(assembly.nodes[n]), guess);
+      guess = nearest.face;
       if (nearest.distance > default_distance * faces[nearest.face].diagonal || nearest.place.outside() > -least_weight)
         continue;
       refuse(assembled.scene, tie,

@@ -11,6 +11,11 @@ from verification.setting import RADIUS, Outcome, steady, zone
 
 # Of case 5 of the thesis's table 5.1, at its speed.
 STATIC, DYNAMIC, DECAY, SPEED, NORMAL, MEMORY = 0.5, 0.32, 6.0, 27.78, 110e3, 4e-5
+# Viscous control lets twenty elements' hourglass modes grow under this friction.
+HOURGLASS = [f"parts.{part}.{key}" for part in ("roller", "block") for key in (
+    'hourglass="stiffness"', "hourglass_coefficient=0.05")]
+# A node whose coefficient is within this of that at rest has not slid within its memory.
+AT_REST = 0.005
 # Longitudinal, lateral, spin (1/m).
 POINTS = {
     "along 0.2 %": (0.002, 0, 0), "along 0.5 %": (0.005, 0, 0), "along 1 %": (0.01, 0, 0),
@@ -37,7 +42,7 @@ def falling(run, label, elements, overrides, points):
                 *motion_of(creepages, NORMAL, SPEED), f"contacts.rolling.friction={STATIC}",
                 f"contacts.rolling.dynamic_friction={DYNAMIC}", f"contacts.rolling.friction_decay={DECAY}",
                 f"contacts.rolling.friction_memory={memory}", f"time.end={WAY / SPEED:.6g}",
-                "output.field_interval=3e-5", "settle.method=newton", *overrides,
+                "output.field_interval=3e-5", "settle.method=newton", *HOURGLASS, *overrides,
             ],
         )
         if results is None:
@@ -58,7 +63,7 @@ def compare(outcome, results, name, creepages, law, cells):
     exact, stick = converged(hertz, law, creepages, cells)
     at_once, _ = converged(hertz, FallingFriction(law.static, law.dynamic, law.decay, law.speed), creepages, cells)
     size = np.linalg.norm(solution.shear, axis=-1)
-    peaks, measured, sampled = [], [], []
+    peaks, measured, sampled, rests = [], [], [], []
     for k in last:
         state = results.state(k)
         x0, y0 = state.centre()
@@ -67,8 +72,12 @@ def compare(outcome, results, name, creepages, law, cells):
         peaks.append((np.linalg.norm(state.shear, axis=-1).max(), np.hypot(*mean).max()))
         measured.append(state.stick_share())
         sampled.append(sampled_stick(solution, state, x, y) * solution.stick_share)
+        touches, rest = state.pressure > 0, law.static - AT_REST
+        shown = solution.nearest(solution.coefficient, x, y)
+        rests.append((state.area[touches & (state.friction > rest)].sum() / state.area[touches].sum(),
+                      state.area[shown > rest].sum() / state.area[shown > 0].sum()))
     (peak, peak_shown), (by_line, by_count) = np.mean(peaks, axis=0), np.mean(measured, axis=0)
-    line_shows, count_shows = np.mean(sampled, axis=0)
+    (line_shows, count_shows), (at_rest, rest_shows) = np.mean(sampled, axis=0), np.mean(rests, axis=0)
     turn = np.degrees(np.angle(np.exp(1j * (np.arctan2(*tangential[::-1]) - np.arctan2(*exact[::-1])))))
     outcome.figures += [
         (f"({name}) normal force, N", normal, NORMAL, ""),
@@ -81,6 +90,7 @@ def compare(outcome, results, name, creepages, law, cells):
         (f"({name}) stick share of the patch, zero line", by_line, line_shows, ""),
         (f"({name}) stick share of the patch, by count", by_count, count_shows, ""),
         (f"({name})     of half-spaces", stick, stick, ""),
+        (f"({name}) share of the patch that has not slid", at_rest, rest_shows, ""),
     ]
     middle = int(np.argmin(np.abs(y[:, np.argmin(np.abs(x[0]))])))
     inside = np.abs(x[middle]) < 1.2 * hertz.a

@@ -71,8 +71,7 @@ Section contact_section() {
           .within(at_least(0)),
       key("friction_memory", &Contact::friction_memory,
           "of falling friction: the speed that counts is that of the sliding velocity's mean over the past, weighted "
-          "by "
-          "exp(-t/friction_memory); 0: the present speed, at which nodes stick and slip in turn (docs/contact.md)")
+          "by exp(-t/friction_memory); 0: the present speed, at which nodes stick and slip in turn (docs/contact.md)")
           .in("s")
           .within(between(0, 1)),
       key("algorithm", &Contact::algorithm,

@@ -61,12 +61,12 @@ def place_for(path, overwrite=False, inputs=()):
     return real
 
 
-def check_places(program, paths, overwrite):
+def check_places(program, paths, overwrite, inputs=()):
     """For a script before it computes for minutes: ends it with 2 and the reason where one of its pictures must not be
     written."""
     try:
         for path in paths:
-            place_for(str(path), overwrite)
+            place_for(str(path), overwrite, inputs)
     except BadFile as error:
         print(f"{program}: error: {error}", file=sys.stderr)
         sys.exit(2)

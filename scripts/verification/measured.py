@@ -128,6 +128,24 @@ class State:
         return stick_shares(self.x, self.y, self.pressure, self.shear, self.slipping == 1, self.area, self.friction)
 
 
+def largest_patches(program, results, contact, first, last):
+    """Of the outputs between two times, the rows of `railwave contact`, as texts, of the patch that presses most."""
+    with tempfile.TemporaryDirectory() as folder:
+        table = pathlib.Path(folder) / "patches.csv"
+        limits = ["--from", f"{first:.9g}", "--to", f"{last:.9g}"]
+        subprocess.run(
+            [program, "contact", results, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL
+        )
+        with open(table, encoding="utf-8") as file:
+            largest = {}  # by time: numbers stay with patches, whatever their forces
+            for row in csv.DictReader(file):
+                if row["contact"] == contact and row["patch"] != "0" and float(row["normal_force"]) > float(
+                    largest.get(row["time"], {"normal_force": 0})["normal_force"]
+                ):
+                    largest[row["time"]] = row
+            return list(largest.values())
+
+
 class Run:
     """@param program the railwave that computed it: for what `railwave contact` finds"""
 
@@ -151,20 +169,8 @@ class Run:
         contact`; None without the program."""
         if self.program is None:
             return None
-        with tempfile.TemporaryDirectory() as folder:
-            table = pathlib.Path(folder) / "patches.csv"
-            limits = ["--from", f"{start * self.times()[-1]:.9g}", "--to", f"{end * self.times()[-1] + 1e-6:.9g}"]
-            subprocess.run(
-                [self.program, "contact", self.path, "--csv", table, *limits], check=True, stdout=subprocess.DEVNULL
-            )
-            with open(table, encoding="utf-8") as file:
-                largest = {}  # by time: numbers stay with patches, whatever their forces
-                for row in csv.DictReader(file):
-                    if row["patch"] != "0" and float(row["normal_force"]) > float(
-                        largest.get(row["time"], {"normal_force": 0})["normal_force"]
-                    ):
-                        largest[row["time"]] = row
-                rows = list(largest.values())
+        end_of_run = self.times()[-1]
+        rows = largest_patches(self.program, self.path, self.name, start * end_of_run, end * end_of_run + 1e-6)
         return np.array(
             [[float(row[f"{which}_creepage"]) for which in ("longitudinal", "lateral", "spin")] for row in rows]
         )

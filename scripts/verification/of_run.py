@@ -5,10 +5,6 @@ patch best, less what the contact's own forces do to a half-space there. Between
 contact, with the run's normal force; its pressure carries the tangential contact (verification.half_space), whose
 creepages are those that have the run's tangential force, with the run's spin."""
 
-import csv
-import pathlib
-import subprocess
-import tempfile
 from dataclasses import dataclass
 
 import h5py
@@ -16,6 +12,7 @@ import matplotlib.tri
 import numpy as np
 
 from verification.half_space import RollingContact, influence
+from verification.setting import rms
 
 REACH = 4.0  # larger semi-axes round the patch's centre: the nodes that tell how a body lies
 
@@ -165,27 +162,9 @@ def creepages_for_forces(pressure, x, y, material, friction, spin, wish):
     raise RuntimeError(f"no creepages found for forces of {wish[0]:.6g}, {wish[1]:.6g} N")
 
 
-def patches(program, results, contact, first, last):
-    """Rows of `railwave contact` of the patch that presses most at each output between two times."""
-    with tempfile.TemporaryDirectory() as folder:
-        table = pathlib.Path(folder) / "patches.csv"
-        subprocess.run(
-            [program, "contact", results, "--csv", table, "--from", f"{first:.12g}", "--to", f"{last:.12g}"],
-            check=True, stdout=subprocess.DEVNULL,
-        )
-        rows = {}
-        with open(table, encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                if row["contact"] == contact and row["patch"] != "0" and float(row["normal_force"]) > float(
-                    rows.get(row["time"], {"normal_force": 0})["normal_force"]
-                ):
-                    rows[row["time"]] = row
-    return list(rows.values())
-
-
 class Beside:
     """One output of a run beside half-spaces. Forces are those on the slave; x along the rolling direction, y across.
-    @param row of `railwave contact`, see patches(); friction the run's where none is given"""
+    @param row of `railwave contact`, see measured.largest_patches(); friction the run's where none is given"""
 
     def __init__(self, results, contact, row, material, cells=60, friction=None):
         number = {key: float(value) for key, value in row.items() if key != "contact" and value != ""}
@@ -211,16 +190,15 @@ class Beside:
             frame = self.frame = Frame(frame.centre, frame.axes[0], -frame.axes[2])
         semi = number["semi_axis_along"], number["semi_axis_across"]
         self.place = frame.places(slave.present)
-        own = (self.pressure > 0) & (np.hypot(self.place[:, 0] / semi[0], self.place[:, 1] / semi[1]) < 1.6)
+        own = self.own = (self.pressure > 0) & (np.hypot(self.place[:, 0] / semi[0], self.place[:, 1] / semi[1]) < 1.6)
         self.normal = frame.vectors(slave.normal_force[own].sum(axis=0))[2]
         self.force = frame.vectors(slave.tangential_force[own].sum(axis=0))[:2]
         self.spin, self.outline = number.get("spin_creepage", 0.0), number["area"]
-        self.own = own
         top, bottom = (height(side, frame, out, max(semi), material) for side, out in ((slave, -1), (master, 1)))
         for reach in (1.3, 1.6, 2.0, 2.5):
             x, y = (reach * size * (2 * np.arange(cells) + 1 - cells) / cells for size in semi)
-            gap = top(x[None, :] + 0 * y[:, None], y[:, None] + 0 * x[None, :]) - bottom(
-                x[None, :] + 0 * y[:, None], y[:, None] + 0 * x[None, :])
+            cell = np.meshgrid(x, y)
+            gap = top(*cell) - bottom(*cell)
             if np.isnan(gap).all():
                 raise RuntimeError("the surfaces do not lie over each other at the patch")
             gap = np.where(np.isnan(gap), np.nanmax(gap) + 1e-3, gap)
@@ -231,7 +209,6 @@ class Beside:
             raise RuntimeError("the patch is more than twice as large as the run's; the surfaces written "
                                "end within it, or are nearly conformal")
         self.solution = creepages_for_forces(pressed, x, y, material, self.friction, self.spin, self.force)
-        self.pressed = pressed
 
     def sampled(self, values):
         """Of values over the solution's cells, their means over the shares of the slave's nodes that touch: squares as
@@ -265,11 +242,7 @@ class Beside:
             ("stick share, by nodes", area[self.slipping[own] == 1].sum() / area.sum(),
              area[self.sampled((~solution.slips).astype(float)) > 0.5].sum() / area.sum()),
             ("shear along the centre line, L2 off",
-             relative(shear[line] - theory[line], theory[line], area[line]), 0.0),
-            ("shear over the patch, L2 off", relative(shear - theory, theory, area), 0.0),
+             rms(shear[line] - theory[line], theory[line], area[line, None]), 0.0),
+            ("shear over the patch, L2 off", rms(shear - theory, theory, area[:, None]), 0.0),
             ("direction of the shear, mean off, deg", np.sum(weight * np.abs(angle)) / weight.sum(), 0.0),
         ]
-
-
-def relative(error, exact, area):
-    return float(np.sqrt(np.sum(area[:, None] * error**2) / np.sum(area[:, None] * exact**2)))

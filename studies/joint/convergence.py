@@ -14,7 +14,7 @@ NEAR = [
     f"meshes.wheelset.zone_start={START - 0.1:g}", f"meshes.wheelset.path_length={START + 0.18:g}",
     f"tracks.track.path_start=-{START + 0.03:g}", f"time.end={END}",
 ]
-# The forces are in the histories.
+# The forces are in the histories. Windows may not begin behind a run's end.
 NO_FIELDS = [f"output_windows.{window}.{key}" for window in ("passage", "approach", "landing", "slipping")
              for key in ("start=0", "end=1e-3", "interval=1")]
 

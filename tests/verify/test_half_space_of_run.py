@@ -124,7 +124,7 @@ class HalfSpacesOfARun(unittest.TestCase):
             self.assertLess(figures["shear over the patch, L2 off"][0], 0.07)
             self.assertLess(figures["direction of the shear, mean off, deg"][0], 1)
             self.assertLess(abs(figures["stick share, by nodes"][0] - figures["stick share, by nodes"][1]), 0.03)
-            # The bodies lie where they are: without their rotation there would be no contact at all.
+            # A file without what is needed is refused, and so by the command.
             with h5py.File(path, "r+") as file:
                 del file["contact/tread/master/position"]
             command = [SOURCE / "scripts" / "half_space", path, "--program", "true"]
@@ -132,6 +132,11 @@ class HalfSpacesOfARun(unittest.TestCase):
             self.assertNotEqual(said.returncode, 0)
             self.assertIn("half_space:", said.stderr)
             self.assertNotIn("Traceback", said.stderr)
+            before = path.read_bytes()
+            for option in ("--csv", "--picture"):  # a slip of the pen costs nobody the results
+                refused = subprocess.run([*command, option, path, "--overwrite"], capture_output=True, check=False)
+                self.assertEqual(refused.returncode, 2)
+            self.assertEqual(path.read_bytes(), before)
             with self.assertRaisesRegex(RuntimeError, "master/position"):
                 Beside(path, "tread", MadeUp.row(), Steel)
 

@@ -1,6 +1,7 @@
 """Pictures of computed against exact."""
 
 import matplotlib.pyplot as plt
+import numpy as np
 from pictures import style
 from pictures.output import check_places, put_figure
 
@@ -37,3 +38,20 @@ def save(outcome, path, title, overwrite=False):
     put_figure(figure, str(path), style.RESOLUTION, overwrite)
     plt.close(figure)
     print(path)
+
+
+def centre_line(axes, one):
+    """Shear and its bound along the centre line of a Beside, of the run and of half-spaces."""
+    solution = one.solution
+    y = np.average(solution.y, weights=solution.pressure)
+    row = np.flatnonzero(solution.row == solution.row[np.abs(solution.y - y).argmin()])
+    row = row[np.argsort(solution.x[row])]
+    node = one.own & (np.abs(one.place[:, 1] - y) < 0.5 * np.sqrt(one.area))
+    node = np.flatnonzero(node)[np.argsort(one.place[node, 0])]
+    axes.plot(1e3 * solution.x[row], 1e-6 * solution.friction * solution.pressure[row], "k:", label="bound")
+    for c, (name, colour) in enumerate((("along", "tab:red"), ("across", "tab:blue"))):
+        axes.plot(1e3 * solution.x[row], 1e-6 * solution.shear[row, c], color=colour, label=f"half-spaces, {name}")
+        axes.plot(1e3 * one.place[node, 0], 1e-6 * one.shear[node, c], "o", ms=3, color=colour, label=name)
+    axes.set_title(f"{1e3 * one.time:.3f} ms", fontsize=10)
+    axes.set_xlabel("along, mm")
+    axes.grid(alpha=0.3)

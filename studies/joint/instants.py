@@ -9,7 +9,7 @@ import numpy as np
 from passing import INTERVAL, START
 from pictures import style
 from pictures.contact_solution import ContactSolution
-from pictures.panels import Fine, draw_arrows, draw_edge, draw_pressure, draw_stick_boundary, pressure_levels
+from pictures.panels import Fine, draw_arrows, draw_edge, draw_pressure, pressure_levels
 from pictures.patch import draw_row
 
 TOUCH = 46.39e-3  # s, when the thesis's wheel touches the second rail: its instants are found again by that

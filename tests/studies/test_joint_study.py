@@ -20,7 +20,7 @@ except ImportError:
 ROOT = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
 STUDY = ROOT / "studies" / "joint"
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
-sys.path[:0] = [str(STUDY), str(ROOT / "scripts")]
+sys.path[:0] = [str(STUDY), str(STUDY.parent / "common"), str(ROOT / "scripts")]
 import hammer  # noqa: E402
 import passing  # noqa: E402
 import scan  # noqa: E402

@@ -92,11 +92,11 @@ class Steps:
         return f"{path} {pathlib.Path(path).stat().st_mtime_ns}"
 
 
-def main(work):
-    """Calls work() and reports what failed without a traceback."""
+def main(study, work):
+    """Calls work() and reports by the name of the study what failed, without a traceback."""
     try:
         work()
     except Failed as failure:
-        sys.exit(f"studies/joint: error: {failure}")
+        sys.exit(f"{study}: error: {failure}")
     except KeyboardInterrupt:
-        sys.exit("studies/joint: interrupted; the same command goes on from here")
+        sys.exit(f"{study}: interrupted; the same command goes on from here")

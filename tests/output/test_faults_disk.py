@@ -236,7 +236,8 @@ class Vanished(Folder):
     def running(self, *options):
         self.case(end=LONG)
         run = self.start("run", "case.toml", *options)
-        while not self.results.exists() or len(self.results.read_bytes()) < 30000:
+        described = self.folder / "results.xdmf"  # comes after the first output
+        while not described.exists() or len(self.results.read_bytes()) < 30000:
             self.assertIsNone(run.poll())
             time.sleep(0.01)
         return run

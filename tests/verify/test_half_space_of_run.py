@@ -127,7 +127,7 @@ class HalfSpacesOfARun(unittest.TestCase):
             # A file without what is needed is refused, and so by the command.
             with h5py.File(path, "r+") as file:
                 del file["contact/tread/master/position"]
-            command = [SOURCE / "scripts" / "half_space", path, "--program", "true"]
+            command = [sys.executable, SOURCE / "scripts" / "half_space", path, "--program", "true"]
             said = subprocess.run(command, capture_output=True, text=True, check=False)
             self.assertNotEqual(said.returncode, 0)
             self.assertIn("half_space:", said.stderr)

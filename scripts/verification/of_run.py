@@ -221,6 +221,13 @@ class Beside:
                     values, self.place[self.own, 0] + dx * side, self.place[self.own, 1] + dy * side)
         return total / len(offsets) ** 2
 
+    def below_bound(self, pressure, shear):
+        """Share of the patch in which more than a fiftieth of the peak bound is left: unlike the nodes' own states,
+        which vibration changes from instant to instant."""
+        left = pressure - np.linalg.norm(shear, axis=1) / self.friction
+        area = self.area[self.own]
+        return area[left > 0.02 * pressure.max()].sum() / area[pressure > 0].sum()
+
     def figures(self):
         """(what, of the run, of half-spaces)."""
         solution, own, area = self.solution, self.own, self.area[self.own]
@@ -241,6 +248,8 @@ class Beside:
             ("patch, m2", self.outline, len(solution.x) * cell),
             ("stick share, by nodes", area[self.slipping[own] == 1].sum() / area.sum(),
              area[self.sampled((~solution.slips).astype(float)) > 0.5].sum() / area.sum()),
+            ("stick share, by force", self.below_bound(self.pressure[own], shear),
+             self.below_bound(self.sampled(solution.pressure), theory)),
             ("shear along the centre line, L2 off",
              rms(shear[line] - theory[line], theory[line], area[line, None]), 0.0),
             ("shear over the patch, L2 off", rms(shear - theory, theory, area[:, None]), 0.0),

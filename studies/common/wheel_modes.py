@@ -17,13 +17,14 @@ def table(steps, coarse):
     return rows_of(path)
 
 
+def axial(listed, diameters):
+    """Frequency of the axial mode without nodal circle, Hz; None: it is not in the table."""
+    wanted = "axial", "0", str(diameters)
+    return min((float(row["frequency"]) for row in listed
+                if (row["kind"], row["nodal_circles"], row["nodal_diameters"]) == wanted), default=None)
+
+
 def rows(listed):
     """(what, thesis, thesis, found), Hz, of the axial modes that the thesis names."""
-
-    def frequency(diameters):
-        wanted = "axial", "0", str(diameters)
-        return min((float(row["frequency"]) for row in listed
-                    if (row["kind"], row["nodal_circles"], row["nodal_diameters"]) == wanted), default=None)
-
-    return [(f"wheel, bore held: axial mode (0,{diameters})", simulated, simulated, frequency(diameters))
+    return [(f"wheel, bore held: axial mode (0,{diameters})", simulated, simulated, axial(listed, diameters))
             for diameters, simulated in AXIAL]

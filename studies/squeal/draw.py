@@ -3,7 +3,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from cases import NAMES, SIDEWAYS, SOLUTIONS, ZONE
+from cases import NAMES, SIDEWAYS, SOLUTIONS, SPEED, ZONE
 from pictures import style
 from pictures.contact_solution import ContactSolution
 from pictures.patch import draw_patch, draw_row
@@ -87,34 +87,42 @@ def along_centre(contact, first, last):
     return np.array(times), place, np.array(shear)
 
 
-def carried(times, place, shear, speeds=np.arange(2.0, 80.0, 1.0)):
-    """The speed, m/s, against the rolling direction, at which what the shear has above its mean moves through the
-    patch: at which it adds up to the most along its way over the leading half. And how much of its variance that is."""
-    above = shear - shear.mean(axis=0)
-    start = place > 0
-    step, found = np.median(np.diff(times)), []
-    for speed in speeds:
-        count = max(2, int(1e-3 * place[-1] / (speed * step)))
-        if len(times) <= count:
-            found.append(0.0)
-            continue
-        ways = [[np.interp(place[start] - 1e3 * speed * step * k, place, above[n + k]) for k in range(count)]
-                for n in range(len(times) - count)]
-        found.append(np.mean(np.mean(ways, axis=1) ** 2) / np.mean(np.square(ways)))
-    best = int(np.argmax(found))
-    return speeds[best], found[best]
+def above_trend(times, shear):
+    """Shear less, at each place, its parabola in time: what goes with the forces of the whole patch is left out."""
+    clock = (times - times.mean()) / np.ptp(times)
+    powers = np.vander(clock, 3)
+    return shear - powers @ np.linalg.lstsq(powers, shear, rcond=None)[0]
+
+
+def delay(times, place, shear, leading=0.8, inner=0.3, most=0.4e-3):
+    """By how much what the shear has above its trend comes later at a place in the leading half of the patch than near
+    the leading edge, both in halves of its length from its centre: s, at which both are most alike; their correlation
+    then; how long what rolls needs from one to the other at 27.78 m/s, s. nan: there are too few outputs."""
+    above, step = above_trend(times, shear), np.median(np.diff(times))
+    before, after = (above[:, np.abs(place - share * place[-1]).argmin()] for share in (leading, inner))
+    alike = [np.corrcoef(before[:len(before) - lag], after[lag:])[0, 1]
+             for lag in range(min(len(times) // 2, int(most / step)))]
+    carried = 1e-3 * (leading - inner) * place[-1] / SPEED
+    if len(alike) < 3:
+        return np.nan, np.nan, carried
+    k = int(np.argmax(alike))
+    shift = 0.0
+    if 0 < k < len(alike) - 1:
+        low, top, high = alike[k - 1:k + 2]
+        shift = 0.5 * (low - high) / (low - 2 * top + high)
+    return step * (k + shift), alike[k], carried
 
 
 def draw_carried(times, place, shear):
-    """What the shear on the centre line has above its mean, by place and time (fig. 5.5)."""
+    """What the shear on the centre line has above its trend, by place and time (fig. 5.5)."""
     figure, axes = plt.subplots(figsize=(6, 6), constrained_layout=True)
-    above = shear - shear.mean(axis=0)
+    above = above_trend(times, shear)
     largest = np.percentile(np.abs(above), 99)
     drawn = axes.pcolormesh(place, 1e3 * times, above, cmap=style.SIGNED_MAP, vmin=-largest, vmax=largest,
                             shading="nearest")
     axes.set_xlabel("along the centre line, mm; it rolls to the right")
     axes.set_ylabel("time, ms")
-    figure.colorbar(drawn, ax=axes, label="shear less its mean, MPa")
+    figure.colorbar(drawn, ax=axes, label="shear less its trend, MPa")
     return figure
 
 
@@ -130,9 +138,91 @@ def findings(found, read):
         together = np.sum(swing[0] * swing[1]) / np.sqrt(np.sum(swing[0] ** 2) * np.sum(swing[1] ** 2))
         rows.append(("case 1 in the zone: swing of bound and creep force, how alike", "not in phase",
                      f"{swing[0].std():.2f}, {swing[1].std():.2f} kN; correlation {together:+.2f}"))
-        speed, share = carried(*along_centre(read[1], *(time - one.earlier for time in ZONE)))
-        rows.append(("case 1: what the shear has above its mean moves through the patch at",
-                     "from the leading edge to the border of slip", f"{speed:.0f} m/s ({share:.2f} of its variance)"))
+        times, place, shear = along_centre(read[1], *(time - one.earlier for time in ZONE))
+        if len(times) > 2:
+            late, alike, carried = delay(times, place, shear)
+            rows.append(("case 1: shear at 0.3 of the patch's half length follows that at 0.8 by",
+                         f"material needs {1e6 * carried:.0f} us", f"{1e6 * late:.0f} us (correlation {alike:.2f})"))
+    if 5 in read:
+        patches = read[5].patches(index(5, FALLING))
+        if patches:
+            yield "falling", draw_patch("case 5", read[5], patches[0])
+
+
+def along_centre(contact, first, last):
+    """Of the largest patch at each output between two times of the file: times, s; places along its centre line from
+    its centre, mm, the rolling direction positive; shear there by time and place, MPa; nan: beyond the patch."""
+    times, cuts = [], []
+    for k, time in enumerate(contact.times):
+        patches = contact.patches(k) if first <= time <= last else []
+        if patches:
+            times.append(time)
+            cuts.append(patches[0].cut())
+    if not cuts:
+        return np.empty(0), np.empty(0), np.empty((0, 0))
+    reach = min(np.abs(cut["distance"][cut["pressure"] > 0]).max() for cut in cuts)
+    place = np.linspace(-reach, reach, 61)
+    shear = [np.interp(place, cut["distance"], np.hypot(cut["shear_along"], cut["shear_across"])) for cut in cuts]
+    return np.array(times), place, np.array(shear)
+
+
+def above_trend(times, shear):
+    """Shear less, at each place, its parabola in time: what goes with the forces of the whole patch is left out."""
+    clock = (times - times.mean()) / np.ptp(times)
+    powers = np.vander(clock, 3)
+    return shear - powers @ np.linalg.lstsq(powers, shear, rcond=None)[0]
+
+
+def delay(times, place, shear, leading=0.8, inner=0.3, most=0.4e-3):
+    """By how much what the shear has above its trend comes later at a place in the leading half of the patch than near
+    the leading edge, both in halves of its length from its centre: s, at which both are most alike; their correlation
+    then; how long what rolls needs from one to the other at 27.78 m/s, s. nan: there are too few outputs."""
+    above, step = above_trend(times, shear), np.median(np.diff(times))
+    before, after = (above[:, np.abs(place - share * place[-1]).argmin()] for share in (leading, inner))
+    alike = [np.corrcoef(before[:len(before) - lag], after[lag:])[0, 1]
+             for lag in range(min(len(times) // 2, int(most / step)))]
+    carried = 1e-3 * (leading - inner) * place[-1] / SPEED
+    if len(alike) < 3:
+        return np.nan, np.nan, carried
+    k = int(np.argmax(alike))
+    shift = 0.0
+    if 0 < k < len(alike) - 1:
+        low, top, high = alike[k - 1:k + 2]
+        shift = 0.5 * (low - high) / (low - 2 * top + high)
+    return step * (k + shift), alike[k], carried
+
+
+def draw_carried(times, place, shear):
+    """What the shear on the centre line has above its trend, by place and time (fig. 5.5)."""
+    figure, axes = plt.subplots(figsize=(6, 6), constrained_layout=True)
+    above = above_trend(times, shear)
+    largest = np.percentile(np.abs(above), 99)
+    drawn = axes.pcolormesh(place, 1e3 * times, above, cmap=style.SIGNED_MAP, vmin=-largest, vmax=largest,
+                            shading="nearest")
+    axes.set_xlabel("along the centre line, mm; it rolls to the right")
+    axes.set_ylabel("time, ms")
+    figure.colorbar(drawn, ax=axes, label="shear less its trend, MPa")
+    return figure
+
+
+def findings(found, read):
+    """Rows of the study's table: how the forces of case 1 swing, how its shear moves, how case 5 slips."""
+    rows = []
+    if 1 in read:
+        one = found[1]
+        zone = (one.time > ZONE[0]) & (one.time < ZONE[1])
+        bound, creep = one.friction * one.normal[zone], one.creep[zone]
+        time = one.time[zone]
+        swing = [values - np.polyval(np.polyfit(time, values, 2), time) for values in (bound, creep)]
+        together = np.sum(swing[0] * swing[1]) / np.sqrt(np.sum(swing[0] ** 2) * np.sum(swing[1] ** 2))
+        rows.append(("case 1 in the zone: swing of bound and creep force, how alike", "not in phase",
+                     f"{swing[0].std():.2f}, {swing[1].std():.2f} kN; correlation {together:+.2f}"))
+        times, place, shear = along_centre(read[1], *(time - one.earlier for time in ZONE))
+        if len(times) > 8:
+            speed, share = carried(times, place, shear)
+            rows.append(("case 1: what the shear has above its trend moves through the patch at",
+                         "from the leading edge to the border of slip",
+                         f"{speed:.0f} m/s ({share:.2f} of its variance)"))
     if 5 in read:
         patches = read[5].patches(read[5].nearest(FALLING - found[5].earlier))
         if patches:

@@ -5,12 +5,12 @@ import json
 
 import numpy as np
 
-from cases import CASE, COARSE, EARLIER, MOTIONS, SOLUTIONS, Motion, Rolling, settings
+from cases import CASE, EXTENTS, MOTIONS, SOLUTIONS, Motion, Rolling, earlier, settings
 
 ROUNDS, NEAR = 6, 0.035  # runs for a case; misfit that will do
 LARGEST_MOVE = 0.3  # of the logarithm of a displacement or duration from run to run
-FIT = ["output_windows.solutions.end=16.6e-3", "output_windows.waves.end=18.181e-3", "time.end=18.6e-3"]
-FIT_COARSE = ["time.end=6.1e-3"]
+FIT = ["output_windows.solutions.end=16.6e-3", "time.end=18.6e-3"]
+FIT_SHORT = ["time.end=6.1e-3"]
 # What is fitted: of these solutions the lateral force; of the last one, where friction is used up, the direction.
 FITTED = {2: ("b",), 3: ("c", "e"), 4: ("d", "f")}
 DIRECTED, TURN = "f", 90.0  # degrees that count as much as the whole of a force
@@ -30,16 +30,16 @@ def misfit(one, number):
     return np.array(entries), "; ".join(texts)
 
 
-def fit(steps, coarse, numbers):
+def fit(steps, extent, numbers):
     """Rows of a table: case, run, motion, forces. Writes the best motions to fit.json."""
     rows = [["case", "run", "displacement, mm", "duration, ms", "lateral forces and directions, and the thesis's"]]
     best = {}
     for number in sorted(set(FITTED) & set(numbers)):
         motion, slope, last, least = MOTIONS[number], np.array(SLOPES[number]), None, np.inf
         for turn in range(1, ROUNDS + 1):
-            results = steps.run(f"fit_{number}_{turn}", CASE,
-                                [*(COARSE + FIT_COARSE if coarse else FIT), *settings(number, motion)])
-            off, text = misfit(Rolling(number, results, EARLIER if coarse else 0.0), number)
+            results = steps.run(f"fit_{number}_{turn}", CASE, [
+                *EXTENTS[extent], *(FIT if extent == "full" else FIT_SHORT), *settings(number, motion)])
+            off, text = misfit(Rolling(number, results, earlier(extent)), number)
             rows.append([str(number), str(turn), f"{1e3 * motion.displacement:.3f}", f"{1e3 * motion.duration:.3f}",
                          text])
             if np.abs(off).max() < least:

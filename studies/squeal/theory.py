@@ -32,7 +32,7 @@ def findings(compared):
     for name, one in compared.items():
         of = {what: (own, theory) for what, own, theory in one.figures()}
         line, whole = (of[f"shear {where}, L2 off"][0] for where in ("along the centre line", "over the patch"))
-        own, theory = of["stick share, by nodes"]
+        own, theory = of["stick share, by force"]
         rows += [
             (f"{name} beside half-spaces: shear along the centre line, over the patch (L2)", "8 %",
              f"{100 * line:.1f}, {100 * whole:.1f} %"),

@@ -5,12 +5,15 @@ import h5py
 import matplotlib.pyplot as plt
 import numpy as np
 
+import wheel_modes
 from cases import NAMES, SIDEWAYS
 from pictures import style
 from pictures.signals import Signals, draw_wavelet
 
-NAMED = (163.0, 1172.0, 1921.0)  # Hz, of the thesis's lateral vibration (table 5.3)
-WITHIN = 0.05  # of a mode's frequency
+NAMED = {0: 163.0, 3: 1172.0, 4: 1921.0}  # Hz, of the thesis's lateral vibration, by nodal diameters (table 5.3)
+# Of the wheel's own mode, within which a maximum is looked for; and how many times the median from a third of the
+# frequency to three times it that is.
+WITHIN, STANDS_OUT = 0.05, 50
 PLACE = "wheelset.rim_above"
 BAND = (100.0, 5000.0)  # Hz
 PADDED = 8  # times the record's length, to read frequencies finer than one over it
@@ -27,7 +30,7 @@ class Rim:
             self.time = history["time"][:] + one.earlier
             rim, bore = (history[f"set/{name}"] for name in (PLACE, "wheelset.bore"))
             # The bore's mean place is the axle's: the set goes once around.
-            arm = (rim["position"][:] - bore["position"][:])[:, [0, 2]]
+            arm = np.subtract(*(side["position"][:] + side["displacement"][:] for side in (rim, bore)))[:, [0, 2]]
             velocity = rim["velocity"][:] - bore["velocity"][:]
             self.lateral = rim["velocity"][:, 1]
         self.arm = np.linalg.norm(arm, axis=1)
@@ -59,18 +62,13 @@ def peaks(frequency, density, least=1e-4):
     return frequency[top[np.argsort(-density[top])]]
 
 
-def nearest(listed, wanted):
-    listed = np.asarray(listed, float)
-    return float(listed[np.abs(listed - wanted).argmin()]) if len(listed) else None
-
-
-def named(frequency, modes, kinds):
-    """The mode of the wheel nearest to a frequency: its name, Hz; None: there are none."""
-    of = [row for row in modes if row["kind"] in kinds]
-    if not of:
-        return None
-    row = min(of, key=lambda row: abs(float(row["frequency"]) - frequency))
-    return f"{row['kind']} ({row['nodal_circles']},{row['nodal_diameters']})", float(row["frequency"])
+def near(frequency, density, mode):
+    """Frequency of the highest local maximum within WITHIN of a mode's, Hz; None: there is none that stands out."""
+    around = (frequency > mode / 3) & (frequency < 3 * mode)
+    top = (density[1:-1] > density[:-2]) & (density[1:-1] >= density[2:])
+    top = np.flatnonzero(top & (np.abs(frequency[1:-1] / mode - 1) < WITHIN)) + 1
+    top = top[density[top] > STANDS_OUT * np.median(density[around])]
+    return float(frequency[top[density[top].argmax()]]) if len(top) else None
 
 
 def findings(rims, modes):
@@ -79,15 +77,16 @@ def findings(rims, modes):
     for number, rim in sorted(rims.items()):
         if number == 1:
             continue
-        found = peaks(*spectrum(*rim.later("lateral")))
-        for wanted in NAMED:
-            own = nearest(found, wanted)
-            what, text, off = f"case {number}: lateral vibration near {wanted:.0f} Hz", "none", ""
-            if own is not None:
-                name, mode = named(own, modes, ("axial",))
-                text = f"{own:.0f} Hz, {name} of the wheel {mode:.0f} Hz"
-                off = f"{100 * (own / mode - 1):+.1f} % of the mode"
-            rows.append((what, f"{wanted:.0f} Hz", text, off))
+        density = spectrum(*rim.later("lateral"))
+        found = peaks(*density)
+        for diameters, thesis in NAMED.items():
+            mode = wheel_modes.axial(modes, diameters)
+            own = mode and near(*density, mode)
+            rows.append((
+                f"case {number}: lateral vibration at the wheel's axial mode (0,{diameters})", f"{thesis:.0f} Hz",
+                *((f"{own:.0f} Hz, mode {mode:.0f} Hz", f"{100 * (own / mode - 1):+.1f} % of the mode") if own else
+                  ("none", "")),
+            ))
         strongest = ", ".join(f"{f:.0f}" for f in found[:6])
         rows.append((f"case {number}: strongest lateral vibration", "", f"{strongest} Hz"))
         for which in ("radial", "circumferential"):
@@ -114,7 +113,7 @@ def draw(rims):
         frequency, density = spectrum(time, velocity)
         shown = (frequency > 50) & (frequency < BAND[1])
         power.semilogy(frequency[shown], density[shown], linewidth=0.8)
-        for wanted in NAMED:
+        for wanted in NAMED.values():
             power.axvline(wanted, color="0.6", linestyle=":")
         power.set_xlabel("frequency, Hz")
         for axes in (line, cycle, power):

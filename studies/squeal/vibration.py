@@ -129,10 +129,11 @@ def wavelets(steps, found):
         if number not in found:
             continue
         one = found[number]
+        low = max(BAND[0], 2 / (one.time[-1] - one.earlier))
         for name, axis in (("lateral", "y"), ("vertical", "z"), ("longitudinal", "x")):
             path = steps.path(f"wavelet_{number}_{name}.h5")
             words = [steps.program, "signal", "wavelet", one.results, "--channel", f"wheelset.bore.velocity.{axis}"
-                     if axis != "y" else f"{PLACE}.velocity.y", "--trend", "line", "--low", f"{BAND[0]:.0f}", "--high",
+                     if axis != "y" else f"{PLACE}.velocity.y", "--trend", "line", "--low", f"{low:.0f}", "--high",
                      f"{BAND[1]:.0f}", "--hdf5", path, "--overwrite"]
             steps.once(path.stem, [one.results], words, lambda words=words: steps.command(*words, quiet=True))
             yield path.stem, draw_wavelet(Signals(path))

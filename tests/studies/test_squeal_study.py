@@ -114,6 +114,26 @@ class Shear(unittest.TestCase):
         self.assertTrue(np.isnan(draw.delay(times[:4], place, shear[:4])[0]))
 
 
+    def test_rows_and_picture_of_a_made_up_contact(self):
+        times = 16.5e-3 + 3e-5 * np.arange(74)
+        place = np.linspace(-6, 6, 13)
+
+        def patches(k):
+            pressure = np.sqrt(1 - (place / 6.5) ** 2)
+            shear = 100 * pressure + 10 * np.sin(1e3 * (place / 1e3 + 27.78 * times[k]))
+            return [types.SimpleNamespace(cut=lambda: {
+                "distance": place, "pressure": pressure, "shear_along": shear, "shear_across": 0 * place})]
+
+        clock = np.linspace(0, 20e-3, 2001)
+        run = types.SimpleNamespace(time=clock, earlier=0.0, friction=0.45, normal=110 + np.sin(2e4 * clock),
+                                    creep=30 + np.cos(2e4 * clock))
+        contact = types.SimpleNamespace(times=times, patches=patches)
+        rows = draw.findings({1: run}, {1: contact})
+        self.assertEqual(len(rows), 2)
+        self.assertRegex(rows[1][2], r"^\d+ us")
+        self.assertIsNotNone(draw.draw_carried(*draw.along_centre(contact, times[0], times[-1])))
+
+
 class Vibration(unittest.TestCase):
     def test_modes_found_and_named(self):
         time = np.arange(0, 24e-3, 1e-5)

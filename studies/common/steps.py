@@ -64,6 +64,13 @@ class Steps:
         unfinished.write_text(json.dumps(self._done, indent=1))
         unfinished.replace(self._list)
 
+    def derive(self, path, results, *words):
+        """What a command of the program makes of results: `words`, which end with the option that takes `path`,
+        without what it prints. Returns the path."""
+        words = [self.program, *words, path, "--overwrite"]
+        self.once(path.stem, [results], words, lambda: self.command(*words, quiet=True))
+        return path
+
     def run(self, name, case, overrides):
         """The results file of a run. One that was interrupted goes on from its checkpoint."""
         results = self.path(f"{name}.h5")

@@ -70,12 +70,9 @@ def simulate(steps, case, coarse, numbers):
     found = {}
     for number in numbers:
         results = run(steps, case, number, coarse)
-        table = steps.path(f"contact_{number}.csv")
-        words = [steps.program, "contact", results, "--csv", table, "--overwrite"]
-        steps.once(f"contact_{number}", [results], words, lambda words=words: steps.command(*words, quiet=True))
-        nodes = steps.path(f"solution_{number}.h5")
-        words = [steps.program, "contact", results, "--hdf5", nodes, "--interval", INTERVAL, "--overwrite"]
-        steps.once(f"solution_{number}", [results], words, lambda words=words: steps.command(*words, quiet=True))
+        table = steps.derive(steps.path(f"contact_{number}.csv"), results, "contact", results, "--csv")
+        nodes = steps.derive(steps.path(f"solution_{number}.h5"), results,
+                             "contact", results, "--interval", INTERVAL, "--hdf5")
         found[number] = Passing(number, results, table, nodes, COARSE_START if coarse else START)
     return found
 
@@ -87,10 +84,8 @@ def wavelets(steps, found):
         low = max(100, 2 / one.time[-1])
         for name, axis in (("vertical", "z"), ("lateral", "y")):
             path = files[f"wavelet_{number}_{name}"] = steps.path(f"wavelet_{number}_{name}.h5")
-            words = [steps.program, "signal", "wavelet", one.results, "--channel",
-                     f"track_rail_2.behind.acceleration.{axis}", "--low", f"{low:.0f}", "--high", 10e3, "--hdf5", path,
-                     "--overwrite"]
-            steps.once(path.stem, [one.results], words, lambda words=words: steps.command(*words, quiet=True))
+            steps.derive(path, one.results, "signal", "wavelet", one.results, "--channel",
+                         f"track_rail_2.behind.acceleration.{axis}", "--low", f"{low:.0f}", "--high", 10e3, "--hdf5")
     return files
 
 

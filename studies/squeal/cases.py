@@ -10,14 +10,13 @@ import h5py
 import numpy as np
 
 import tables
+from verification.falling import DECAY, DYNAMIC, STATIC  # of case 5
 
 HERE = pathlib.Path(__file__).resolve().parent
 CASE = HERE / "squeal.toml"
-SPEED = 27.78  # m/s
 SIDEWAYS = 16e-3  # s, when the lateral motion begins
 ZONE = (16.5e-3, 18.7e-3)  # s, while the patch is on elements of 1 mm
 NAMES = {1: "no lateral motion", 2: "small", 3: "medium", 4: "large", 5: "medium, falling friction"}
-STATIC, DYNAMIC, DECAY = 0.5, 0.32, 6.0  # friction of case 5, s/m (5.3.2.3)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -3,10 +3,11 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from cases import NAMES, SIDEWAYS, SOLUTIONS, SPEED, ZONE
+from cases import NAMES, SIDEWAYS, SOLUTIONS, ZONE
 from pictures import style
 from pictures.contact_solution import ContactSolution
 from pictures.patch import draw_patch, draw_row
+from verification.falling import SPEED
 
 # Of figure 5.5: eight instants 0.06 ms apart, of one swing of the creep force in the zone.
 SWING = 17.46e-3 + 0.06e-3 * np.arange(8)
@@ -44,9 +45,7 @@ def solutions(steps, found):
     """Contact solutions of the cases by number, as `railwave contact --hdf5` finds them."""
     read = {}
     for number, one in found.items():
-        path = steps.path(f"solution_{number}.h5")
-        words = [steps.program, "contact", one.results, "--hdf5", path, "--overwrite"]
-        steps.once(path.stem, [one.results], words, lambda words=words: steps.command(*words, quiet=True))
+        path = steps.derive(steps.path(f"solution_{number}.h5"), one.results, "contact", one.results, "--hdf5")
         read[number] = ContactSolution(path).contacts()[0]
     return read
 
@@ -72,7 +71,7 @@ def contact_pictures(found, read):
 
 def along_centre(contact, first, last):
     """Of the largest patch at each output between two times of the file: times, s; places along its centre line from
-    its centre, mm, the rolling direction positive; shear there by time and place, MPa; nan: beyond the patch."""
+    its centre, mm, the rolling direction positive; shear there by time and place, MPa."""
     times, cuts = [], []
     for k, time in enumerate(contact.times):
         patches = contact.patches(k) if first <= time <= last else []

@@ -12,8 +12,8 @@ from verification.measured import largest_patches
 from verification.of_run import Beside
 
 
-def beside(steps, found, cells=60):
-    """Name of the solution to a Beside, of those whose case was run with constant friction."""
+def beside(steps, found):
+    """Name of the solution to a Beside, of those whose case was run."""
     compared = {}
     for name, solution in SOLUTIONS.items():
         if solution.case in found:
@@ -22,7 +22,7 @@ def beside(steps, found, cells=60):
             time = solution.time - one.earlier
             rows = largest_patches(steps.program, one.results, "tread", time - 1.6e-5, time + 1.6e-5)
             row = min(rows, key=lambda row: abs(float(row["time"]) - time))
-            compared[name] = Beside(one.results, "tread", row, Steel, cells)
+            compared[name] = Beside(one.results, "tread", row, Steel)
     return compared
 
 

@@ -33,8 +33,7 @@ class Rim:
             arm = np.subtract(*(side["position"][:] + side["displacement"][:] for side in (rim, bore)))[:, [0, 2]]
             velocity = rim["velocity"][:] - bore["velocity"][:]
             self.lateral = rim["velocity"][:, 1]
-        self.arm = np.linalg.norm(arm, axis=1)
-        outwards = arm / self.arm[:, None]
+        outwards = arm / np.linalg.norm(arm, axis=1, keepdims=True)
         self.radial = np.einsum("nc,nc->n", velocity[:, [0, 2]], outwards)
         turning = velocity[:, 0] * outwards[:, 1] - velocity[:, 2] * outwards[:, 0]
         self.circumferential = turning - turning.mean()
@@ -54,20 +53,24 @@ def spectrum(time, value):
     return np.fft.rfftfreq(PADDED * len(value), step), density
 
 
+def maxima(density):
+    """Where a spectrum has its local maxima."""
+    return np.flatnonzero((density[1:-1] > density[:-2]) & (density[1:-1] >= density[2:])) + 1
+
+
 def peaks(frequency, density, least=1e-4):
     """Frequencies of the local maxima within BAND, the strongest first: those above `least` times the strongest."""
     within = (frequency >= BAND[0]) & (frequency <= BAND[1])
-    top = np.flatnonzero((density[1:-1] > density[:-2]) & (density[1:-1] >= density[2:]) & within[1:-1]) + 1
-    top = top[density[top] > least * density[within].max()]
+    top = maxima(density)
+    top = top[within[top] & (density[top] > least * density[within].max())]
     return frequency[top[np.argsort(-density[top])]]
 
 
 def near(frequency, density, mode):
     """Frequency of the highest local maximum within WITHIN of a mode's, Hz; None: there is none that stands out."""
     around = (frequency > mode / 3) & (frequency < 3 * mode)
-    top = (density[1:-1] > density[:-2]) & (density[1:-1] >= density[2:])
-    top = np.flatnonzero(top & (np.abs(frequency[1:-1] / mode - 1) < WITHIN)) + 1
-    top = top[density[top] > STANDS_OUT * np.median(density[around])]
+    top = maxima(density)
+    top = top[(np.abs(frequency[top] / mode - 1) < WITHIN) & (density[top] > STANDS_OUT * np.median(density[around]))]
     return float(frequency[top[density[top].argmax()]]) if len(top) else None
 
 
@@ -132,8 +135,7 @@ def wavelets(steps, found):
         low = max(BAND[0], 2 / (one.time[-1] - one.earlier))
         for name, axis in (("lateral", "y"), ("vertical", "z"), ("longitudinal", "x")):
             path = steps.path(f"wavelet_{number}_{name}.h5")
-            words = [steps.program, "signal", "wavelet", one.results, "--channel", f"wheelset.bore.velocity.{axis}"
-                     if axis != "y" else f"{PLACE}.velocity.y", "--trend", "line", "--low", f"{low:.0f}", "--high",
-                     f"{BAND[1]:.0f}", "--hdf5", path, "--overwrite"]
-            steps.once(path.stem, [one.results], words, lambda words=words: steps.command(*words, quiet=True))
+            place = PLACE if name == "lateral" else "wheelset.bore"
+            steps.derive(path, one.results, "signal", "wavelet", one.results, "--channel", f"{place}.velocity.{axis}",
+                         "--trend", "line", "--low", f"{low:.0f}", "--high", f"{BAND[1]:.0f}", "--hdf5")
             yield path.stem, draw_wavelet(Signals(path))

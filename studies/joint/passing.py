@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 
 import worn_joint
+from near_nodes import near_nodes
 from steps import rows_of
 
 START = 1.32  # m, from where the wheel begins to the gap's middle: the thesis's places count from there
@@ -165,18 +166,7 @@ class Passing(History):
     def near_nodes(self, *more):
         """Of each output at which there are any: time, s; of the wheel's nodes near the patch their places, m from the
         gap, normal force, N, and the named fields beside these."""
-        with h5py.File(self.results, "r") as file:
-            contact = file["contact/tread"]
-            near, coordinates = contact["slave/near"], contact["slave/coordinates"][:]
-            columns = [near[name] for name in ("node", "displacement", "normal_force", *more)]
-            first = 0
-            for time, last in zip(contact["time"][:], contact["slave/rows"][:]):
-                if last > first:
-                    node, displacement, force, *rest = (column[first:last] for column in columns)
-                    if "node" in more:
-                        rest[more.index("node")] = node
-                    yield (float(time), coordinates[node] + displacement, np.linalg.norm(force, axis=1), *rest)
-                first = last
+        return near_nodes(self.results, "tread", *more)
 
     def front(self, time):
         """x of the foremost node that touches at the output nearest to a time, m from the gap."""

@@ -13,6 +13,7 @@
 #include "commands/process.hpp"
 #include "commands/standard_output.hpp"
 #include "commands/threads.hpp"
+#include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
 #include "modes/modes_command.hpp"
 #include "output/checkpoint_file.hpp"
@@ -46,11 +47,13 @@ struct Arguments {
   double wall_time = 0;  ///< s; 0: no limit
 };
 
-/// Reads the case and prints its warnings at once: what follows may take minutes.
+/// Reads the case, finds the contact bands of its meshes, and prints what there is to say at once: what follows may
+/// take minutes.
 scene::Scene read_and_warn(const Arguments& arguments) {
   std::vector<std::string> warnings;
   scene::Scene scene = read_case(arguments.case_file, arguments.overrides, &warnings);
   report("warning", warnings, std::cout);
+  report("note", place_contact_zones(scene), std::cout);
   return scene;
 }
 

@@ -111,6 +111,22 @@ Section contact_section() {
           "before the run, the slave's part is moved along this direction until it first touches")
           .direction()
           .otherwise("it stays where it is"),
+      key("zone_lateral_start", &Contact::zone_lateral_start,
+          "for meshes with zone = \"contact\": how far along y from its place the wheel is when it is farthest to one "
+          "side; the band covers all places where the profiles meet from there to zone_lateral_end")
+          .in("m")
+          .within(between(-0.1, 0.1)),
+      key("zone_lateral_end", &Contact::zone_lateral_end, "the same to the other side")
+          .in("m")
+          .within(between(-0.1, 0.1)),
+      key("zone_roll", &Contact::zone_roll, "for the same: of the axle about x, positive where it rises towards +y")
+          .in("rad")
+          .within(between(-0.2, 0.2)),
+      key("zone_margin", &Contact::zone_margin,
+          "for the same: how far the band goes on beyond where the profiles come within 0.06 mm of each other; half a "
+          "patch and what the bodies give way")
+          .in("m")
+          .within(between(0, 0.05)),
   };
   section.rule = check_contact;
   return section;

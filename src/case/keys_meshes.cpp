@@ -73,6 +73,10 @@ std::vector<Key> wheel_keys(Mesh MeshSource::*wheel) {
           .within(above_up_to(0, 32)),
       position("zone_start", &Wheel::zone_start,
                "arc where the zone begins: 0 is the lowest point, positive rolls later"),
+      any("zone", &Wheel::zone,
+          "where the contact band lies: `given`, by zone_centre and zone_width; `contact`, where its profile and that "
+          "of the rail meet with which it has a contact, see zone_lateral_start there")
+          .one_of({"given", "contact"}),
       position("zone_centre", &Wheel::zone_centre,
                "middle of the contact band, along the profile from the tape circle"),
       length("zone_width", &Wheel::zone_width, "width of the contact band").within(between(1e-4, 0.15)),

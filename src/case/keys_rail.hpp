@@ -22,6 +22,10 @@ std::vector<Key> rail_keys(scene::RailMesh Entry::*rail) {
       length("zone_size", &Rail::zone_size, "element size in the solution zone").within(between(1e-4, 0.01)),
       position("zone_start", &Rail::zone_start, "x where the solution zone begins"),
       position("zone_end", &Rail::zone_end, "x where the solution zone ends"),
+      any("zone", &Rail::zone,
+          "where the contact band lies: `given`, by zone_centre and zone_width; `contact`, where its profile and that "
+          "of the wheel meet with which it has a contact, see zone_lateral_start there")
+          .one_of({"given", "contact"}),
       position("zone_centre", &Rail::zone_centre, "y of the contact band's middle"),
       length("zone_width", &Rail::zone_width, "width of the contact band").within(between(1e-4, 0.09)),
       any("zone_layers", &Rail::zone_layers,

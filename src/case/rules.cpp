@@ -49,7 +49,17 @@ void at_most(EntryCheck& check, Named value, Named limit) {
   }
 }
 
+void check_band(scene::ZoneBand zone, EntryCheck& check) {
+  if (!check.sound({"zone"}) || zone != scene::ZoneBand::contact) return;
+  for (const char* key : {"zone_centre", "zone_width"})
+    if (check.given(key))
+      check.complain(key,
+                     fmt::format("has no effect with zone = \"contact\", which finds it; leave it out, or say zone "
+                                 "= \"given\""));
+}
+
 void check_wheel(const scene::WheelMesh& wheel, EntryCheck& check) {
+  check_band(wheel.zone, check);
   ascending(check, {{"bore_radius", wheel.bore_radius},
                     {"hub_radius", wheel.hub_radius},
                     {"web_inner_radius", wheel.web_inner_radius},
@@ -86,6 +96,7 @@ std::string part_of(const std::string& set) { return set.substr(0, set.find('.')
 }  // namespace
 
 void check_rail(const scene::RailMesh& rail, EntryCheck& check) {
+  check_band(rail.zone, check);
   constexpr double longest_modelled = 200;  // m
   if (const double length = rail.end - rail.start; check.sound({"start", "end"}) && length > longest_modelled)
     check.remark("end", fmt::format("the rail is {:.6g} m long, which is unusual: mostly it is up to {} m; m are "

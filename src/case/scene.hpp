@@ -170,6 +170,9 @@ struct Contact : Place {
   std::optional<double> bridged_gap;  ///< m, widest crack, slot or gap in the master that is crossed as if closed;
                                       ///< absent: see usual_bridged_gap
   std::optional<Vec3> close_gap;  ///< the slave's part is moved along this direction until first touch, before the run
+  double zone_lateral_start = 0, zone_lateral_end = 0;  ///< m, for ZoneBand::contact: how far the wheel moves along y
+  double zone_roll = 0;                                 ///< rad, its axle's about x, likewise
+  double zone_margin = 0.004;                           ///< m, of the band beyond where the profiles meet
 
   bool falling_friction() const { return friction_decay > 0; }
 };

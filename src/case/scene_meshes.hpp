@@ -19,6 +19,12 @@ struct Place {
   int line = 0;
 };
 
+/// Where the contact band of a wheel or rail lies across it.
+enum class ZoneBand {
+  given,   ///< zone_centre, zone_width
+  contact  ///< where the profiles of a contact's wheel and rail meet, see mesh/contact_zone.hpp
+};
+
 struct BoxMesh {
   Vec3 origin{0, 0, 0};  ///< lowest corner, m
   Vec3 size{1, 1, 1};    ///< m
@@ -42,9 +48,10 @@ struct WheelMesh {
   double zone_size = 0.002;   ///< element size in the solution zone
   double zone_length = 0.16;  ///< rolled arc length that is fine
   double zone_start = -0.02;  ///< arc position of the zone's beginning; 0 is the lowest point, positive is rolled later
-  double zone_centre = 0.0;   ///< lateral position of the contact band's middle (profile coordinate s)
-  double zone_width = 0.03;   ///< width of the contact band
-  double growth = 1.25;       ///< largest ratio of neighbouring element sizes
+  ZoneBand zone = ZoneBand::given;
+  double zone_centre = 0.0;     ///< lateral position of the contact band's middle (profile coordinate s)
+  double zone_width = 0.03;     ///< width of the contact band
+  double growth = 1.25;         ///< largest ratio of neighbouring element sizes
   double coarse_size = 0.030;   ///< largest element size along the tread
   double core_size = 0.090;     ///< largest element size below the tread, as an arc at the tread
   double section_size = 0.008;  ///< largest element size across the tread
@@ -68,6 +75,7 @@ struct RailMesh {
   double zone_size = 0.002;
   double zone_start = -0.02;  ///< x range of the solution zone
   double zone_end = 0.14;
+  ZoneBand zone = ZoneBand::given;
   double zone_centre = -0.003;  ///< lateral (y) middle of the contact band
   double zone_width = 0.03;
   double growth = 1.25;

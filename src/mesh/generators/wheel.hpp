@@ -39,6 +39,9 @@ double wheel_elements(const scene::MeshSource& source, const scene::WheelMesh& w
 /// Largest length, m, of its fine elements along the tread: those of the zone and, if it has one, of the path.
 double wheel_fine_size(const scene::WheelMesh& wheel);
 
+/// y of the tape circle of a wheelset's wheel at y > 0, m.
+double tape_circle(const scene::WheelsetMesh& wheelset);
+
 /// Layers round a wheel; those of the last level reach the bore.
 Stations wheel_stations(const scene::WheelMesh& wheel);
 

@@ -23,8 +23,6 @@
 namespace railwave {
 namespace {
 
-double tape_circle(const scene::WheelsetMesh& w) { return 0.5 * w.flange_back_distance - s1002_first; }
-
 void check(const scene::MeshSource& source) {
   const scene::WheelsetMesh& w = source.wheelset;
   MeshChecks checks(source);
@@ -231,6 +229,8 @@ Mesh build(const scene::MeshSource& source, MeshNotes* /*notes*/) {
 double fine_size(const scene::MeshSource& source) { return wheel_fine_size(source.wheelset); }
 
 }  // namespace
+
+double tape_circle(const scene::WheelsetMesh& w) { return 0.5 * w.flange_back_distance - s1002_first; }
 
 MeshGenerator wheelset_generator() { return {build, elements, fine_size}; }
 

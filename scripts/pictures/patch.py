@@ -97,10 +97,10 @@ def _largest_patches(contact, count, indices=None):
     return [patches[0] for patches in found if patches]
 
 
-def draw_row(title, contact, count=6, indices=None):
+def draw_row(title, contact, count=6, indices=None, patches=None):
     """Several instants side by side, after figure 5.6 of the thesis: the cut, the stresses, the micro-slip, with one
-    scale each. Returns a figure, or None without contact."""
-    patches = _largest_patches(contact, count, indices)
+    scale each; of the largest patches, or of those given. Returns a figure, or None without contact."""
+    patches = _largest_patches(contact, count, indices) if patches is None else patches
     if not patches:
         return None
     half = np.max([p.half_size() for p in patches], axis=0)

@@ -20,9 +20,17 @@ class RunningSurface:
         """start: m, what is added to places along the rail in pictures"""
         with h5py.File(results, "r") as file:
             group = file[f"fields/{name}"]
-            place, facets = group["coordinates"][:], group["connectivity"][:]
-            self.time, self.velocity = group["time"][:], group["velocity"][:]
-        self.place, self.facets = place, facets  # m, in the case's axes
+            self._set(*(group[values][:] for values in ("time", "coordinates", "connectivity", "velocity")), start)
+
+    @classmethod
+    def of(cls, time, place, facets, velocity):
+        """Of arrays as the results file has them."""
+        made = cls.__new__(cls)
+        made._set(time, place, facets, velocity, 0.0)
+        return made
+
+    def _set(self, time, place, facets, velocity, start):
+        self.time, self.place, self.facets, self.velocity = time, place, facets, velocity  # m, in the case's axes
         edges = np.linalg.norm(place[facets[:, 0]] - place[facets[:, 1]], axis=1)
         self.size = float(np.median(edges))
         self.x, self.y = 1e3 * (place[:, 0] + start), 1e3 * place[:, 1]  # mm

@@ -43,6 +43,13 @@ class Steps:
     def path(self, name):
         return self.folder / name
 
+    def write_case(self, name, text):
+        """A case of this text, not written again where it is the same: what was run with it is there already."""
+        path = self.path(f"{name}.toml")
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+        return path
+
     def command(self, *words, quiet=False):
         """A command whose failure ends the study; `quiet`: without what it prints."""
         words = [str(word) for word in words]

@@ -27,11 +27,7 @@ class Setting:
             text, count = re.subn(rf"^{key} = .*\n", line and f"{line}\n", text, flags=re.MULTILINE)
             if count != 1:
                 raise ValueError(f"{original} has {count} lines of {key}")
-        path = steps.path(f"{name}.toml")
-        text += self.sections
-        if not path.exists() or path.read_text(encoding="utf-8") != text:
-            path.write_text(text, encoding="utf-8")
-        return path
+        return steps.write_case(name, text + self.sections)
 
 
 STIFF = {"fishplate_material": ""}  # plates of the rail's steel, and the default timber

@@ -153,7 +153,12 @@ struct ContactForce {
     Vector3 trial = held - stiffness * moved;
     // The force carried over lies in last step's tangent plane; what has turned out of the present one is dropped.
     trial = trial - dot(trial, now.normal) * now.normal;
-    const double size = norm(trial), bound = law.friction(first_touch.last, moved, state) * std::fmax(0.0, pressing);
+    const double size = norm(trial), pressed = std::fmax(0.0, pressing),
+                 held_until = law.friction_before(state) * pressed;
+    // What the spring is stretched by is no sliding.
+    Vector3 slid{{0, 0, 0}};
+    if (size > held_until) slid = ((held_until / size - 1) / stiffness) * trial;
+    const double bound = law.friction(first_touch.last, slid, state) * pressed;
     status = size > bound ? status_slips : status_sticks;
     if (size > bound) trial = (bound / size) * trial;
     contact.friction_energy(s) -=

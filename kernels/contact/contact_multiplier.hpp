@@ -41,12 +41,19 @@ struct Multiplier {
 };
 
 /// Contact without penetration: the forward increment Lagrange multiplier method (Carpenter, Taylor and Katona 1991).
-/// The forces at t_n are those with which no gap is negative at t_(n+1), gap + n . movement >= 0 with a pressing force
-/// or none; and with which a node that sticks has not moved over the master, unless that takes more than friction can
-/// give. Every multiplier moves nodes that others move too. They are found by Jacobi's iteration, projected on
-/// Coulomb's cone, from the last step's: with a multiplier's own compliance replaced by the sum of what all of them do
-/// to its nodes, the iteration contracts on any pair of meshes. A rest is seen as a gap, or as a way from where the
-/// node stuck, at the next step. Forces are summed in whole quanta: a run is bitwise repeatable.
+/// The forces at t_n are those with which no gap closes further than to zero at t_(n+1), gap + n . movement >= 0 with a
+/// pressing force or none; and with which a node that sticks does not move over the master, unless that takes more than
+/// friction can give. Every multiplier moves nodes that others move too. They are found by Jacobi's iteration,
+/// projected on Coulomb's cone, from the last step's: with a multiplier's own compliance replaced by the sum of what
+/// all of them do to its nodes, the iteration contracts on any pair of meshes.
+///
+/// The residual of a few sweeps is a gap, or a way from where the node stuck. Where g is to become tau g, the sweeps
+/// leave g_(n+1) - tau g_n = -B (lambda_n - lambda_(n-1)), B >= 0. Taken back at once (tau = 0), the residual makes
+/// energy in all modes with omega dt < pi/3: the force is an integral of the gap, and pushes the way the bodies move.
+/// With tau = 1 the sum over the steps is g_(n+1) = -B lambda_n: a spring that loses energy, but never lets the bodies
+/// back to where they touched. So a small share 1 - tau is taken back in a step, which only modes with
+/// 2 (1 - cos(omega dt)) < 1 - tau gain from, and hardly (docs/contact.md). Forces are summed in whole quanta: a run is
+/// bitwise repeatable.
 /// @tparam Normals along which they press: see kernels/contact/contact_normals.hpp
 template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
@@ -56,6 +63,7 @@ struct ContactMultiplier {
   FreeMotion free_motion;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
+  double taken_back;  ///< share of gap and way of a node in contact that a step takes back: 1 - tau
   FallingFriction falling_friction;
   Array<double*> friction_state;  ///< of it, value by value, each by slave node; empty where friction is constant
 
@@ -91,6 +99,7 @@ struct ContactMultiplier {
       if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));
     r.normal = now.normal;
     r.gap = now.gap;
+    r.closing = touched || now.gap < 0 ? taken_back * now.gap : now.gap;
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;
       contact.place(s, 0) = now.place.xi;
@@ -129,7 +138,7 @@ struct ContactMultiplier {
       Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
       way = way - dot(way, now.normal) * now.normal;
       for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
-      r.free = way;
+      r.free = taken_back * way;
     }
     r.pressing = norm(row(contact.normal_force, s));
     if (!touched) return;
@@ -207,7 +216,7 @@ struct ContactMultiplier {
     Vector3 moves = r.free;
     for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
     const double opening = dot(moves, r.normal);
-    const double pressing = std::fmax(0.0, r.pressing - (r.gap + opening) / r.compliance);
+    const double pressing = std::fmax(0.0, r.pressing - (r.closing + opening) / r.compliance);
     Vector3 force = pressing * r.normal;
     r.slips = 1;
     if constexpr (Friction) {

@@ -60,9 +60,11 @@ struct LawAtNodes {
     return law.pressing(point(search, last, node, now, spring), state.values);
   }
 
-  /// @param moved de of the contact point over the master in the last step, m
-  KOKKOS_INLINE_FUNCTION double friction(const LastStep& last, const Vector3& moved, State& state) const {
-    return law.friction({moved, last.elapsed}, state.values);
+  KOKKOS_INLINE_FUNCTION double friction_before(const State& state) const { return law.friction_before(state.values); }
+
+  /// @param slid of the contact point over the master in the last step, what its spring took up left out, m
+  KOKKOS_INLINE_FUNCTION double friction(const LastStep& last, const Vector3& slid, State& state) const {
+    return law.friction({slid, last.elapsed}, state.values);
   }
 
   KOKKOS_INLINE_FUNCTION void part(const ContactSearch& search, const LastStep& last, int node, const Projection& now,

@@ -21,6 +21,7 @@ struct alignas(16) MultiplierRow {
   double pressing;                              ///< N, normal part of `force`
   double friction;                              ///< coefficient
   double gap;                                   ///< m
+  double closing;     ///< m, by how much the gap is to close in the step, at most where nothing presses yet
   double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master; 0: not
                       ///< known yet
   int count;          ///< of nodes

@@ -13,6 +13,7 @@
 /// | `spring(k)` | N/m, of the springs of a segment whose penalty has k |
 /// | `touches(point, state)` | whether there is contact |
 /// | `pressing(point, state)` | N, the normal force, never a pull unless the law is one of adhesion |
+/// | `friction_before(state)` | the coefficient of the instant before |
 /// | `friction(sliding, state)` | coefficient that bounds the tangential force, see laws/falling_friction.hpp |
 /// | `part(point, state)` | the node has come off |
 /// | `stored(point, normal_square, tangential_square)` | J in the springs, from the forces' squares, N2 |

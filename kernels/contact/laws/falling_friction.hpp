@@ -8,7 +8,7 @@ namespace railwave {
 
 /// How a node has slid over the master.
 struct Sliding {
-  Vector3 moved;   ///< m, since the instant before
+  Vector3 moved;   ///< m, since the instant before; what a spring between took up is no sliding
   double elapsed;  ///< s since then; 0: there is none
 };
 

@@ -69,6 +69,10 @@ struct GrowingPenalty {
     return damped;
   }
 
+  KOKKOS_INLINE_FUNCTION double friction_before(const double* state) const {
+    return falling ? state[friction_state + FallingFriction::now] : falling_friction.at_rest;
+  }
+
   /// The force at t_n is bounded by the normal force at t_n and the coefficient of the movement up to t_n, and the
   /// coefficient that made the bound is kept beside the two forces: they are of one instant (thesis 5.3.2.3 shows what
   /// it is to mix instants).

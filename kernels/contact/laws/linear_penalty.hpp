@@ -19,6 +19,7 @@ struct LinearPenalty {
   KOKKOS_INLINE_FUNCTION double pressing(const ContactPoint& point, double* /*state*/) const {
     return -point.gap * point.stiffness;
   }
+  KOKKOS_INLINE_FUNCTION double friction_before(const double* /*state*/) const { return coefficient; }
   KOKKOS_INLINE_FUNCTION double friction(const Sliding& /*sliding*/, double* /*state*/) const { return coefficient; }
   KOKKOS_INLINE_FUNCTION void part(const ContactPoint& /*point*/, double* /*state*/) const {}
   KOKKOS_INLINE_FUNCTION double stored(const ContactPoint& point, double normal_square,

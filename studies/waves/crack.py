@@ -31,24 +31,28 @@ class Crossing:
         # On the nodes of the sound rail: the nearest of the cracked one's; two at the mouth.
         nearest = [int(np.argmin(np.hypot(*(surface.place[:, :2] - at[:2]).T))) for at in without.place]
         begin, end = max(surface.time[0], without.time[0]), min(surface.time[-1], without.time[-1])
-        inside = without.time[(without.time >= begin) & (without.time <= end)]
-        self.time, self.place = even(inside), without.place[:, :2]
+        self.time = even(without.time[(without.time >= begin) & (without.time <= end)])
+        self.place = without.place[:, :2]
         normal = at_even_times(surface.time, self.time, surface.velocity[:, nearest, 2])
         self.own = at_even_times(without.time, self.time, without.velocity[..., 2])
-        self.wave = self._band(normal - self.own)
-        self.own = self._band(self.own)
+        # The band's edges reach half a period of the lowest frequency into both ends.
+        inside = slice(*(sign * round(0.5 / LOWEST / (self.time[1] - self.time[0])) for sign in (1, -1)))
+        self.wave, self.own = self._band(normal - self.own)[inside], self._band(self.own)[inside]
+        self.time = self.time[inside]
         aside = np.maximum(np.abs(self.place[:, 1] - self.middle[1]) - self.half, 0)
         self.away = np.hypot(self.place[:, 0] - self.middle[0], aside)
         patch = np.array([cracked.patch_at(time) for time in self.time])
         self.patch = patch
         # Half axes about the patch's centre that hold it and CLEAR about it.
         grown = patch[:, 2:4] + CLEAR
-        inside = np.hypot(*((self.place[None] - patch[:, None, :2]) / grown[:, None]).transpose(2, 0, 1)) < 1
-        self.looked_at = ~inside & (self.away > NEAREST)[None] & (self.away < FARTHEST)[None]
+        covered = np.hypot(*((self.place[None] - patch[:, None, :2]) / grown[:, None]).transpose(2, 0, 1)) < 1
+        self.looked_at = ~covered & (self.away > NEAREST)[None] & (self.away < FARTHEST)[None]
 
     def _band(self, values):
         step = self.time[1] - self.time[0]
-        spectrum = np.fft.rfft(values - values.mean(axis=0), axis=0)
+        clock = np.linspace(-1, 1, len(values))
+        line = np.outer(clock, clock @ values / np.sum(clock**2))
+        spectrum = np.fft.rfft(values - values.mean(axis=0) - line, axis=0)
         frequency = np.fft.rfftfreq(len(values), step)
         spectrum[(frequency < LOWEST) | (frequency > HIGHEST)] = 0
         return np.fft.irfft(spectrum, len(values), axis=0)

@@ -54,8 +54,13 @@ class Disturbed:
         slip -= self._steady(slip)
         self.disturbance = np.hypot(*(slip - running_mean(slip, smooth)).transpose(2, 0, 1))
         self.share = running_mean(share, smooth)
+        # Nodes that have just come, or go at once, have no mean yet.
+        early, late = self.touching.copy(), self.touching.copy()
+        early[smooth // 2:], early[:smooth // 2] = self.touching[:len(early) - smooth // 2], False
+        late[:len(late) - smooth // 2], late[len(late) - smooth // 2:] = self.touching[smooth // 2:], False
+        self.known = self.touching & early & late
         with np.errstate(invalid="ignore"):
-            self.held = self.share < HELD
+            self.held = (self.share < HELD) & self.known
 
     def _steady(self, slip):
         """The mean slip at a place of the patch: a node that comes from where friction holds it to where it slips is
@@ -108,7 +113,7 @@ class Disturbed:
         """Of each node that sticks at an output: its number, and which of PLACES it is at."""
         held = np.flatnonzero(self.held[output] & self.touching[output])
         at, touching = self.place[output], np.flatnonzero(self.touching[output])
-        slipping = np.setdiff1d(touching, held)
+        slipping = np.flatnonzero(self.known[output] & ~self.held[output])
         listed = []
         for n in held:
             line = touching[np.abs(at[touching, 1] - at[n, 1]) < 0.6 * self.size]
@@ -158,13 +163,14 @@ class Disturbed:
         top = chosen[alike[chosen].argmax()]
         return float(lag[top]), float(alike[top] / alike[0])
 
-    def map(self, count=17, reach=1.15):
-        """Edges of cells over half length and half width; deviation of the disturbance and mean share of friction's
-        bound in each."""
-        edges = np.linspace(-reach, reach, count + 1)
-        at = self.place[self.touching] / self.half
-        cells = [np.histogram2d(*at.T, bins=(edges, edges), weights=weights)[0]
-                 for weights in (np.ones(len(at)), self.disturbance[self.touching] ** 2, self.share[self.touching])]
+    def map(self, reach=1.15):
+        """Edges of cells along and across, half lengths and half widths; deviation of the disturbance and mean share of
+        friction's bound in each."""
+        counts = (2 * reach * self.half / (1.2 * self.size)).astype(int)
+        edges = [np.linspace(-reach, reach, max(4, count) + 1) for count in counts]
+        at = self.place[self.known] / self.half
+        cells = [np.histogram2d(*at.T, bins=edges, weights=weights)[0]
+                 for weights in (np.ones(len(at)), self.disturbance[self.known] ** 2, self.share[self.known])]
         with np.errstate(invalid="ignore", divide="ignore"):
             return edges, np.sqrt(cells[1] / cells[0]), cells[2] / cells[0]
 
@@ -187,7 +193,7 @@ def study(found):
             (f"{name}: share of friction used; longitudinal force on the wheel", "0.6 to 0.7",
              f"{used.mean():.2f} ({used.min():.2f} to {used.max():.2f}); {rolled.longitudinal[within].mean():+.1f} kN"),
             (f"{name}: disturbance of the slip of nodes that stick, that slip; deviation", "",
-             f"{one.deviation(one.held):.3f}, {one.deviation(~one.held):.3f} m/s"),
+             f"{one.deviation(one.held):.3f}, {one.deviation(one.known & ~one.held):.3f} m/s"),
             (f"{name}: {', '.join(PLACES)}: mean square of it there over that of all that stick", "",
              ", ".join(f"{value:.2f}" for value in one.by_place())),
             (f"{name}: perturbations (over {STANDS_OUT:g} times the median) in"
@@ -208,10 +214,10 @@ def draw_places(disturbed):
                                   constrained_layout=True)
     for axes, (name, one) in zip(panels[0], disturbed.items()):
         edges, deviation, share = one.map()
-        drawn = axes.pcolormesh(edges, edges, np.ma.masked_invalid(deviation.T), cmap=style.SIZE_MAP)
-        middle = 0.5 * (edges[1:] + edges[:-1])
+        drawn = axes.pcolormesh(*edges, np.ma.masked_invalid(deviation.T), cmap=style.SIZE_MAP)
+        middles = [0.5 * (one_way[1:] + one_way[:-1]) for one_way in edges]
         if np.nanmin(share) < HELD < np.nanmax(share):
-            axes.contour(middle, middle, np.nan_to_num(share.T, nan=1.0), levels=[HELD], colors="w")
+            axes.contour(*middles, np.nan_to_num(share.T, nan=1.0), levels=[HELD], colors="w")
         axes.set(title=f"{name}; white: border of slip", xlabel="along, half lengths; it rolls to the right",
                  ylabel="across, half widths")
         figure.colorbar(drawn, ax=axes, label="disturbance of the slip, deviation, m/s")

@@ -182,7 +182,7 @@ class Perturbations(unittest.TestCase):
         self.assertGreater(one.by_place()[0], 1.3)
 
     def test_at_the_border_of_slip(self):
-        one = perturbation.Disturbed(rolled(self.EVENTS, (-0.21, 0)))
+        one = perturbation.Disturbed(rolled(self.EVENTS, (-0.25, 0)))
         counts, _ = one.where(one.events())
         self.assertGreaterEqual(counts[1], 4)
         self.assertEqual(counts[0], 0)

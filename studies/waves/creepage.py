@@ -106,7 +106,7 @@ def rows_of(name, region, mesh):
     ridge, rows = region.ridge, []
     if not len(region.clear):
         return [(f"{name}: waves that stand out", "6 mm, 0.495 MHz, 3 km/s",
-                 f"none (contrast at most {ridge.contrast.max():.1f}, limit {region.limit:.1f})")]
+                 f"none (contrast at most {np.max(ridge.contrast / region.limit):.2f} of the limit)")]
     frequency = ridge.frequency[region.clear]
     speed, error, motion = listed(ridge, region.clear)
     strongest = max(region.clear, key=lambda k: np.nanmax(ridge.power[k]))
@@ -160,7 +160,7 @@ def study(found, mesh=None):
         rows.append((f"creepage, {name}: in the thesis's band, whether it stands out or not", "6 mm, 3 km/s",
                      f"{1e3 * region.ridge.speed[k] / region.ridge.frequency[k]:.1f} mm,"
                      f" {1e-3 * region.ridge.speed[k]:.2f} km/s, contrast {region.ridge.contrast[k]:.1f} (limit"
-                     f" {region.limit:.1f}), phase {phase:.0f} deg, coherence {coherence:.2f}"))
+                     f" {region.limit[k]:.1f}), phase {phase:.0f} deg, coherence {coherence:.2f}"))
     particles = waves.particles(way)
     for name, one in particles.items():
         phase, coherence, chance = one.relation(BAND)

@@ -13,6 +13,7 @@ SETTINGS = [
     'output.field_sets=["block.z_max"]', 'output.fields=["velocity"]', "output.field_interval=0.25e-6",
 ]
 FROM, TO = 0.03, 0.14  # m from the blow
+CLEAR = 5  # times the median, from which on the pulse's wave is there
 HIGHEST = 0.62e6  # Hz: shorter waves than 4 mm are no waves of the steel in that mesh
 
 
@@ -30,12 +31,13 @@ class MeshWaves:
         line &= (surface.place[:, 0] > FROM) & (surface.place[:, 0] < TO)
         field = Field(surface.time, surface.place[line], surface.velocity[:, line])
         self.ridge = Ridge(Spectrum(field, piece=surface.time[-1] - surface.time[0]))
-        self.known = np.flatnonzero((self.ridge.frequency > BANDS[0][0]) & (self.ridge.frequency < HIGHEST))
+        within = (self.ridge.frequency > BANDS[0][0]) & (self.ridge.frequency < HIGHEST)
+        self.known = np.flatnonzero(within & (self.ridge.contrast > CLEAR))
 
     def speed(self, frequency):
         """m/s; nan where the pulse has nothing."""
         at = self.known
-        return np.interp(frequency, self.ridge.frequency[at], self.ridge.speed[at], right=np.nan)
+        return np.interp(frequency, self.ridge.frequency[at], self.ridge.speed[at], left=np.nan, right=np.nan)
 
 
 def findings(waves):

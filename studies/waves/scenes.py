@@ -58,7 +58,7 @@ class Scene:
 CRACK = 0.495  # m, where its mouth is: the wheel is there at 17.82 ms
 ROLLING = Scene(1, (17.0e-3, 18.4e-3), 1e-6, (0.460, 0.530), cases.ZONE, 1e-6, tangential=False)
 SCENES = {
-    "creepage": Scene(4, (18.14e-3, 18.34e-3), 0.3e-6, (0.477, 0.537), (18.1e-3, 18.38e-3), 1e-5),
+    "creepage": Scene(4, (18.14e-3, 18.34e-3), 0.3e-6, (0.443, 0.537), (18.1e-3, 18.38e-3), 1e-5),
     "traction": ROLLING,
     "braking": dataclasses.replace(ROLLING, torque=-1.0),
     "crack": dataclasses.replace(ROLLING, crack=True),

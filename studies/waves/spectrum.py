@@ -11,7 +11,7 @@ HIGHEST = 0.9e6  # Hz
 BANDS = [(1e5 * low, 1e5 * (low + 1)) for low in range(1, 9)]  # Hz, of tables
 # A ridge is looked for at speeds from SLOWEST to FASTEST times Rayleigh's, and in the mean over as much on both sides.
 SLOWEST, FASTEST = 0.6, 1.7
-NOISE_DRAWS, BEYOND_NOISE = 6, 1.3
+NOISE_DRAWS, BEYOND_NOISE, NEIGHBOURS = 6, 1.3, 4
 
 
 def rayleigh_speed(young=YOUNG, poisson=POISSON, density=DENSITY):
@@ -214,7 +214,8 @@ class Ridge:
         return (self.wavenumber < low + STEP) | (self.wavenumber > high - STEP)
 
     def limit(self, field, mask=None):
-        """The contrast from which on a ridge stands out: of the same motion with its places shuffled."""
+        """By frequency the contrast from which on a ridge stands out: beyond what the same motion with its places
+        shuffled reaches at that frequency and the next ones."""
         random, reached = np.random.default_rng(0), []
         flat = field.velocity.reshape(*field.velocity.shape[:2], -1)
         shuffled = Field.__new__(Field)
@@ -222,7 +223,8 @@ class Ridge:
         for _ in range(NOISE_DRAWS):
             shuffled.velocity = flat[:, :, random.permutation(flat.shape[2])].reshape(field.velocity.shape)
             reached.append(self._largest(Spectrum(shuffled, mask).power())[1])
-        return BEYOND_NOISE * float(np.quantile(reached, 0.99))
+        most = np.pad(np.max(reached, axis=0), NEIGHBOURS, mode="edge")
+        return BEYOND_NOISE * np.lib.stride_tricks.sliding_window_view(most, 2 * NEIGHBOURS + 1).max(axis=1)
 
     def clear(self, limit):
         """Frequencies at which the ridge stands out."""

@@ -106,7 +106,7 @@ def rows_of(name, region, mesh):
     ridge, rows = region.ridge, []
     if not len(region.clear):
         return [(f"{name}: waves that stand out", "6 mm, 0.495 MHz, 3 km/s",
-                 f"none (contrast at most {np.max(ridge.contrast / region.limit):.2f} of the limit)")]
+                 f"none (contrast at most {np.max(ridge.contrast / np.maximum(region.limit, 1)):.2f} of the limit)")]
     frequency = ridge.frequency[region.clear]
     speed, error, motion = listed(ridge, region.clear)
     strongest = max(region.clear, key=lambda k: np.nanmax(ridge.power[k]))

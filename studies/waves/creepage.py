@@ -105,8 +105,10 @@ def listed(ridge, chosen):
 def rows_of(name, region, mesh):
     ridge, rows = region.ridge, []
     if not len(region.clear):
+        inside = ridge.reachable & ~ridge.at_edge()
+        most = np.max(ridge.contrast[inside] / np.maximum(region.limit[inside], 1), initial=0)
         return [(f"{name}: waves that stand out", "6 mm, 0.495 MHz, 3 km/s",
-                 f"none (contrast at most {np.max(ridge.contrast / np.maximum(region.limit, 1)):.2f} of the limit)")]
+                 f"none (contrast at most {most:.2f} of the limit between the slowest and the fastest speed)")]
     frequency = ridge.frequency[region.clear]
     speed, error, motion = listed(ridge, region.clear)
     strongest = max(region.clear, key=lambda k: np.nanmax(ridge.power[k]))

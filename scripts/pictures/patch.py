@@ -110,7 +110,7 @@ def draw_row(title, contact, count=6, indices=None, patches=None):
     parting, cuts = parting_levels(patches), [p.cut() for p in patches]
     top = max(top_of(cut) for cut in cuts)
     width, n = 2.1, len(patches)
-    height = width * half[1] / half[0]
+    height = max(width * half[1] / half[0], 0.9)  # room for the bars' labels beside a narrow patch
     figure, grid = plt.subplots(
         3, n, figsize=(n * width + 2.0, 1.5 + 2 * height + 1.9), squeeze=False, constrained_layout=True,
         gridspec_kw={"height_ratios": [1.5, height, height]},

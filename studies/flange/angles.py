@@ -9,7 +9,6 @@ import h5py
 import numpy as np
 
 import tables
-from steps import rows_of
 
 HERE = pathlib.Path(__file__).resolve().parent
 CASE = HERE / "flange.toml"
@@ -25,7 +24,9 @@ LATER = {15: 0.02, 20: 0.07, 25: 0.33}  # m behind the zone: with 25 mrad until 
 CLIMBS = 3e-3  # m, along y beyond where the flange touches, for its band
 COARSE_WAY = 0.05  # m, from where the wheel begins to the second contact
 FRAME = 6.7e-3  # m, between the thesis's nine frames: five before the second contact, four from then on
-STEEP = np.radians(40)  # a patch that leans more is the flange's
+STEEP = np.radians(45)  # what leans more is the flange's
+SLIPS = 3e-3  # of the largest tangential force of a side, within which a node's is the bound's (eq. 3.6)
+TOUCHING = 1e-3  # N, of a node
 TOUCHES = 500.0  # N: with less the second patch is not there yet
 
 COARSE = [
@@ -82,30 +83,60 @@ def simulate(steps, angles, coarse):
     found = {}
     for angle in angles:
         results = steps.run(f"angle_{angle}", CASE, settings(angle, coarse))
-        table = steps.derive(steps.path(f"contact_{angle}.csv"), results, "contact", results, "--csv")
         nodes = steps.derive(steps.path(f"solution_{angle}.h5"), results, "contact", results, "--hdf5")
-        found[angle] = Passing(angle, results, table, nodes, way_before(angle, coarse))
+        found[angle] = Passing(angle, results, nodes, way_before(angle, coarse))
     return found
 
 
 @dataclasses.dataclass(frozen=True)
 class Side:
-    """The patches of one side, tread or flange, over the outputs: arrays. Forces in kN in each patch's own axes, on the
-    wheel; area in mm2; peaks in MPa; contact angle and direction of the tangential force in degrees; share of nodes that
-    slip. nan where it does not touch."""
+    """What one side, tread or flange, carries at an output: all its touching nodes together. Forces on the wheel in kN,
+    along the rail and across it in the tangent plane, to the left or upwards; area in mm2, of the nodes; peaks in MPa;
+    contact angle in degrees; share of the nodes that slip (eq. 3.6); centre in m."""
 
-    normal: np.ndarray
-    longitudinal: np.ndarray
-    lateral: np.ndarray
-    area: np.ndarray
-    pressure: np.ndarray
-    shear: np.ndarray
-    contact_angle: np.ndarray
-    slipping: np.ndarray
-    centre: np.ndarray  # m, an entry for each of x, y, z
+    normal: float
+    longitudinal: float
+    lateral: float
+    area: float
+    pressure: float
+    shear: float
+    contact_angle: float
+    slipping: float
+    centre: np.ndarray
+
+
+NOTHING = Side(*[np.nan] * 8, np.full(3, np.nan))
+
+
+def side_of(place, normal, tangential, area, friction):
+    """The side that these touching nodes make: places in m, forces in N (nodes, 3), areas in m2."""
+    sum_normal = normal.sum(axis=0)
+    force = np.linalg.norm(sum_normal)
+    if not force > 0:
+        return NOTHING
+    up = sum_normal / force
+    along = np.array([1.0, 0, 0]) - up[0] * up
+    along /= np.linalg.norm(along)
+    across = np.cross(up, along)
+    held, used = friction * np.linalg.norm(normal, axis=1), np.linalg.norm(tangential, axis=1)
+    total = tangential.sum(axis=0)
+    return Side(
+        1e-3 * force, 1e-3 * float(total @ along), 1e-3 * float(total @ across), 1e6 * float(area.sum()),
+        1e-6 * float((np.linalg.norm(normal, axis=1) / area).max()), 1e-6 * float((used / area).max()),
+        float(np.degrees(np.arctan2(np.hypot(*up[:2]), abs(up[2])))),
+        float((held - used < SLIPS * used.max()).mean()), np.average(place, axis=0, weights=held))
+
+
+class Sides:
+    """A side over the outputs: an array for each quantity of Side."""
+
+    def __init__(self, sides):
+        for field in dataclasses.fields(Side):
+            setattr(self, field.name, np.array([getattr(side, field.name) for side in sides]))
 
     @property
     def theta(self):
+        """Direction of the tangential force from the rolling direction, degrees."""
         return np.degrees(np.arctan2(np.abs(self.lateral), np.abs(self.longitudinal)))
 
     @property
@@ -118,51 +149,32 @@ class Side:
             return 1e3 * self.longitudinal / self.area, 1e3 * self.lateral / self.area
 
 
-def sides_of(rows):
-    """Times of the outputs, s, and what tread and flange do then, of the rows of `railwave contact --csv`."""
-    times = sorted({float(row["time"]) for row in rows})
-    columns = ("normal_force", "creep_force", "lateral_force", "area", "peak_nodal_pressure", "peak_shear",
-               "slipping_by_force", "nodes_in_contact")
-    number = {time: k for k, time in enumerate(times)}
-    groups = [{time: [] for time in times} for _ in range(2)]
-    for row in rows:
-        if row["patch"] == "0" or not row["normal_z"]:
-            continue
-        normal = np.array([float(row[f"normal_{c}"]) for c in "xyz"])
-        leans = np.arctan2(np.hypot(*normal[:2]), abs(normal[2]))
-        groups[int(leans > STEEP)][float(row["time"])].append(
-            {name: float(row[name] or "nan") for name in columns}
-            | {"leans": np.degrees(leans), "centre": [float(row[f"centre_{c}"]) for c in "xyz"]})
-
-    def side(patches):
-        values = {name: np.full(len(times), np.nan) for name in (*columns, "leans")}
-        centre = np.full((3, len(times)), np.nan)
-        for time, own in patches.items():
-            k = number[time]
-            force = np.array([patch["normal_force"] for patch in own])
-            if not own or not force.sum() > 0:
-                continue
-            for name in columns:
-                each = np.array([patch[name] for patch in own])
-                values[name][k] = np.nanmax(each) if name.startswith("peak") else np.nansum(each)
-            values["leans"][k] = np.average([patch["leans"] for patch in own], weights=force)
-            centre[:, k] = np.average([patch["centre"] for patch in own], axis=0, weights=force)
-        with np.errstate(invalid="ignore"):
-            slipping = values["slipping_by_force"] / values["nodes_in_contact"]
-        return Side(1e-3 * values["normal_force"], 1e-3 * values["creep_force"], 1e-3 * values["lateral_force"],
-                    1e6 * values["area"], 1e-6 * values["peak_nodal_pressure"], 1e-6 * values["peak_shear"],
-                    values["leans"], slipping, centre)
-
-    return np.array(times), side(groups[0]), side(groups[1])
+def sides_of(pair):
+    """Times of the outputs, s, and what tread and flange carry then, of the group of a contact in a results file with
+    `output.contact_margin`. Nodes are told apart by how much their normal force leans: where the flange's root touches
+    too, both sides are one patch."""
+    near, rows = pair["slave/near"], np.concatenate([[0], pair["slave/rows"][:]])
+    normal, tangential, displacement = (near[name][:] for name in ("normal_force", "tangential_force", "displacement"))
+    area, node, coordinates = near["area"][:], near["node"][:], pair["slave/coordinates"][:]
+    leans = np.arctan2(np.hypot(normal[:, 0], normal[:, 1]), np.abs(normal[:, 2]))
+    friction = float(pair.attrs["friction"])
+    both = [], []
+    for first, last in zip(rows[:-1], rows[1:]):
+        here = np.arange(first, last)
+        here = here[np.linalg.norm(normal[here], axis=1) > TOUCHING]
+        for side, own in zip(both, (here[leans[here] <= STEEP], here[leans[here] > STEEP])):
+            side.append(side_of(coordinates[node[own]] + displacement[own], normal[own], tangential[own], area[own],
+                                friction))
+    return pair["time"][:], Sides(both[0]), Sides(both[1])
 
 
 class Passing:
     """One angle of attack, mrad: both sides over the outputs, and the wheel's place along the rail, m."""
 
-    def __init__(self, angle, results, table, solution, left_out=0.0):
+    def __init__(self, angle, results, solution, left_out=0.0):
         self.angle, self.results, self.solution, self.left_out = angle, results, solution, left_out
-        self.time, self.tread, self.flange = sides_of(rows_of(table))
         with h5py.File(results, "r") as file:
+            self.time, self.tread, self.flange = sides_of(file["contact/tread"])
             history = file["history"]
             time = history["time"][:]
             bore = history["set/wheelset.bore"]
@@ -172,6 +184,16 @@ class Passing:
             self.seconds = float(file.attrs.get("wall_seconds", np.nan))
             self.unbalance = float(file.attrs.get("settled_unbalance", np.nan))
         self.place = np.interp(self.time, time, place)
+
+    def touching(self, k):
+        """Places of the wheel's nodes that touch at output k, m (nodes, 3)."""
+        with h5py.File(self.results, "r") as file:
+            slave = file["contact/tread/slave"]
+            last = slave["rows"][:]
+            own = slice(last[k - 1] if k else 0, last[k])
+            near = slave["near"]
+            touches = np.linalg.norm(near["normal_force"][own], axis=1) > TOUCHING
+            return (slave["coordinates"][:][near["node"][own]] + near["displacement"][own])[touches]
 
     @functools.cached_property
     def first(self):

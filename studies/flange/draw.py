@@ -73,21 +73,15 @@ def frames(found):
 
 
 def footprints(found):
-    """Where the patches are on the rail at the frames, from above and from the gauge side (fig. 6.2)."""
+    """Which nodes of the wheel touch at the frames, from above and from the gauge side (fig. 6.2)."""
     figure, grid = plt.subplots(2, len(found), figsize=(4.2 * len(found) + 0.6, 6), squeeze=False,
                                 constrained_layout=True)
     for (above, beside), (angle, one) in zip(grid.T, sorted(found.items())):
-        contact = ContactSolution(one.solution).contacts()[0]
         for k in one.frames():
-            two = one.first is not None and k >= one.first
-            for patch in (patch for patch in _sides(contact, k) if patch is not None):
-                row = patch.row
-                place = patch.centre[:, None] + sum(
-                    np.array([row[f"{name}_{c}"] for c in "xyz"])[:, None] * values[patch.touching]
-                    for name, values in (("along", patch.x), ("across", patch.y)))
-                x = place[0] + 1e3 * one.left_out
-                for axes, other in ((above, place[1]), (beside, place[2])):
-                    axes.plot(x, other, ".", markersize=2, color=style.BOUND if two else style.SHEAR)
+            x, y, z = 1e3 * one.touching(k).T
+            colour = style.BOUND if k >= one.first else style.SHEAR
+            for axes, other in ((above, y), (beside, z)):
+                axes.plot(x + 1e3 * one.left_out, other, ".", markersize=2, color=colour)
         above.set_title(f"{angle} mrad; red: two patches", fontsize=style.TEXT)
         beside.set_xlabel("x, mm")
         for axes in (above, beside):

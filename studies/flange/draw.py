@@ -19,8 +19,9 @@ def forces(found):
         for row, quantity in enumerate(("normal", "lateral", "longitudinal")):
             axes = grid[row, column]
             for angle, one in sorted(found.items()):
-                values = np.nan_to_num(getattr(getattr(one, side), quantity))
-                axes.plot(one.place, values, color=COLOURS[angle], linewidth=0.9, label=f"{angle} mrad")
+                # The first output is that at the beginning, long before the others.
+                values = np.nan_to_num(getattr(getattr(one, side), quantity))[1:]
+                axes.plot(one.place[1:], values, color=COLOURS[angle], linewidth=0.9, label=f"{angle} mrad")
                 axes.axvline(ANGLES[angle], color=COLOURS[angle], linestyle=":", linewidth=0.7)
             axes.set_ylabel(f"{quantity} force, kN")
             axes.grid(alpha=0.3)

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <catch2/catch_test_macros.hpp>
 
+#include <algorithm>
 #include <iostream>
 
 #include "case/read_case.hpp"
+#include "solve/monitor/diagnosis.hpp"
 #include "source_folder.hpp"
 #include "tests/monitor/seeded.hpp"
 
@@ -167,4 +169,20 @@ TEST_CASE("a limit that is set is the one that counts") {
   scene.monitor.speed = 1e-6;
   const std::string said = said_of(scene, 2e-4);
   CHECK(said.find("limit 1e-06") != std::string::npos);
+}
+
+TEST_CASE("a step that the global estimate allows is not said to be beyond the contact springs") {
+  scene::Scene scene = pressed_blocks(20);
+  scene.solver.step_estimate = scene::StepEstimate::global;
+  Model model;
+  build_model(scene, model);
+  const auto blamed = [&](double step) {
+    model.step_size = step;
+    const std::vector<Cause> causes = steps_too_long(model, model, {}, model.contacts);
+    return std::any_of(causes.begin(), causes.end(),
+                       [](const Cause& cause) { return cause.name == "step beyond contact springs"; });
+  };
+  REQUIRE(model.stable_step.global > model.stable_step.contact);
+  CHECK_FALSE(blamed(0.99 * model.stable_step.global));
+  CHECK(blamed(1.01 * model.stable_step.global));
 }

@@ -63,6 +63,8 @@ void elements(const AssembledScene& assembled, const StepSizes& sizes, std::vect
 
 void contact_springs(const StepSizes& sizes, const std::vector<ContactPair>& contacts, std::vector<Cause>& causes) {
   const StableStep& stable = sizes.stable_step;
+  // The global estimate counts the springs that press: within it they are no cause, however short their own step is.
+  if (stable.global > 0 && sizes.step_size <= stable.global) return;
   const double ratio = stable.contact > 0 ? sizes.step_size / stable.contact : 0;
   // Below that the elements under the springs set it.
   if (!(ratio > 1) || stable.contact > 0.95 * stable.elements) return;

@@ -330,6 +330,12 @@ Section seam_section() {
       key("angle", &Seam::angle, "between its plane and the vertical; positive: its deeper parts lie farther along x")
           .in("rad")
           .within(between(-1.2, 1.2)),
+      key("width", &Seam::width,
+          "between its faces, square to its plane; elements beside it become shorter by half of that each, and it "
+          "closes "
+          "within its last element; what `bridged_gap` of a contact has is crossed")
+          .in("m")
+          .within(between(0, 0.005)),
   };
   return section;
 }

@@ -34,6 +34,7 @@ struct Seam : Place {
   double length = 0;    ///< m, along y
   double depth = 0;     ///< m, along its plane
   double angle = 0;     ///< rad from the vertical, positive: deeper parts lie farther along x
+  double width = 0;     ///< m, between its faces, square to its plane
 };
 
 /// Nodes of a part picked by where they are, as `part.NAME`: those in a box, or those near a position.

@@ -20,9 +20,6 @@ namespace railwave {
 namespace {
 
 constexpr double sampling = 1e-4;      // m, of profiles
-constexpr double lateral_step = 1e-4;  // m
-constexpr double near = 6e-5;          // m, vertical: profiles that are no farther apart may touch under load
-constexpr double jump = 4e-3;          // m along the wheel's profile, from one lateral position to the next
 constexpr double half_a_gauge = 0.15;  // m: a rail that lies farther from a wheel is not its own
 
 using scene::MeshSource;
@@ -147,20 +144,20 @@ void add_pieces(const scene::Contact& contact, const Body& wheel, const Body& ra
                                         }),
                                 rail_profile);
   const auto [start, end] = std::minmax(contact.zone_lateral_start, contact.zone_lateral_end);
-  const int steps = static_cast<int>(std::ceil((end - start) / lateral_step - 1e-9));
+  const int steps = static_cast<int>(std::ceil((end - start) / contact_zone::lateral_step - 1e-9));
   std::optional<ProfileMeeting> before;
   for (int i = 0; i <= steps; ++i) {
     const double lateral = steps == 0 ? start : start + (end - start) * i / steps;
     const AxlePlace place{wheel.part->position[1] + lateral, wheel.part->angle_of_attack - rail.part->angle_of_attack,
                           contact.zone_roll};
-    const auto meetings = profiles.meetings(place, near);
+    const auto meetings = profiles.meetings(place, contact_zone::opening);
     if (meetings.empty()) continue;
     met = true;
-    const NearPieces pieces = profiles.near(place, near);
+    const NearPieces pieces = profiles.near(place, contact_zone::opening);
     bands[wheel.source].add(pieces.wheel, contact.zone_margin);
     bands[rail.source].add(pieces.rail, contact.zone_margin);
     const ProfileMeeting& first = meetings.front();
-    const bool jumped = before && std::abs(first.wheel_arc - before->wheel_arc) > jump;
+    const bool jumped = before && std::abs(first.wheel_arc - before->wheel_arc) > contact_zone::jump;
     if (i == 0 || i == steps || jumped)
       lines.push_back(described(contact, lateral, first, *side, rail,
                                 jumped ? "the profiles now meet elsewhere," : "the profiles meet"));

@@ -7,6 +7,18 @@
 
 namespace railwave {
 
+/// How wheel and rail are compared.
+namespace contact_zone {
+
+/// m, vertical: profiles that are no farther apart may touch under load.
+inline constexpr double opening = 6e-5;
+/// m, from one lateral position to the next.
+inline constexpr double lateral_step = 1e-4;
+/// m along the wheel's profile, from one lateral position to the next: more is a jump to another place.
+inline constexpr double jump = 4e-3;
+
+}  // namespace contact_zone
+
 /// Gives the wheels and rails of the scene with zone = "contact" their contact bands (zone_centre, zone_width), and the
 /// meshes that are fitted to such rails too: for each contact of a wheel with rails, the parts of both profiles that
 /// come within 0.06 mm of each other while the wheel, at its place, angle of attack and roll, moves along y from

@@ -202,7 +202,22 @@ std::map<int, int> opened_by(const Crack& crack, const std::vector<LayerFace>& f
   return twin;
 }
 
-/// Duplicates the opened nodes: the elements behind the seam get the duplicates.
+/// The elements beside these faces are to keep two thirds of their length: each face takes half the width from them.
+void expect_room(const Crack& crack, const std::vector<LayerFace>& faces, const Mesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const LayerFace& face : faces)
+    for (const Face& beside : {face.before, face.behind})
+      shortest = std::min(shortest, hexahedron_length(corners_of(mesh.nodes, mesh.elements[beside.element])));
+  const double most = 2.0 / 3 * shortest;
+  if (crack.seam.width > most)
+    throw InputError(
+        fmt::format("{} width = {:g} m is too wide for the elements beside it, the least {:.4g} m long; allowed: up to "
+                    "{:.4g} m, or larger elements",
+                    crack.place, crack.seam.width, shortest, most));
+}
+
+/// Duplicates the opened nodes: the elements behind the seam get the duplicates. Both sides' nodes draw apart by half
+/// the width each.
 void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, std::map<int, int> twin, Mesh& mesh) {
   for (auto& [n, own] : twin) {
     own = static_cast<int>(mesh.nodes.size());
@@ -222,6 +237,11 @@ void part(const scene::Seam& seam, const std::vector<LayerFace>& faces, std::map
     for (int n : nodes)
       if (const auto own = twin.find(n); own != twin.end()) more.push_back(own->second);
     nodes.insert(nodes.end(), more.begin(), more.end());
+  }
+  const double apart = 0.5 * seam.width / std::cos(seam.angle);
+  for (const auto& [n, own] : twin) {
+    mesh.nodes[n][0] -= apart;
+    mesh.nodes[own][0] += apart;
   }
   for (const LayerFace& face : faces) {
     mesh.surfaces[seam.name + "_before"].push_back(face.before);
@@ -251,6 +271,7 @@ OpenedSeam open_seam(const scene::Seam& seam, const std::string& place, Mesh& me
   const Extent extent = extent_of(crack, mesh, faces);
   const int bodies = connected_bodies(mesh);
   incline(seam, place, faces, mesh);
+  expect_room(crack, faces, mesh);
   part(seam, faces, twins, mesh);
   if (connected_bodies(mesh) > bodies)
     throw InputError(

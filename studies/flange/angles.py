@@ -251,7 +251,8 @@ def findings(found):
             (f"{where}: normal force of patch 2", "grows", f"{', '.join(f'{v:.0f}' for v in flange.normal[after])} kN"),
             (f"{where}: lateral force of patch 1 before, from then on", "jumps",
              f"{_between(tread.lateral[before], '{:.1f}')}; {', '.join(f'{v:.1f}' for v in tread.lateral[after])} kN"),
-            (f"{where}: lateral force of patch 2", "jumps", f"{', '.join(f'{v:.1f}' for v in flange.lateral[after])} kN"),
+            (f"{where}: lateral force of patch 2", "jumps",
+             f"{', '.join(f'{v:.1f}' for v in flange.lateral[after])} kN"),
             (f"{where}: longitudinal force of patch 1 before, from then on", "falls",
              f"{_between(tread.longitudinal[before], '{:.1f}')};"
              f" {', '.join(f'{v:.1f}' for v in tread.longitudinal[after])} kN"),

@@ -202,3 +202,28 @@ TEST_CASE("seams that cannot be are refused with the reason") {
   open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh);
   CHECK_THROWS_AS(open_seam(seam({0.06, 0.02, 0.02}, 0.02, 0.01, 0), "here", mesh), InputError);
 }
+
+TEST_CASE("a seam with a width has its faces that far apart, square to its plane, and its front in common") {
+  for (double angle : {0.0, 0.5, -0.4}) {
+    scene::Seam one = seam({0.06, 0.02, 0.02}, 0.02, 0.01, angle);
+    Mesh closed = box({48, 16, 8}), open = closed;
+    open_seam(one, "case.toml:1: [seams.crack]", closed);
+    one.width = 1e-4;
+    open_seam(one, "case.toml:1: [seams.crack]", open);
+    REQUIRE(open.nodes.size() == closed.nodes.size());
+    CHECK(shared_nodes(open) == shared_nodes(closed));
+    const auto before = nodes_of(open, "crack_before"), behind = nodes_of(open, "crack_behind");
+    for (const auto& [side, way] : {std::pair{before, -0.5}, std::pair{behind, 0.5}})
+      for (int n : side) {
+        if (before.count(n) != 0 && behind.count(n) != 0) continue;
+        const Vec3& x = open.nodes[n];
+        const double off = (x[0] - one.place[0]) * std::cos(angle) - (one.place[2] - x[2]) * std::sin(angle);
+        CHECK_THAT(off, WithinAbs(way * one.width, 1e-9));
+      }
+    CHECK(mesh_quality(open, 1).inverted == 0);
+    one.width = 0.003;
+    Mesh coarse = box({48, 16, 8});
+    CHECK_THROWS_WITH(open_seam(one, "case.toml:1: [seams.crack]", coarse),
+                      ContainsSubstring("[seams.crack] width = 0.003 m is too wide for the elements beside it"));
+  }
+}

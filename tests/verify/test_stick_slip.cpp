@@ -127,7 +127,7 @@ TEST_CASE("the coefficient written beside the forces is that of the instant, and
   REQUIRE(settle_whole(model).settled);
   set_initial_motion(model, model.nodes, model.beams);
   double lowest = 1, highest = 0, largest = 0, least_slipping = 1, worst = 0;
-  std::vector<double> place;
+  std::vector<double> place, held, coefficient;
   std::vector<int> before;
   march(model, model.step_count, [&] {
     // How far each slave has moved over the belt since the instant before, from positions alone: the belt is plane.
@@ -138,16 +138,25 @@ TEST_CASE("the coefficient written beside the forces is that of the instant, and
       for (int i : {0, 1}) now.push_back(x(n, i) - (i == 0 ? dragged.belt * model.step * model.step_size : 0));
     const ContactState state = contact_state(model, model.ties, model.contacts, 0);
     REQUIRE(state.friction_now.size() == pair.slave_nodes.size());
+    const auto stiffness = to_host(pair.arrays.segment_stiffness);
+    const auto tracked = to_host(pair.arrays.tracked);
     for (std::size_t s = 0; s < pair.slave_nodes.size() && !place.empty(); ++s) {
       if (state.slipping[s] == 0) continue;
-      // What a node creeps that a multiplier holds is taken back.
-      const bool held = dragged.algorithm == scene::ContactAlgorithm::multiplier && before[s] != 2;
-      const double moved = held ? 0 : std::hypot(now[2 * s] - place[2 * s], now[2 * s + 1] - place[2 * s + 1]);
-      const double speed = moved / model.step_size;
       const double friction = state.friction_at(s);
-      worst = std::max(worst, std::fabs(friction - dragged.friction(speed)));
       const double normal = norm(Vec3{state.slave.normal_force[3 * s], state.slave.normal_force[3 * s + 1],
                                       state.slave.normal_force[3 * s + 2]});
+      const double along = now[2 * s] - place[2 * s], across = now[2 * s + 1] - place[2 * s + 1];
+      double slid = 0;
+      if (dragged.algorithm == scene::ContactAlgorithm::penalty) {
+        // A spring takes up what it can hold at the coefficient of the instant before.
+        const double k = stiffness(tracked(static_cast<int>(s)));
+        const double trial = std::hypot(held[3 * s] - k * along, held[3 * s + 1] - k * across);
+        slid = std::max(0.0, trial - coefficient[s] * normal) / k;
+      } else if (before[s] == 2) {
+        // What a node creeps that a multiplier holds is taken back.
+        slid = std::hypot(along, across);
+      }
+      worst = std::max(worst, std::fabs(friction - dragged.friction(slid / model.step_size)));
       const double tangential = norm(Vec3{state.slave.tangential_force[3 * s], state.slave.tangential_force[3 * s + 1],
                                           state.slave.tangential_force[3 * s + 2]});
       const double used = tangential / (friction * normal);
@@ -158,6 +167,8 @@ TEST_CASE("the coefficient written beside the forces is that of the instant, and
     }
     place = now;
     before = state.slipping;
+    held = state.slave.tangential_force;
+    coefficient = state.friction_now;
   });
   INFO("coefficients " << lowest << " to " << highest << ", at most " << worst
                        << " from the law; tangential force at most " << largest << " of the bound, slipping at least "

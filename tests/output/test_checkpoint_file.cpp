@@ -176,7 +176,9 @@ TEST_CASE("no damage is taken for a state") {
   for (const std::size_t length : lengths) {
     INFO("cut to " << length);
     CHECK(refused(sound.substr(0, length)));
-    CHECK(refused(sound.substr(0, length) + std::string(sound.size() - length, '\0')));  // a disk that had no time
+    // A disk that had no time. The seal at the end may itself end with a zero: once in 256 runs.
+    const std::string zeroed = sound.substr(0, length) + std::string(sound.size() - length, '\0');
+    if (zeroed != sound) CHECK(refused(zeroed));
   }
   CHECK(refused(sound + "x"));
   CHECK(refused("a text of somebody else's"));

@@ -29,11 +29,11 @@ class Whole(unittest.TestCase):
             self.assertEqual(second.returncode, 0, second.stderr[-4000:])
             self.assertEqual(second.stdout.count("there already"), first.stdout.count("== "))
         # In elements of 4 mm the flange's patch is two or three long, and on the short way the axle bends less before:
-        # 0.329 m. Its angle is good to degrees.
+        # 0.329 m.
         self.assertLess(abs(float(found["the flange touches at"].split()[0]) / 0.29 - 1), 0.2)
-        low, high = (float(word) for word in found["contact angle of patch 2"].removesuffix(" deg").split(" to "))
-        self.assertGreater(low, 55)
-        self.assertLess(high, 80)
+        # The gauge corner of 13 mm turns by 18 degrees from one facet of 4 mm to the next.
+        for angle in found["contact angle of patch 2"].removesuffix(" deg").split(" to "):
+            self.assertLess(abs(float(angle) - 70), 18)
         self.assertLess(float(found["energy balance; static start; wall time"].split()[0]), 0.5)
 
 

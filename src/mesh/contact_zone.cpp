@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "case/expand.hpp"
 #include "mesh/generators/rail.hpp"
 #include "mesh/generators/wheel.hpp"
 #include "mesh/mesh_checks.hpp"
@@ -244,14 +245,9 @@ std::vector<std::string> place_contact_zones(scene::Scene& scene) {
                          source.name));
     lines.push_back(set_band(source, band->second));
   }
-  for (MeshSource& source : scene.meshes) {
-    const auto fit = [&](auto& mesh) {
-      const MeshSource* rail = find_entry(scene.meshes, mesh.rail);
-      if (rail && rail->type == MeshType::rail) mesh.rail_mesh = rail->rail;
-    };
-    if (source.type == MeshType::fishplate) fit(source.fishplate);
-    if (source.type == MeshType::rail_pad) fit(source.rail_pad);
-  }
+  if (lines.empty()) return lines;
+  case_file::Complaints complaints(scene.path);  // none: each names a rail, or the case would not have been read
+  case_file::fit_to_rails(scene, complaints);
   return lines;
 }
 

@@ -1,12 +1,15 @@
 """A crack in the rail's head that the wheel crosses (thesis 7.3): force, contact and energy against the run without it,
 and the waves that go out from it: the normal velocity of the surface less that of the sound rail's."""
 
+import functools
+
 import matplotlib.pyplot as plt
 import numpy as np
 
 from creepage import patch_edge
 from pictures import style
 from pictures.output import put_movie
+from scenes import SPEED
 from spectrum import at_even_times, even
 
 CLEAR = 0.003  # m, about the patch that is left out
@@ -17,6 +20,12 @@ FAR = 0.010  # m, of the patch's front from the mouth, from which on the wheel n
 SPEEDS = np.arange(1500.0, 7000.0, 50.0)  # m/s
 FRAMES, MOVIE_RATE = 30, 8
 WHEN = ("before", "nearing", "over it", "behind")
+
+
+@functools.lru_cache(maxsize=1)
+def crossing_of(sound, cracked):
+    """The Crossing of two runs, which table, pictures and movies share."""
+    return Crossing(sound, cracked)
 
 
 class Crossing:
@@ -120,7 +129,7 @@ def mouth_of(surface):
 
 def study(found):
     """Rows of the study's table, and (name, figure)."""
-    crossing = Crossing(found["traction"], found["crack"])
+    crossing = crossing_of(found["traction"], found["crack"])
     sound, cracked = crossing.sound, crossing.cracked
     patch = np.array([cracked.patch_at(time) for time in cracked.time])
     phase = crossing.when(cracked.time, patch)
@@ -133,7 +142,7 @@ def study(found):
     tangential = cracked.longitudinal - np.interp(cracked.time, sound.time, sound.longitudinal)
     rows = [
         ("crack: its mouth, from the wheel's first place; across the rail", "not printed",
-         f"{1e3 * (crossing.middle[0] + 27.78 * cracked.earlier):.1f} mm; {2e3 * crossing.half:.0f} mm wide at least"),
+         f"{1e3 * (crossing.middle[0] + SPEED * cracked.earlier):.1f} mm; {2e3 * crossing.half:.0f} mm wide at least"),
         ("crack: normal force over that of the sound rail while the patch is over the mouth, most off; mean",
          "within 5 %", f"{100 * off[over][np.abs(off[over]).argmax()]:+.2f} %; {100 * off[over].mean():+.2f} %"),
         ("crack: longitudinal force less that of the sound rail there, most", "",
@@ -234,7 +243,7 @@ def draw_ways(crossing):
 
 def put_movies(steps, found):
     """The surface about both instants, an output each frame."""
-    crossing = Crossing(found["traction"], found["crack"])
+    crossing = crossing_of(found["traction"], found["crack"])
     surface = crossing.cracked.surface
 
     def decorate(axes, output):

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/contact/contact_normals.hpp"
 #include "kernels/contact/contact_track.hpp"
 #include "kernels/contact/laws/falling_friction.hpp"
@@ -30,12 +32,12 @@ struct FreeMotion {
   }
 };
 
-/// Phases of finding multipliers, over the nodes that can touch: Begin; Predict, by each of a multiplier's nodes;
-/// Scatter; then for every sweep Correct and Scatter, in the last one Finish instead.
+inline constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
+
+/// Phases of finding multipliers. Begin needs nothing but where the nodes are; PredictFreeNodes comes between it and the
+/// sweeps: Correct, and Finish as the last one.
 struct Multiplier {
   struct Begin {};
-  struct Predict {};
-  struct Scatter {};
   struct Correct {};
   struct Finish {};
 };
@@ -54,32 +56,34 @@ struct Multiplier {
 /// back to where they touched. So a small share 1 - tau is taken back in a step, which only modes with
 /// 2 (1 - cos(omega dt)) < 1 - tau gain from, and hardly (docs/contact.md). Forces are summed in whole quanta: a run is
 /// bitwise repeatable.
+///
+/// The last step's multipliers go to the external forces at once, so that what the nodes are predicted to do holds them.
+/// A sweep reads the changes that its predecessor has left and adds its own to what the one before that had left, so
+/// that nobody reads what others are adding to; the last adds them all to the external forces.
 /// @tparam Normals along which they press: see kernels/contact/contact_normals.hpp
 template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
   ContactSearch search;
   ContactWindow window;
   ExternalForceSum external;
-  FreeMotion free_motion;
+  Array<const int*> external_row;
+  Array<const double* [3][3]> constraints;
+  FreeNodeArrays free_nodes;
   MultiplierArrays multipliers;
   FirstTouch first_touch;
   double taken_back;  ///< share of gap and way of a node in contact that a step takes back: 1 - tau
   FallingFriction falling_friction;
   Array<double*> friction_state;  ///< of it, value by value, each by slave node; empty where friction is constant
+  int sweep = 0;                  ///< of Correct and Finish, from 1
 
-  static constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
   /// Nodes farther off, in diagonals of the segment, are not asked for their movement: it would have to be faster than
   /// a hundredth of the fastest wave.
   static constexpr double near_share = 0.01;
 
+  /// @param i of the window's nodes: how many of them are near is known on the device only
   template <class Phase>
-  KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
+  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i) const {
     if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
-  }
-
-  KOKKOS_INLINE_FUNCTION void operator()(const Multiplier::Predict& /*phase*/, const int i) const {
-    const int most = multipliers.most_nodes;
-    if (i < most * window.near_count(0)) predict(window.entries(window.near(i / most)).slave, i % most);
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
@@ -110,27 +114,26 @@ struct ContactMultiplier {
     r.moved =
         touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0)
                 : Vector3{{0, 0, 0}};
-    r.force = r.pending = Vector3{{0, 0, 0}};
-    r.pressing = r.compliance = 0;
+    r.force = r.begun = r.change = Vector3{{0, 0, 0}};
+    r.pressing = 0;
     r.slips = 1;
     if constexpr (Friction)
       r.friction = friction(s, touched && r.active != 0, status == status_slips ? r.moved : Vector3{{0, 0, 0}});
     if (r.active == 0) return;
 
-    r.node[0] = near.node;
-    r.weight[0] = 1;
-    r.count = 1;
+    r.count = 0;
+    add_node(r, near.node, 1);
     for (int k = 0; k < 4; ++k) {
       const double weight = -segment_shape(k, now.place.xi, now.place.eta);
       if (segment.node[k] >= 0) {
-        add_node(r, segment.node[k], contact.segments(now.segment, k), weight);
+        add_node(r, segment.node[k], weight);
         continue;
       }
       const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
       double share[MouthCorner::pieces];
       search.shares_of(mouth, share);
       for (int piece = 0; piece < MouthCorner::pieces; ++piece)
-        add_node(r, mouth.node[piece], mouth.master[piece], share[piece] * weight);
+        add_node(r, mouth.node[piece], share[piece] * weight);
     }
     r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
@@ -142,13 +145,14 @@ struct ContactMultiplier {
     }
     r.pressing = norm(row(contact.normal_force, s));
     if (!touched) return;
-    r.pending = r.pressing * now.normal;
+    r.force = r.pressing * now.normal;
     if constexpr (Friction) {
       Vector3 tangential = row(contact.tangential_force, s);
       tangential = tangential - dot(tangential, now.normal) * now.normal;
-      r.pending = r.pending + tangential;
+      r.force = r.force + tangential;
     }
-    r.force = r.pending;
+    r.begun = r.force;
+    scatter(r, r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
   }
 
   /// The coefficient that bounds the force to be found, by how the node has slid up to now. What one that sticks creeps
@@ -166,55 +170,58 @@ struct ContactMultiplier {
     return state[FallingFriction::now];
   }
 
-  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, int master, double weight) const {
-    r.node[r.count] = node;
-    r.master[r.count] = master;
+  /// Who first pushes a node lists it.
+  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, double weight) const {
+    const int at = external_row(node);
+    r.row[r.count] = at;
     r.weight[r.count] = weight;
     ++r.count;
-    Kokkos::atomic_add(&multipliers.multiplicity(master), multiplicity_share(weight));
+    const auto share = static_cast<std::uint64_t>(std::fabs(weight) / multiplicity_quantum) + 1;
+    if (Kokkos::atomic_fetch_add(&free_nodes.multiplicity(at), share) != 0) return;
+    free_nodes.nodes(at).node = node;
+    free_nodes.listed(Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), 1)) = at;
   }
 
-  /// What the node would do by itself: gathered from several places that wait for each other, so with a thread of its
-  /// own.
-  KOKKOS_INLINE_FUNCTION void predict(const int s, const int k) const {
-    MultiplierRow& r = multipliers.rows(s);
-    if (r.active == 0 || k >= r.count) return;
-    r.row[k] = free_motion.acceleration.force.nodes.external_row(r.node[k]);
-    r.compliances[k] = free_motion.compliance(r.node[k]);
-    r.predicted[k] = free_motion(r.node[k]) - movement(r, k);
-  }
-
-  /// Hands what a multiplier has changed by to its nodes. Equal and opposite to the last bit: the last corner takes
-  /// what the others leave.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Scatter& /*phase*/, const WindowEntry& near) const {
-    scatter(multipliers.rows(near.slave));
-  }
-
-  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r) const {
-    if (r.active == 0) return;
-    const Vector3 quanta = external.in_quanta(r.pending);
+  /// Hands a force on the slave to its nodes. Equal and opposite to the last bit: the last corner takes what the others
+  /// leave.
+  /// @param place of a row's sum, by axis
+  template <class Place>
+  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r, const Vector3& force, const Place& place) const {
+    const Vector3 quanta = external.in_quanta(force);
     const FixedForce whole = external.fixed(quanta);
     FixedForce left = whole;
-    external.add(r.row[0], whole);
+    for (int c = 0; c < 3; ++c) Kokkos::atomic_add(place(r.row[0], c), static_cast<std::uint64_t>(whole.quanta[c]));
     for (int k = 1; k < r.count; ++k) {
       const FixedForce share = k + 1 < r.count ? external.fixed(-r.weight[k] * quanta) : left;
-      for (int c = 0; c < 3; ++c) left.quanta[c] -= share.quanta[c];
-      external.subtract(r.row[k], share);
+      for (int c = 0; c < 3; ++c) {
+        left.quanta[c] -= share.quanta[c];
+        Kokkos::atomic_add(place(r.row[k], c), static_cast<std::uint64_t>(-share.quanta[c]));
+      }
     }
   }
 
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
     MultiplierRow& r = multipliers.rows(near.slave);
     if (r.active == 0) return;
-    if (r.compliance == 0) {
-      for (int k = 0; k < r.count; ++k) r.free = r.free + r.weight[k] * r.predicted[k];
-      r.compliance = r.compliances[0];
-      for (int k = 1; k < r.count; ++k)
-        r.compliance -= r.weight[k] * r.compliances[k] * multiplicity_quantum *
-                        static_cast<double>(multipliers.multiplicity(r.master[k]));
-    }
+    const Vector3 before = r.change;
+    correct(r);
+    scatter(r, before + r.change, [&](int at, int axis) { return &free_nodes.change(at, sweep & 1, axis); });
+  }
+
+  /// A sweep's new force of one multiplier.
+  KOKKOS_INLINE_FUNCTION void correct(MultiplierRow& r) const {
     Vector3 moves = r.free;
-    for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r, k);
+    if (sweep == 1) {
+      r.compliance = 0;
+      for (int k = 0; k < r.count; ++k) {
+        const FreeNode& free = free_nodes.nodes(r.row[k]);
+        moves = moves + r.weight[k] * free.predicted;
+        r.compliance += std::fabs(r.weight[k]) * free.together;
+      }
+      r.free = moves;
+    } else {
+      for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r.row[k]);
+    }
     const double opening = dot(moves, r.normal);
     const double pressing = std::fmax(0.0, r.pressing - (r.closing + opening) / r.compliance);
     Vector3 force = pressing * r.normal;
@@ -226,21 +233,31 @@ struct ContactMultiplier {
       if (size > bound) tangential = (bound / size) * tangential;
       force = force + tangential;
     }
-    r.pending = force - r.force;
+    r.change = force - r.force;
     r.force = force;
     r.pressing = pressing;
   }
 
-  /// Hands over the last changes; leaves forces and status for the next step and for those who read them, and books the
-  /// work done since the last.
+  /// m, of a node for what multipliers have changed by in this step.
+  KOKKOS_INLINE_FUNCTION Vector3 movement(int at) const {
+    const FreeNode& free = free_nodes.nodes(at);
+    Vector3 force;
+    for (int c = 0; c < 3; ++c)
+      force[c] = external.quantum *
+                 static_cast<double>(static_cast<long long>(free_nodes.change(at, (sweep - 1) & 1, c)));
+    return projected(constraints, free.constraint, free.compliance * force);
+  }
+
+  /// The last sweep; leaves forces and status for the next step and for those who read them, and books the work done
+  /// since the last.
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
-    const MultiplierRow& r = multipliers.rows(s);
-    scatter(r);
-    if (r.active != 0)
-      for (int k = 1; k < r.count; ++k)
-        Kokkos::atomic_add(&multipliers.multiplicity(r.master[k]), std::uint64_t{0} - multiplicity_share(r.weight[k]));
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active != 0) {
+      correct(r);
+      scatter(r, r.force - r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
+    }
     if constexpr (Normals::curved) {
       const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
       if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
@@ -265,14 +282,44 @@ struct ContactMultiplier {
                                         const Vector3& force) const {
     multipliers.impact_energy(s) -= 0.5 * dot(force, first_touch.last.relative_motion(search, node, tracked, place));
   }
+};
 
-  /// m, of one of a multiplier's nodes under the contact forces handed to it so far.
-  KOKKOS_INLINE_FUNCTION Vector3 movement(const MultiplierRow& r, int k) const {
-    return free_motion.acceleration.constrain(r.node[k], r.compliances[k] * external.contact_force(r.row[k]));
+/// What the nodes that multipliers push do in the step: gathered once, from several places that wait for each other,
+/// however many multipliers push a node. Leaves what counts them at zero for the next step.
+struct PredictFreeNodes {
+  FreeNodeArrays free_nodes;
+  FreeMotion motion;
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    if (i >= free_nodes.listed_count(0)) return;
+    const int at = free_nodes.listed(i);
+    FreeNode& free = free_nodes.nodes(at);
+    const int n = free.node;
+    free.constraint = motion.acceleration.force.nodes.constraint(n);
+    free.compliance = motion.compliance(n);
+    free.together = free.compliance * multiplicity_quantum * static_cast<double>(free_nodes.multiplicity(at));
+    free.predicted = motion(n);
+    free_nodes.multiplicity(at) = 0;
+    for (int parity = 0; parity < 2; ++parity)
+      for (int axis = 0; axis < 3; ++axis) free_nodes.change(at, parity, axis) = 0;
   }
+};
 
-  KOKKOS_INLINE_FUNCTION static std::uint64_t multiplicity_share(double weight) {
-    return static_cast<std::uint64_t>(-weight / multiplicity_quantum);
+/// A phase of several pairs in one launch, over the nodes in their windows.
+/// @tparam Pair a ContactMultiplier
+template <class Pair, int count>
+struct MultiplierPairs {
+  Pair pairs[count];
+
+  template <class Phase>
+  KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
+    int k = i;
+    for (const Pair& pair : pairs) {
+      if (k >= 0 && k < pair.window.count) pair.item(phase, k);
+      k -= pair.window.count;
+    }
+    if constexpr (std::is_same_v<Phase, Multiplier::Finish>)
+      if (i == 0) pairs[0].free_nodes.listed_count(0) = 0;
   }
 };
 

@@ -47,15 +47,25 @@ class LaunchGraph {
   /// All is recorded.
   void finish() { graph_.instantiate(); }
 
-  void launch() const { graph_.submit(ExecutionSpace()); }
+  /// @param space in whose order the launch comes; what it launches is not in the order of others
+  void launch(const ExecutionSpace& space) const { graph_.submit(space); }
 
  private:
   Kokkos::Experimental::Graph<ExecutionSpace> graph_;
 };
 
+/// Spaces whose launches need not wait for each other's, nor for those of the default one.
+inline std::vector<ExecutionSpace> separate_spaces(std::size_t count) {
+  return Kokkos::Experimental::partition_space(ExecutionSpace(), std::vector<int>(count, 1));
+}
+
 #else
 
 constexpr bool has_launch_graphs = false;
+
+inline std::vector<ExecutionSpace> separate_spaces(std::size_t count) {
+  return std::vector<ExecutionSpace>(count, ExecutionSpace());
+}
 
 #endif
 

@@ -49,16 +49,18 @@ class StepValues {
 
   const Value* of(int step_of_graph) const { return width_ == 0 ? nullptr : taken_.data() + step_of_graph * width_; }
 
-  /// Brings the values of some steps in place.
+  /// Brings the values of some steps in place, in the order of a space.
   /// @param value of a step, of the given number
   template <class ValueAt>
-  void take(long step, long steps, double step_size, const ValueAt& value) {
+  void take(const ExecutionSpace& space, long step, long steps, double step_size, const ValueAt& value) {
     if (width_ == 0) return;
-    if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_)
+    if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_) {
+      space.fence();
       fill(step, step_size, value);
+    }
     if (constant_ && in_place_) return;
     const int all = static_cast<int>(constant_ ? taken_.extent(0) : steps * width_);
-    Kokkos::parallel_for("step_values", Range(0, all),
+    Kokkos::parallel_for("step_values", Range(space, 0, all),
                          TakeStepValues<Value>{table_, taken_, static_cast<int>(step - first_) * width_});
     in_place_ = true;
   }
@@ -98,8 +100,10 @@ struct StepRecording::Recordings {
   /// Phase of the cycle of subcycling, step of the frames' block, steps.
   using Key = std::tuple<long, long, long>;
 
-  Recordings(Model& the_model, const Plan& plan)
+  Recordings(Model& the_model, const Plan& plan, const ExecutionSpace* own_space)
       : model(the_model),
+        space(own_space != nullptr ? *own_space : ExecutionSpace()),
+        own(own_space != nullptr),
         most(most_steps()),
         load_values(static_cast<int>(model.loads.size()), std::max(1, most)),
         places(static_cast<int>(model.prescribed.size()), std::max(1, most)) {
@@ -114,6 +118,25 @@ struct StepRecording::Recordings {
       now.push_back(pair.window.count);
     }
     return now;
+  }
+
+  /// Whether tasks that are not recorded may launch something at this step.
+  bool plain_due() const {
+    for (const ContactPair& pair : model.contacts)
+      if (model.step >= pair.next_check || model.step >= pair.next_near_check) return true;
+    return model.relative.active();
+  }
+
+  /// Before launches in the default space, and after them.
+  void finish() {
+    if (own && launched) space.fence();
+    launched = false;
+    others_launched = true;
+  }
+  void begin() {
+    if (own && others_launched) ExecutionSpace().fence();
+    others_launched = false;
+    launched = true;
   }
 
   long frame_step() const { return model.relative.active() ? model.step - model.relative.block_step : 0; }
@@ -165,6 +188,10 @@ struct StepRecording::Recordings {
   }
 
   Model& model;
+  const ExecutionSpace space;
+  const bool own;               ///< not the default one
+  bool launched = false;        ///< in that space since finish()
+  bool others_launched = true;  ///< in the default one since begin()
   const int most;
   std::vector<Task> plain, recordable;
   StepValues<double> load_values;
@@ -173,7 +200,12 @@ struct StepRecording::Recordings {
   State recorded_in;  ///< of all of them
 };
 
-StepRecording::StepRecording(Model& model, const Plan& plan) : recordings_(std::make_unique<Recordings>(model, plan)) {}
+StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space)
+    : recordings_(std::make_unique<Recordings>(model, plan, space)) {}
+
+StepRecording::~StepRecording() { finish(); }
+
+void StepRecording::finish() { recordings_->finish(); }
 
 int StepRecording::most() const { return recordings_->most; }
 
@@ -183,9 +215,13 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   // The first steps know another time before them.
   const bool regular = instant.elapsed == instant.step && model.velocity_lag == 0.5 * instant.step;
   if (all.most == 0 || quiet < 1 || !regular) return 0;
-  run_tasks(all.plain, instant, model.step);
+  if (all.plain_due()) {
+    all.finish();
+    run_tasks(all.plain, instant, model.step);
+  }
   const long steps = all.steps_of_graph(quiet);
   if (auto now = all.state(); now != all.recorded_in) {
+    all.finish();
     all.graphs.clear();
     all.recorded_in = std::move(now);
   }
@@ -193,24 +229,25 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const auto place = [&](long step, int number) {
     return place_at(model.prescribed[number], time(step) + instant.step);
   };
-  all.load_values.take(model.step, steps, instant.step, value);
-  all.places.take(model.step, steps, instant.step, place);
   const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps};
   auto found = all.graphs.find(key);
   if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
-  found->second.launch();
+  all.begin();
+  all.load_values.take(all.space, model.step, steps, instant.step, value);
+  all.places.take(all.space, model.step, steps, instant.step, place);
+  found->second.launch(all.space);
   return steps;
 }
 
 #else
 
 struct StepRecording::Recordings {};
-StepRecording::StepRecording(Model&, const Plan&) {}
+StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*) {}
+StepRecording::~StepRecording() = default;
+void StepRecording::finish() {}
 int StepRecording::most() const { return 0; }
 long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
 
 #endif
-
-StepRecording::~StepRecording() = default;
 
 }  // namespace railwave

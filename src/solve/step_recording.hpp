@@ -14,7 +14,8 @@ namespace railwave {
 class StepRecording {
  public:
   /// @param plan of advancing steps; both it and the model must outlive this
-  StepRecording(Model& model, const Plan& plan);
+  /// @param space in whose order graphs are launched; null: the default one, in which all else is launched
+  StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr);
   ~StepRecording();
 
   /// Steps of the largest graph; 0: all steps are plain.
@@ -25,6 +26,9 @@ class StepRecording {
   /// @param time s, of a step
   /// @return how many were launched; 0: this step must be plain
   long advance(const Instant& instant, long quiet, const std::function<double(long)>& time);
+
+  /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
+  void finish();
 
  private:
   struct Recordings;

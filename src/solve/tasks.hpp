@@ -109,9 +109,8 @@ struct MultiplierTasks {
 };
 
 /// @param relaxation how the nodes move while a scene settles; null: by the central difference
-MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
-                                 std::vector<ContactPair>& contacts, StepKind kind,
-                                 const RelaxationUpdate* relaxation = nullptr);
+MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
+                                 StepKind kind, const RelaxationUpdate* relaxation = nullptr);
 
 /// (a) Forces on tied nodes go to their masters: after all others on them.
 std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties);

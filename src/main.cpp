@@ -43,6 +43,7 @@ struct Arguments {
   ResponseRequest response;
   DecayRequest decay;
   ModesRequest modes;
+  sweep::SweepRequest sweep;
   std::optional<std::string> mesh_file;  ///< none: mesh.h5 in the case's own folder
   bool markdown = false, schema = false;
   bool restart = false, keep_state = false, overwrite = false;
@@ -277,6 +278,10 @@ int dispatch(int argc, char** argv) {
   add_decay_command(app, arguments.decay, [&] {
     code = in_reading_child("railwave decay", arguments.decay.results,
                             [&] { return decay_command(arguments.decay, std::cout); });
+  });
+  add_sweep_command(app, arguments.sweep, [&] {
+    stop_on_signals();
+    code = sweep::sweep_command(arguments.sweep, was_signalled, draw_sweep, std::cout);
   });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means, or a command");
   help->add_option("topic", arguments.topic,

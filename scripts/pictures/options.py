@@ -16,7 +16,7 @@ micro-slip, stick and slip, several instants in a row, their evolution. With --s
 scene, deformed,
 coloured by a field. With --animate: either of them as a movie. Or a model (--mesh), or what `railwave signal --hdf5` \
 found
-(--signal)."""
+(--signal), or the table of a sweep (--sweep)."""
 
 EXAMPLES = """examples:
   picture drop.h5 --by von_mises --time 5e-4             the whole scene at one instant
@@ -53,6 +53,9 @@ def make_parser(root):
         "--signal",
         metavar="FILE",
         help="draw what `railwave signal --hdf5` wrote instead: spectrum, scalogram, phase, ellipse, wave speed",
+    )
+    parser.add_argument(
+        "--sweep", metavar="FILE", help="draw the table that `railwave sweep` wrote instead: each figure by parameter"
     )
 
     body = parser.add_argument_group("bodies and the scene")
@@ -140,10 +143,10 @@ def parse(root=pathlib.Path("."), arguments=None):
     """The arguments, checked: lists and numbers instead of texts, and whether bodies are drawn."""
     parser = make_parser(root)
     a = parser.parse_args(arguments)
-    if sum(path is not None for path in (a.results, a.mesh, a.signal)) != 1:
+    if sum(path is not None for path in (a.results, a.mesh, a.signal, a.sweep)) != 1:
         parser.error(
             "name either a results file or, after --mesh, a model that `railwave mesh` wrote, or, after --signal, what"
-            " `railwave signal --hdf5` wrote"
+            " `railwave signal --hdf5` wrote, or, after --sweep, the table of `railwave sweep`"
         )
 
     def only_with(allowed, reason, **options):

@@ -46,7 +46,8 @@ Document parse_document(std::string text, Complaints& complaints);
 /// a complaint, when it looks like a list, table or quoted text but is broken.
 bool parse_override_value(const std::string& text, const std::string& whole, Node& value, Complaints& complaints);
 
-/// Puts `section.key=value` texts of the command line into the document, where they replace what the file says. A named
+/// Puts `section.key=value` texts of the command line into the document, where they replace what the file says;
+/// `section.key[1]=value` replaces one entry of a list in the file, which count from 0. A named
 /// entry must exist in the file; keys are checked later, like the file's own. Former names of sections bring a remark.
 void apply_overrides(const std::vector<std::string>& overrides, Node& root, Complaints& complaints,
                      Complaints& remarks);
@@ -54,7 +55,14 @@ void apply_overrides(const std::vector<std::string>& overrides, Node& root, Comp
 /// The values of a case on which its settled state can depend, one line each; blanks and remarks of the file do not
 /// matter. Left out are the title, [time], [checkpoint], [monitor], [output] and its windows, probes, element sets,
 /// absorbing layers, the choice of the time loop's steps, and the velocities and displacements of initial and
-/// prescribed motions: the list is `without` in static_text.cpp. Mesh files count by their names.
+/// prescribed motions, but for the velocity of what rolls: the list is `without` in static_text.cpp. Mesh files count
+/// by their names.
 std::string static_text(const Node& root);
+
+/// All values of a case, one line each: like static_text(), with nothing left out.
+std::string whole_text(const Node& root);
+
+/// A value as it stands in TOML, numbers with as few digits as tell them from others.
+std::string toml_text(const Node& value);
 
 }  // namespace railwave::case_file

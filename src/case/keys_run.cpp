@@ -43,6 +43,9 @@ Section settle_section() {
           "the settled state is kept in a file, settled-HASH.h5, and a later run that settles under the same loads "
           "begins with it"),
       key("cache_folder", &Settle::cache_folder, "where that file lies").otherwise("beside the results"),
+      key("keep_unsettled", &Settle::keep_unsettled,
+          "the file is also kept when settling was interrupted or came to `max_steps`, and a later run settles on from "
+          "there; `false`: neither, so that a run does not depend on what was interrupted before it"),
   };
   return section;
 }

@@ -1,5 +1,9 @@
+#include <cstddef>
+#include <optional>
+
 #include "case/document.hpp"
 #include "case/keys.hpp"
+#include "case/number_text.hpp"
 #include "case/suggest.hpp"
 
 namespace railwave::case_file {
@@ -33,6 +37,38 @@ Node& find_or_add(Node& table, const std::string& name) {
   child.where = {0, true};
   table.children.push_back(std::move(child));
   return table.children.back();
+}
+
+/// A key as it is written: a number behind it in brackets means one entry of its list.
+struct Entry {
+  std::string key;
+  std::optional<std::size_t> index;
+};
+
+Entry entry_of(const std::string& word) {
+  const auto open = word.find('[');
+  if (open == std::string::npos || word.back() != ']') return {word, {}};
+  const std::string digits = word.substr(open + 1, word.size() - open - 2);
+  const auto number = parse_integer(digits);
+  if (!number || *number < 0 || digits[0] == '+') return {word, {}};
+  return {word.substr(0, open), static_cast<std::size_t>(*number)};
+}
+
+/// Puts a value into a list that the file has. @return what is wrong
+std::string replace_entry(Node& table, const Entry& entry, const Node& value) {
+  Node* list = table.find(entry.key);
+  if (!list)
+    return "the file does not say " + entry.key + ", so that it has no entry to replace; write " + entry.key +
+           "=[...] with all of them";
+  if (list->type != Node::Type::list) return entry.key + " is no list in the file; write " + entry.key + "=value";
+  if (*entry.index >= list->children.size())
+    return "the list in the file has " + std::to_string(list->children.size()) +
+           " entries, which count from 0; there is no [" + std::to_string(*entry.index) + "]";
+  Node& place = list->children[*entry.index];
+  place = value;
+  place.name.clear();
+  list->where = value.where;
+  return "";
 }
 
 /// The table that holds the key, or null with a complaint in `mistake`.
@@ -94,6 +130,11 @@ void apply_overrides(const std::vector<std::string>& overrides, Node& root, Comp
     auto* table = holder(words, root, mistake);
     if (!mistake.empty()) complaints.add({0, true}, printable(path) + ": " + mistake);
     if (!table) continue;
+    if (const Entry entry = entry_of(words.back()); entry.index) {
+      mistake = replace_entry(*table, entry, value);
+      if (!mistake.empty()) complaints.add({0, true}, printable(path) + ": " + mistake);
+      continue;
+    }
     value.name = words.back();
     auto& place = find_or_add(*table, value.name);
     place = value;

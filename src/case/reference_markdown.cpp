@@ -68,7 +68,7 @@ end = 1e-3
 - **Names.** Each section `[parts.NAME]`, `[materials.NAME]` and so on makes one thing, which others refer to by its
   name. A set of a part's mesh is `part.set`. `ground` is the fixed world, to which connectors may lead.
 - **Command line.** `railwave run CASE --set section.key=value` replaces a value: `time.end=1e-3`,
-  `parts.wheel.hourglass=stiffness`.
+  `parts.wheel.hourglass=stiffness`; `parts.wheel.position[1]=0.01` one entry of a list, counted from 0.
 - **Editors.** An editor that knows TOML schemas (taplo, Even Better TOML) completes and checks a case whose first
   line is `#:schema ../docs/case.schema.json`.
 

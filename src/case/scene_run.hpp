@@ -20,9 +20,10 @@ struct Settle {
   SettleMethod method = SettleMethod::automatic;
   double tolerance = 1e-3;  ///< residual force over applied force at which it counts as settled
   int max_steps = 20000;
-  bool friction = true;      ///< false: contacts are frictionless while the scene settles
-  bool cache = true;         ///< keep the settled state in a file, and take it from there
-  std::string cache_folder;  ///< where that lies; empty: beside the results
+  bool friction = true;        ///< false: contacts are frictionless while the scene settles
+  bool cache = true;           ///< keep the settled state in a file, and take it from there
+  std::string cache_folder;    ///< where that lies; empty: beside the results
+  bool keep_unsettled = true;  ///< also a state that is not settled yet, from which a later run settles on
 };
 
 struct Time {

@@ -9,6 +9,7 @@
 #include "post/decay_command.hpp"
 #include "post/response_command.hpp"
 #include "post/signal_command.hpp"
+#include "sweep/sweep_command.hpp"
 
 namespace railwave {
 
@@ -20,6 +21,9 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
 
 /// Adds `railwave signal KIND RESULTS ...`, which fills the request and calls `run`.
 void add_signal_command(CLI::App& app, SignalRequest& request, const std::function<void()>& run);
+
+/// Adds `railwave sweep STUDY`, which fills the request and calls `run`.
+void add_sweep_command(CLI::App& app, sweep::SweepRequest& request, const std::function<void()>& run);
 
 /// Gives every option of every command that takes a number or a file the check of it: numbers are wholly read, finite
 /// and within what the option can use; names of files are neither empty nor '-', which is no file. Called once all

@@ -31,6 +31,9 @@ const std::vector<NumberOption>& number_options() {
   constexpr double any = 1e9, tiny = 1e-9;  // s, Hz, m/s: nothing of a run lies beyond
   static const std::vector<NumberOption> all = {
       {"run", "--wall-time", "s", between(tiny, any), "3600"},
+      {"sweep", "--jobs", "", between(1, 1000), "4", true},
+      {"sweep", "--threads", "", between(1, 512), "2", true},
+      {"sweep", "--retries", "", between(0, 1000), "2", true},
       {"modes", "--up-to", "Hz", between(tiny, any), "5000"},
       {"contact", "--from", "s", between(-any, any), "1e-3"},
       {"contact", "--to", "s", between(-any, any), "2e-3"},
@@ -91,6 +94,7 @@ struct FileOption {
 constexpr FileOption file_options[] = {
     {"case", "a case file", "cases/rolling.toml"},
     {"results", "a results file", "results.h5"},
+    {"study", "a study file", "studies/rolling_grid/study.toml"},
     {"--out", "a file", "mesh.h5"},
     {"--csv", "a file", "table.csv"},
     {"--hdf5", "a file", "more.h5"},

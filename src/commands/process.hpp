@@ -83,4 +83,8 @@ int in_reading_child(const std::string& command, const std::vector<std::string>&
 std::optional<int> after_reading_in_child(const std::string& command, const std::vector<std::string>& files,
                                           const std::function<void()>& read);
 
+/// Runs scripts/picture on the table (HDF5) of a sweep and waits for it; where that is not there or fails a note says
+/// so on standard output.
+void draw_sweep(const std::string& table);
+
 }  // namespace railwave

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <vector>
 
 #include "case/error.hpp"
 #include "case/memory.hpp"
@@ -31,19 +33,37 @@ int cell_count(double cells) {
   return static_cast<int>(cells);
 }
 
-void expect_memory_for_parts(const scene::Scene& scene, double available) {
+namespace {
+
+/// By the scene's parts.
+std::vector<double> elements_of_parts(const scene::Scene& scene) {
   std::map<std::string, double> of_mesh;
   for (const scene::MeshSource& mesh : scene.meshes)
     if (std::any_of(scene.parts.begin(), scene.parts.end(),
                     [&](const scene::Part& part) { return part.mesh == mesh.name; }))
       of_mesh[mesh.name] = expected_elements(mesh);
-  double total = 0, most = 0;
-  const scene::Part* largest = nullptr;
+  std::vector<double> elements;
   for (const scene::Part& part : scene.parts) {
     const auto found = of_mesh.find(part.mesh);
-    const double own = found == of_mesh.end() || !part.element_set.empty() ? 0 : found->second;
-    total += own;
-    if (own > most) most = own, largest = &part;
+    elements.push_back(found == of_mesh.end() || !part.element_set.empty() ? 0 : found->second);
+  }
+  return elements;
+}
+
+}  // namespace
+
+double expected_elements(const scene::Scene& scene) {
+  const std::vector<double> elements = elements_of_parts(scene);
+  return std::accumulate(elements.begin(), elements.end(), 0.0);
+}
+
+void expect_memory_for_parts(const scene::Scene& scene, double available) {
+  const std::vector<double> elements = elements_of_parts(scene);
+  double total = 0, most = 0;
+  const scene::Part* largest = nullptr;
+  for (std::size_t p = 0; p < elements.size(); ++p) {
+    total += elements[p];
+    if (elements[p] > most) most = elements[p], largest = &scene.parts[p];
   }
   // The estimate may be too high, so a scene is refused only if this share of it does not fit.
   constexpr double certain = 0.7;

@@ -22,6 +22,9 @@ void expect_mesh_memory(double elements, double nodes);
 /// direction.
 int cell_count(double cells);
 
+/// About how many elements the meshes of all parts will have.
+double expected_elements(const scene::Scene& scene);
+
 /// Throws InputError when the meshes and the model of all parts of a scene can't fit into the memory that is left; the
 /// message names the part that takes the most of it.
 void expect_memory_for_parts(const scene::Scene& scene);

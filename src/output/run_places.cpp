@@ -102,15 +102,21 @@ OutputPlaces places_of(const scene::Scene& scene, const RunFiles& asked) {
 
 }  // namespace
 
-void name_inputs(const scene::Scene& scene, OutputPlaces& places) {
-  places.reads(scene.path, "the case file");
+std::vector<InputFile> input_files(const scene::Scene& scene) {
+  std::vector<InputFile> files{{scene.path, "the case file"}};
   for (const auto& mesh : scene.meshes) {
-    if (!mesh.file.path.empty()) places.reads(mesh.file.path, fmt::format("the mesh file of [meshes.{}]", mesh.name));
+    if (!mesh.file.path.empty())
+      files.push_back({mesh.file.path, fmt::format("the mesh file of [meshes.{}]", mesh.name)});
     if (!mesh.rail.height_map.empty())
-      places.reads(mesh.rail.height_map, fmt::format("the height map of [meshes.{}]", mesh.name));
+      files.push_back({mesh.rail.height_map, fmt::format("the height map of [meshes.{}]", mesh.name)});
   }
   for (const auto& curve : scene.curves)
-    if (!curve.file.empty()) places.reads(curve.file, fmt::format("the file of [curves.{}]", curve.name));
+    if (!curve.file.empty()) files.push_back({curve.file, fmt::format("the file of [curves.{}]", curve.name)});
+  return files;
+}
+
+void name_inputs(const scene::Scene& scene, OutputPlaces& places) {
+  for (const InputFile& file : input_files(scene)) places.reads(file.path, file.called);
 }
 
 void check_run_places(const scene::Scene& scene, const RunFiles& asked) { places_of(scene, asked).check(); }

@@ -26,6 +26,10 @@ void check_what_gets_lost(const scene::Scene& scene, const RunFiles& asked);
 void check_model_places(const scene::Scene& scene, const std::string& path, bool overwrite);
 
 /// The case file and all that it names: meshes, height maps, curves.
+struct InputFile {
+  std::string path, called;  ///< "the case file", for messages
+};
+std::vector<InputFile> input_files(const scene::Scene& scene);
 void name_inputs(const scene::Scene& scene, OutputPlaces& places);
 
 /// Keeps other runs off a file while a run writes it: PATH.lock is made beside it and locked (flock) as long as this

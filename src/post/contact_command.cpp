@@ -11,17 +11,12 @@
 #include "case/error.hpp"
 #include "case/suggest.hpp"
 #include "post/contact_file.hpp"
-#include "post/contact_reader.hpp"
 #include "post/contact_tables.hpp"
 #include "post/own_file.hpp"
-#include "post/patch_ways.hpp"
 #include "post/results_reader.hpp"
 
 namespace railwave {
 namespace {
-
-/// Output times are multiples of the step, rounded.
-constexpr double interval_rounding = 1e-6;
 
 void check(const ContactRequest& request) {
   const auto [inner, outer] = request.ring;
@@ -133,36 +128,6 @@ std::vector<Solution> wanted_solutions(const std::vector<std::string>& contacts,
   return solutions;
 }
 
-/// Reads the states of the contacts of a solution, as that of one.
-class StatesTogether {
- public:
-  StatesTogether(const ResultsReader& results, const std::vector<std::string>& contacts) {
-    for (const std::string& contact : contacts) {
-      readers_.emplace_back(results, contact);
-      const std::vector<double>& own = readers_.back().times();
-      if (contact == contacts.front()) times_ = own;
-      const std::size_t both = std::min(own.size(), times_.size());  // a killed run may have written one more of one
-      if (!std::equal(own.begin(), own.begin() + static_cast<long>(both), times_.begin()))
-        throw InputError(
-            fmt::format("contacts {} and {} have outputs at different times: those that are together want "
-                        "the same windows of output",
-                        contacts.front(), contact));
-      times_.resize(both);
-    }
-  }
-  const std::vector<double>& times() const { return times_; }
-  ContactState state(std::size_t index) const {
-    if (readers_.size() == 1) return readers_.front().state(index);
-    std::vector<ContactState> states;
-    for (const ContactReader& reader : readers_) states.push_back(reader.state(index));
-    return contacts_together(states);
-  }
-
- private:
-  std::vector<ContactReader> readers_;
-  std::vector<double> times_;
-};
-
 /// Names of the slave surfaces, each once, joined by ", ".
 std::string slave_surfaces(const ResultsReader& results, const Solution& solution) {
   std::string text;
@@ -171,40 +136,6 @@ std::string slave_surfaces(const ResultsReader& results, const Solution& solutio
     if (const std::string surface = results.slave_surface(contact); named.insert(surface).second)
       text += (text.empty() ? "" : ", ") + surface;
   return text;
-}
-
-ContactTables solve(const ResultsReader& results, const Solution& wanted, const ContactRequest& request) {
-  ContactTables tables;
-  tables.with_nodes = request.nodes.has_value();
-  tables.with_facets = request.hdf5.has_value();
-  tables.with_cuts = request.cuts || request.hdf5;
-  PatchOptions options;
-  options.rolling = Vector(request.rolling_direction.data());
-  options.ring = {request.ring[0], request.ring[1]};
-
-  PatchWays ways(options.rolling);
-  std::vector<double> chosen;
-  const StatesTogether reader(results, wanted.contacts);
-  const std::vector<double>& times = reader.times();
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < request.from || times[i] > request.to) continue;
-    if (!chosen.empty() && times[i] < chosen.back() + (1 - interval_rounding) * request.interval) continue;
-    const ContactState state = reader.state(i);
-    const ContactSolution solution = contact_solution(state, options);
-    tables.add(times[i], state, solution, ways.add(times[i], solution));
-    chosen.push_back(times[i]);
-  }
-  if (chosen.empty() && !times.empty())
-    throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s",
-                                 wanted.name, request.from, request.to, times.front(), times.back()));
-  if (request.rolling_velocity) {
-    tables.set_rolling_velocity(*request.rolling_velocity);
-  } else if (request.axle) {
-    tables.set_patch_velocity(results.set_velocity(*request.axle, chosen));
-  } else {
-    tables.set_velocity_of_rows(ways.velocity_of_rows());
-  }
-  return tables;
 }
 
 }  // namespace
@@ -223,7 +154,7 @@ int contact_command(const ContactRequest& request, std::ostream& out) {
   std::vector<std::pair<std::string, ContactTables>> solved;
   std::vector<std::string> surfaces;
   for (const Solution& solution : wanted_solutions(contacts, request)) {
-    solved.emplace_back(solution.name, solve(results, solution, request));
+    solved.emplace_back(solution.name, contact_tables(results, solution.name, solution.contacts, request));
     surfaces.push_back(slave_surfaces(results, solution));
     out << fmt::format("contact {}, forces on {}\n", solution.name, surfaces.back());
     print(out, solved.back().second.patches);

@@ -46,4 +46,14 @@ class ContactTables {
   int instant_count_ = 0;
 };
 
+class ResultsReader;
+struct ContactRequest;
+
+/// The contact solution at the output times that a request asks for, of one contact or of several that are one contact
+/// solution. Throws InputError where no output lies in the times asked for, or where several contacts have outputs at
+/// different times.
+/// @param name of the solution, for messages
+ContactTables contact_tables(const ResultsReader& results, const std::string& name,
+                             const std::vector<std::string>& contacts, const ContactRequest& request);
+
 }  // namespace railwave

@@ -9,17 +9,16 @@
 namespace railwave {
 namespace {
 
-/// A name with commas or quotes is put in quotes, as spreadsheets expect it.
+bool links(const Column& column) { return column.unit == "row"; }
+
+}  // namespace
+
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
 }
-
-bool links(const Column& column) { return column.unit == "row"; }
-
-}  // namespace
 
 Table::Table(std::vector<Column> columns) : columns_(std::move(columns)), values_(columns_.size()) {}
 

@@ -12,6 +12,9 @@ struct Column {
   std::string name, unit;
 };
 
+/// A cell of a CSV file: with commas or quotes it is put in quotes, as spreadsheets expect it.
+std::string csv_text(const std::string& text);
+
 /// Rows of numbers, for CSV and HDF5 alike. Not-a-number: not known; an empty cell in CSV.
 class Table {
  public:
@@ -19,6 +22,8 @@ class Table {
 
   /// Throws std::logic_error if there are not as many as columns.
   void add_row(const std::vector<double>& values);
+
+  const std::vector<Column>& columns() const { return columns_; }
 
   std::size_t row_count() const { return columns_.empty() ? 0 : values_.front().size(); }
   double& at(std::size_t row, const std::string& column) { return values_[place(column)][row]; }

@@ -44,7 +44,7 @@ bool prepare(Model& model, const std::vector<RunObserver*>& observers, SettledSt
 }
 
 std::string while_settling(const scene::Scene& scene, bool out_of_time) {
-  const bool kept = scene.settle.cache && !scene.static_text.empty();
+  const bool kept = scene.settle.cache && scene.settle.keep_unsettled && !scene.static_text.empty();
   return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" +
          (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
 }

@@ -21,8 +21,11 @@ POSITIVE = {
     "--prominence",
     "--order",
     "--rolling-velocity",
+    "--jobs",
+    "--threads",
 }
 NUMERIC = POSITIVE | {
+    "--retries",
     "--from",
     "--to",
     "--interval",
@@ -48,8 +51,11 @@ WORDS = {
     "--direction",
     "--channel",
     "--trend",
+    "--members",
+    "--job",
 }
 FLAGS = {"--restart", "--keep-state", "--overwrite", "--average", "--markdown", "--schema", "--help", "--version"}
+FLAGS |= {"--collect", "--dry-run", "--no-pictures"}
 
 
 def answer(*words, folder=None):

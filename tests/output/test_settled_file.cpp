@@ -325,3 +325,66 @@ TEST_CASE("settling that was stopped goes on from its last state") {
     CHECK(report.steps < whole);
   }
 }
+
+TEST_CASE("scenes that roll at other speeds have settled states of their own") {
+  // Centrifugal forces of 1 m/s and 60 m/s on a roller's sector differ, and so do their equilibria.
+  const test::TemporaryCase file(R"([materials.steel]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+[meshes.roller]
+type = "roller"
+radius = 0.4
+bore_radius = 0.36
+arc_start = -0.03
+arc_end = 0.03
+zone_size = 0.004
+coarse_size = 0.02
+zone_layers = 2
+[parts.roller]
+mesh = "roller"
+material = "steel"
+hourglass = "stiffness"
+[constraints.bore]
+target = "roller.bore"
+fixed = ["x", "y", "z"]
+[initial_motion.roll]
+parts = ["roller"]
+velocity = [1, 0, 0]
+rolling = true
+around = "roller.bore"
+[settle]
+[time]
+end = 2e-6
+)");
+  const Recorder slow = run_case(file), fast = run_case(file, {"initial_motion.roll.velocity[0]=60"});
+  REQUIRE(fast.report.settled);
+  CHECK(slow.report.taken_from.empty());
+  CHECK(fast.report.taken_from.empty());
+  CHECK(fast.samples.front().energy.internal > 100 * slow.samples.front().energy.internal);
+  const Recorder again = run_case(file, {"initial_motion.roll.velocity[0]=60"});
+  CHECK_FALSE(again.report.taken_from.empty());
+  CHECK(bitwise_equal(fast, again));
+}
+
+TEST_CASE("with settle.keep_unsettled false an interrupted settling leaves nothing, and none is taken up") {
+  const test::TemporaryCase file(two_blocks("penalty", "newton"));
+  const auto settle = [&](bool keep, int most) {
+    const scene::Scene scene =
+        read_case(file.path(), {"output.file=" + (file.folder() / "results.h5").string(),
+                                std::string("settle.keep_unsettled=") + (keep ? "true" : "false")});
+    Model model;
+    build_model(scene, model);
+    SettledFiles settled("test");
+    return come_to_rest(model, &settled, [&](const SettleReport& so_far) { return so_far.steps < most; });
+  };
+  constexpr int all = 1000000;
+  CHECK_FALSE(settle(false, 5).settled);
+  CHECK(kept_file(file).empty());
+  CHECK_FALSE(settle(true, 5).settled);
+  CHECK_FALSE(kept_file(file).empty());
+  const SettleReport whole = settle(false, all);
+  CHECK(whole.settled);
+  CHECK(whole.begun_from.empty());
+  CHECK(settle(true, all).taken_from == kept_file(file).string());
+}

@@ -246,7 +246,8 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
   std::vector<std::string> remarks;
   std::string begun_from;
   if (states != nullptr) {
-    const SettledStates::Found found = states->find(model);
+    SettledStates::Found found = states->find(model);
+    if (found.state && !found.state->settled && !model.scene.settle.keep_unsettled) found.state.reset();
     if (!found.trouble.empty()) remarks.push_back(found.file + ": " + found.trouble + "; the scene settles anew");
     if (found.state && !restore_static_state(model, *found.state))
       remarks.push_back(found.file + ": is of another model; the scene settles anew");
@@ -260,7 +261,7 @@ SettleReport come_to_rest(Model& model, SettledStates* states, const std::functi
     }
   }
   report = settle(model, go_on);
-  if (states != nullptr) {
+  if (states != nullptr && (report.settled || model.scene.settle.keep_unsettled)) {
     StaticState state = save_static_state(model);
     state.settled = report.settled;
     state.unbalance = report.unbalance;

@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+"""railwave sweep: its table, what its members have to do with each other (nothing), kills, resuming."""
+
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import tomllib
+import unittest
+
+try:
+    import h5py
+    import numpy as np
+except ImportError:
+    sys.exit(77)
+
+import studies
+from studies import PROGRAM, ROOT, leftovers, members, rows, sweep, write
+
+PATIENCE = 300  # s
+
+
+def arrays(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()].tobytes()} if hasattr(item, "shape") else {}))
+    return found
+
+
+def times_run(member):
+    """How often the member's run came to its end, by what the runs themselves said."""
+    return (member / "log.txt").read_text().count("\nresults: ")
+
+
+def children(process):
+    try:
+        return [int(word) for word in pathlib.Path(f"/proc/{process}/task/{process}/children").read_text().split()]
+    except OSError:
+        return []
+
+
+class SweepTest(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(os.path.realpath(temporary.name))
+
+
+class Whole(SweepTest):
+    def test_table_members_alone_and_again(self):
+        study = write(self.folder)
+        done = sweep(study, "--jobs", "2", "--threads", "1")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        table = rows(study)
+        self.assertEqual(len(table), 6)
+        self.assertEqual({row["status"] for row in table}, {"completed"})
+        friction, speed = "contacts.between.friction", "initial_motion.slide.velocity[0] [m/s]"
+        self.assertEqual([row[friction] for row in table], ["0.2"] * 3 + ["0.4"] * 3)
+        self.assertEqual([row[speed] for row in table], ["3", "4", "6"] * 2)
+        for row in table:
+            # All that slides has come down by friction's share of the load, and no more.
+            self.assertLess(float(row["speed [m/s]"]), float(row[speed]))
+            self.assertGreater(float(row["heat [J]"]), 0)
+            self.assertGreater(float(row["rattle [Hz]"]), 0)
+        heat = [float(row["heat [J]"]) for row in table]
+        self.assertTrue(heat[0] < heat[1] < heat[2] and heat[0] < heat[3])
+        with h5py.File(self.folder / "out" / "sweep.h5") as file:
+            np.testing.assert_allclose(file["figures/heat"][:], heat, rtol=1e-9)
+            self.assertEqual(file["figures/heat"].attrs["unit"], "J")
+            self.assertEqual(list(file["status"][:]), [0] * 6)
+            np.testing.assert_array_equal(file[f"parameters/{speed.split(' ')[0]}"][:], [3, 4, 6] * 2)
+            self.assertEqual(len(file.attrs["folders"]), 6)
+            folders = [str(name) for name in file.attrs["folders"]]
+        self.assertEqual(leftovers(study), [])
+
+        # Each is bit for bit what it is alone.
+        for number, overrides in ((1, ("0.2", "3")), (6, ("0.4", "6"))):
+            alone = self.folder / "alone.h5"
+            subprocess.run(
+                [
+                    PROGRAM, "run", self.folder / "case.toml", "--set", f"output.file={alone}", "--overwrite", "--set",
+                    f"contacts.between.friction={overrides[0]}", "--set", f"initial_motion.slide.velocity[0]={overrides[1]}",
+                    "--set", "settle.cache=false",
+                ],
+                check=True, capture_output=True,
+            )
+            member = self.folder / "out" / "members" / folders[number - 1]
+            self.assertEqual(arrays(alone), arrays(member / "results.h5"))
+
+        # A second time nothing is run, and the table is the same.
+        text = (self.folder / "out" / "sweep.csv").read_text()
+        again = sweep(study)
+        self.assertEqual(again.returncode, 0)
+        self.assertIn("6 of 6 members are done already", again.stdout)
+        self.assertEqual((self.folder / "out" / "sweep.csv").read_text(), text)
+        self.assertEqual([times_run(member) for member in members(study)], [1] * 6)
+
+        # Other figures are collected from the results that are there; a longer grid runs what is new.
+        write(self.folder, studies.GRID.replace("0.2, 0.4", "0.2, 0.3, 0.4") + "[figures]\nheat = \"energy.friction\"\n")
+        more = sweep(study)
+        self.assertEqual(more.returncode, 0, more.stdout + more.stderr)
+        table = rows(study)
+        self.assertEqual(len(table), 9)
+        self.assertNotIn("area [m2]", table[0])
+        self.assertEqual([row["heat [J]"] for row in table[:3]], [f"{value:.10g}" for value in heat[:3]])
+        self.assertEqual([times_run(member) for member in members(study)], [1] * 9)
+
+    def test_shares_of_jobs_make_the_same_table(self):
+        study = write(self.folder)
+        self.assertEqual(sweep(study, "--job", "1/2").returncode, 0)
+        self.assertFalse((self.folder / "out" / "sweep.csv").exists())
+        self.assertEqual(len(members(study)), 3)
+        self.assertEqual(sweep(study, "--members", "2,4-6").returncode, 0)
+        self.assertEqual(len(members(study)), 6)
+        done = sweep(study, "--collect")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        split = (self.folder / "out" / "sweep.csv").read_text()
+        other = self.folder / "other"
+        other.mkdir()
+        whole = write(other)
+        self.assertEqual(sweep(whole).returncode, 0)
+        self.assertEqual((other / "out" / "sweep.csv").read_text(), split)
+
+    def test_two_sweeps_at_once_share_the_members(self):
+        study = write(self.folder)
+        both = [
+            subprocess.Popen(
+                [PROGRAM, "sweep", study, "--no-pictures", "--jobs", "1"], stdout=subprocess.PIPE, text=True
+            )
+            for _ in range(2)
+        ]
+        for process in both:
+            process.communicate(timeout=PATIENCE)
+            self.assertEqual(process.returncode, 0)
+        self.assertEqual([times_run(member) for member in members(study)], [1] * 6)
+        self.assertEqual({row["status"] for row in rows(study)}, {"completed"})
+        self.assertEqual(leftovers(study), [])
+
+    def test_dry_run_writes_nothing(self):
+        study = write(self.folder)
+        done = sweep(study, "--dry-run")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("member 6: friction=0.4, velocity[0]=6: to be run", done.stdout)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_pictures(self):
+        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.1, 0.2]\n[figures]\nheat = \"energy.friction\"\n")
+        done = subprocess.run([PROGRAM, "sweep", study], capture_output=True, text=True, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue((self.folder / "out" / "sweep-heat.png").exists(), done.stdout + done.stderr)
+
+    def test_natural_frequencies(self):
+        bar = studies.STEEL + """
+[meshes.bar]
+type = "box"
+size = [0.4, 0.02, 0.02]
+divisions = [40, 2, 2]
+[parts.bar]
+mesh = "bar"
+material = "steel"
+[constraints.clamp]
+target = "bar.x_min"
+fixed = ["x", "y", "z"]
+[time]
+end = 1e-6
+"""
+        study = write(
+            self.folder,
+            "[grid]\nmaterials.steel.youngs_modulus = [50e9, 200e9]\n[figures]\nfirst = \"mode.1.frequency\"\n"
+            "none = \"mode.999.frequency\"\n[modes]\nup_to = 3000\n",
+            bar,
+        )
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        soft, stiff = rows(study)
+        # A frequency goes by the root of the modulus.
+        self.assertAlmostEqual(float(stiff["first [Hz]"]) / float(soft["first [Hz]"]), 2, places=4)
+        self.assertEqual(soft["none [Hz]"], "")
+        self.assertFalse(any(member.joinpath("results.h5").exists() for member in members(study)))
+
+
+class Fates(SweepTest):
+    def test_one_that_breaks_down_or_is_refused_does_not_end_the_others(self):
+        # The second is beyond a limit of the monitor at once; the third has a mistake that only its meshes reveal.
+        study = write(
+            self.folder,
+            "[[list]]\ncontacts.between.friction = 0.1\n[[list]]\nmonitor.fatal_speed = 0.5\nmonitor.speed = 0.5\n"
+            "[[list]]\ncontacts.between.slave = \"upper.z_nim\"\n[[list]]\ncontacts.between.friction = 0.2\n"
+            + studies.FIGURES,
+        )
+        done = sweep(study)
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        table = rows(study)
+        self.assertEqual(
+            [row["status"] for row in table], ["completed", "broke down", "refused", "completed"], table
+        )
+        self.assertTrue(table[1]["reason"])
+        self.assertIn("z_nim", table[2]["reason"])
+        self.assertEqual(table[1]["heat [J]"], "")
+        self.assertIn("2 completed, 1 broke down, 1 refused, 0 unfinished", done.stdout)
+        attempts = [(member / "attempts.txt").read_text() for member in members(study)]
+        self.assertEqual([text.count("began") for text in attempts], [1] * 4)
+        self.assertEqual(sweep(study).returncode, 3)  # and they are not tried again
+        self.assertEqual([(member / "attempts.txt").read_text() for member in members(study)], attempts)
+
+    def start(self, study, *options):
+        return subprocess.Popen(
+            [PROGRAM, "sweep", study, "--no-pictures", *options], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            text=True, start_new_session=True,
+        )
+
+    def wait_for_run(self, process, study):
+        """Until a member's run writes its results; its process."""
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            runs = children(process.pid)
+            if runs and any((member / "results.h5").exists() for member in members(study)):
+                return runs[0]
+            time.sleep(0.002)
+        self.fail("no member has begun")
+
+    LONG = "[common]\ntime.end = 1.5e-3\noutput.field_interval = 1e-3\n[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.friction\"\n"
+
+    def test_a_killed_member_is_tried_again(self):
+        study = write(self.folder, self.LONG)
+        (self.folder / "out" / "members").mkdir(parents=True)
+        process = self.start(study)
+        os.kill(self.wait_for_run(process, study), signal.SIGKILL)
+        said, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 0, said)
+        self.assertIn("killed by signal 9 (Killed); it runs again", said)
+        self.assertEqual(rows(study)[0]["status"], "completed")
+        self.assertEqual(times_run(members(study)[0]), 1)
+
+    def test_a_member_killed_too_often_is_left_and_tried_by_the_next_sweep(self):
+        study = write(self.folder, self.LONG)
+        (self.folder / "out" / "members").mkdir(parents=True)
+        process = self.start(study, "--retries", "0")
+        os.kill(self.wait_for_run(process, study), signal.SIGKILL)
+        said, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 1, said)
+        self.assertEqual(rows(study)[0]["status"], "killed")
+        self.assertIn("signal 9", rows(study)[0]["reason"])
+        self.assertEqual(sweep(study).returncode, 0)
+        self.assertEqual(rows(study)[0]["status"], "completed")
+
+    def test_a_stopped_sweep_goes_on_from_checkpoints(self):
+        study = write(self.folder, self.LONG)
+        (self.folder / "out" / "members").mkdir(parents=True)
+        process = self.start(study)
+        self.wait_for_run(process, study)
+        process.send_signal(signal.SIGTERM)
+        said, _ = process.communicate(timeout=PATIENCE)
+        self.assertEqual(process.returncode, 130, said)
+        member = members(study)[0]
+        self.assertTrue((member / "results.checkpoint.h5").exists(), said)
+        self.assertEqual(rows(study)[0]["status"], "killed")
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("goes on from", (member / "log.txt").read_text())
+        self.assertFalse((member / "results.checkpoint.h5").exists())
+        self.assertEqual(leftovers(study), [])
+
+    def test_a_killed_sweep_leaves_nothing_running_and_goes_on(self):
+        study = write(self.folder, self.LONG)
+        (self.folder / "out" / "members").mkdir(parents=True)
+        process = self.start(study)
+        run = self.wait_for_run(process, study)
+        process.kill()
+        process.communicate(timeout=PATIENCE)
+        done = sweep(study)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertFalse(pathlib.Path(f"/proc/{run}").exists())
+        self.assertEqual(times_run(members(study)[0]), 1)
+        self.assertEqual(leftovers(study), [])
+
+    def test_figures_that_cannot_be_collected_keep_the_run(self):
+        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.frction\"\n")
+        done = sweep(study)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertEqual(rows(study)[0]["status"], "failed")
+        self.assertIn("[figures] heat", rows(study)[0]["reason"])
+        write(self.folder, "[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.friction\"\n")
+        self.assertEqual(sweep(study).returncode, 0)
+        self.assertTrue(math.isfinite(float(rows(study)[0]["heat [J]"])))
+        self.assertEqual(times_run(members(study)[0]), 1)
+
+
+class ExampleStudies(unittest.TestCase):
+    def test_each_study_of_the_project_can_be_read(self):
+        files = [path for folder in ("studies", "cases") for path in (ROOT / folder).rglob("*.toml")]
+        found = [path for path in files if isinstance(tomllib.loads(path.read_text()).get("case"), str)]
+        self.assertGreater(len(found), 0)
+        with tempfile.TemporaryDirectory(prefix="railwave-") as folder:
+            for study in found:
+                with self.subTest(study=study):
+                    done = subprocess.run(
+                        [PROGRAM, "sweep", study, "--dry-run"], capture_output=True, text=True, cwd=folder
+                    )
+                    self.assertEqual(done.returncode, 0, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

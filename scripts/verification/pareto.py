@@ -40,6 +40,8 @@ COLUMNS = ["scene", "algorithm", "scale", "growth", "elements_across", "status",
            "process_s", "settling_evaluations", "steps", "step_s", "elements", "element_steps_per_s", *ERRORS,
            "threads", "jobs", "device"]
 
+DONE = ("done", "not settled")  # of rows: the latter took settle.max_steps, and was measured as it stood
+
 
 @dataclass(frozen=True)
 class Method:
@@ -133,7 +135,7 @@ class Table:
         self.rows = read_table(self.path) if self.path.exists() else []
 
     def has(self, job, device):
-        return any(key_of(row) == job.key and row["device"] == device and row["status"] == "done" for row in self.rows)
+        return any(key_of(row) == job.key and row["device"] == device and row["status"] in DONE for row in self.rows)
 
     def add(self, row):
         """In place of an earlier attempt at the same run. The file is replaced as a whole."""

@@ -4,7 +4,7 @@ run's worst error is the largest of its errors over the targets that docs/verifi
 import csv
 import math
 
-from verification.pareto import COLUMNS, Method, key_of, read_table
+from verification.pareto import COLUMNS, DONE, Method, key_of, read_table
 
 # Targets for ten and for twenty elements over the minor axis.
 TARGETS = {
@@ -37,7 +37,7 @@ def joined(paths):
     rows, seen = [], {}
     for path in paths:
         for row in read_table(path):
-            if row["status"] != "done":
+            if row["status"] not in DONE:
                 continue
             key = (*key_of(row), row["device"])
             if key in seen:
@@ -102,6 +102,10 @@ def seconds(value):
     return f"{float(value):.3g} s"
 
 
+def remark(row):
+    return "" if row["status"] == "done" else ", not settled"
+
+
 def summary(rows):
     """By scene and device, a line for each method: errors and time with ten elements, cheapest runs within targets."""
     lines = []
@@ -134,7 +138,7 @@ def details(rows):
                   "|" + "---|" * (8 + len(figures))]
         for row in sorted(group, key=order):
             lines.append(" | ".join([
-                f"| {spoken(row)}", row["elements_across"], seconds(row["wall_s"]), seconds(row["settling_s"]),
+                f"| {spoken(row)}", row["elements_across"], seconds(row["wall_s"]) + remark(row), seconds(row["settling_s"]),
                 f"{1e9 * float(row['step_s']):.0f} ns", f"{1e-6 * float(row['element_steps_per_s']):.3g}",
                 *(f"{100 * float(row[f]):+.1f} %" for f in figures), f"{row['worst_error']:.2f}", row["front"],
             ]) + " |")

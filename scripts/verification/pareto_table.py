@@ -138,7 +138,8 @@ def details(rows):
                   "|" + "---|" * (8 + len(figures))]
         for row in sorted(group, key=order):
             lines.append(" | ".join([
-                f"| {spoken(row)}", row["elements_across"], seconds(row["wall_s"]) + remark(row), seconds(row["settling_s"]),
+                f"| {spoken(row)}", row["elements_across"], seconds(row["wall_s"]) + remark(row),
+                seconds(row["settling_s"]),
                 f"{1e9 * float(row['step_s']):.0f} ns", f"{1e-6 * float(row['element_steps_per_s']):.3g}",
                 *(f"{100 * float(row[f]):+.1f} %" for f in figures), f"{row['worst_error']:.2f}", row["front"],
             ]) + " |")

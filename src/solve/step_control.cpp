@@ -37,10 +37,6 @@ StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, con
   smallest_ = largest_ = sizes.step_size;
 }
 
-double StepControl::time() const {
-  return begin_time_ + static_cast<double>(nodal_.step - begin_step_) * sizes_.step_size;
-}
-
 bool StepControl::touched_unseen() const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     const auto status = to_host(contacts_[p].arrays.status);
@@ -51,11 +47,15 @@ bool StepControl::touched_unseen() const {
   return false;
 }
 
-bool StepControl::due() const {
+bool StepControl::may_renew(long step) const {
   const int every = scene_.solver.renew_steps;
-  if (!sizes_.global_estimate || every == 0 || nodal_.step == renewed_at_) return false;
-  if (nodal_.step - renewed_at_ >= every) return true;
-  return nodal_.step % steps_between_checks == 0 && touched_unseen();
+  if (!sizes_.global_estimate || every == 0 || step == renewed_at_) return false;
+  return step - renewed_at_ >= every || step % steps_between_checks == 0;
+}
+
+bool StepControl::due() const {
+  if (!may_renew(nodal_.step)) return false;
+  return nodal_.step - renewed_at_ >= scene_.solver.renew_steps || touched_unseen();
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.

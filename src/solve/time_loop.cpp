@@ -15,6 +15,7 @@
 #include "solve/run_timing.hpp"
 #include "solve/statics/settle.hpp"
 #include "solve/step_control.hpp"
+#include "solve/step_recording.hpp"
 
 namespace railwave {
 namespace {
@@ -85,7 +86,8 @@ class TimeLoop {
         memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
                 Monitor(model, model, model, model, model.contacts)},
-        plans_(model) {
+        plans_(model),
+        recording_(model, plans_.of(StepKind::advancing)) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
     instant_.elapsed = memory_.elapsed;
@@ -97,6 +99,7 @@ class TimeLoop {
       begin_step();
       checkpoint_if_due();
       plan_step();
+      if (take_recorded_steps()) continue;
       plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
       memory_.monitor.check_contact_ends();
       if (sampled_) monitor_and_output();
@@ -169,6 +172,25 @@ class TimeLoop {
     sampled_ = output_due_ || first_ || monitor_due;
     only_fields_ = fields_due_.any() && !memory_.due.history() && !stopping_ && !first_ && !monitor_due;
     if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
+  }
+
+  /// Whether nothing but the plan of advancing steps is due at a step to come.
+  bool quiet(long step) const {
+    return !memory_.due.any(step) && !memory_.monitor.due(step) && !memory_.control.may_renew(step);
+  }
+
+  /// As many steps at once as nobody looks at. Checks of contacts' ends come between forces and motion of a step.
+  bool take_recorded_steps() {
+    if (sampled_) return false;
+    long steps = 0;
+    while (steps < recording_.most() && !memory_.monitor.contact_ends_due(model_.step + steps) &&
+           (steps == 0 || quiet(model_.step + steps)))
+      ++steps;
+    steps = recording_.advance(instant_, steps, [this](long step) { return memory_.control.time_of(step); });
+    if (steps == 0) return false;
+    plans_.advance_clock(instant_, steps);
+    end_step();
+    return true;
   }
 
   void monitor_and_output() {
@@ -258,6 +280,7 @@ class TimeLoop {
   const bool prepared_;  ///< false: stopped while it settled
   LoopMemory memory_;
   StepPlans plans_;
+  StepRecording recording_;
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;

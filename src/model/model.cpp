@@ -27,6 +27,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   {
     const Activity activity("laying out contacts and ties");
     build_contacts(model, model.contacts);
+    choose_algorithms(model, model.contacts);
     build_ties(model, model.contacts, model.ties);
   }
   build_non_reflecting(model, model.contacts, model.ends);

@@ -24,7 +24,10 @@ void Progress::begin(const Model& model) {
   plan.updates_saved = model.subcycling.gain();
   plan.end_time = model.scene.time.end;
   plan.interval = model.scene.output.progress_interval;
-  for (const auto& contact : model.scene.contacts) plan.contacts.push_back(describe_contact(contact));
+  for (const auto& contact : model.scene.contacts) {
+    plan.contacts.push_back(describe_contact(contact));
+    plan.algorithms.push_back(describe_algorithm(contact));
+  }
   table_ = std::make_unique<ProgressTable>(out_, std::move(plan), wall_seconds);
 }
 

@@ -9,6 +9,7 @@
 #include "model/elements/relative_coordinates.hpp"
 #include "model/host_copy.hpp"
 #include "model/output_times.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave {
@@ -29,8 +30,9 @@ StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, con
                          StepSizes& sizes)
     : scene_(scene), nodal_(nodal), contacts_(contacts), sizes_(sizes) {
   // Settled and set in motion, the bodies may be about to touch elsewhere than as they were placed.
-  if (sizes.global_estimate && !contacts.empty()) {
-    renew_global_step(scene, contacts, nodal.time, sizes);
+  const bool automatic = scene.solver.step_estimate == scene::StepEstimate::automatic;
+  if (sizes.global_estimate && (automatic ? has_contact_springs(contacts) : !contacts.empty())) {
+    find_step();
     plan();
     ++renewals_;
   }
@@ -51,8 +53,20 @@ bool StepControl::touched_unseen() const {
   return false;
 }
 
+void StepControl::find_step() {
+  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
+    renew_automatic_step(scene_, contacts_, nodal_.time, nodal_.step, sizes_);
+  else
+    renew_global_step(scene_, contacts_, nodal_.time, sizes_);
+}
+
 bool StepControl::due() const {
   const int every = scene_.solver.renew_steps;
+  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
+    return sizes_.global_estimate && nodal_.step != renewed_at_ && can_change(scene_, contacts_) &&
+           (may_touch_uncounted(contacts_, nodal_.step) ||
+            (every > 0 && nodal_.step - renewed_at_ >= every &&
+             may_search_again(scene_, sizes_, nodal_.time, nodal_.step)));
   if (!sizes_.global_estimate || every == 0 || nodal_.step == renewed_at_) return false;
   if (nodal_.step - renewed_at_ >= every) return true;
   return nodal_.step % steps_between_checks == 0 && touched_unseen();
@@ -95,7 +109,7 @@ void StepControl::move_end() {
 bool StepControl::renew() {
   if (!due() || nodal_.step == sizes_.step_count) return false;
   if (nodal_.relative.begun) update_absolute_nodes(nodal_);
-  renew_global_step(scene_, contacts_, nodal_.time, sizes_);
+  find_step();
   ++renewals_;
   renewed_at_ = nodal_.step;
   const bool changed = plan();

@@ -48,6 +48,7 @@ class StepControl {
 
  private:
   bool due() const;
+  void find_step();
   bool touched_unseen() const;
   bool plan();
 

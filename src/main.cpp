@@ -10,6 +10,7 @@
 #include "case/reference.hpp"
 #include "commands/check.hpp"
 #include "commands/command_line.hpp"
+#include "commands/ensemble.hpp"
 #include "commands/process.hpp"
 #include "commands/standard_output.hpp"
 #include "commands/threads.hpp"
@@ -36,6 +37,7 @@ struct Arguments {
   std::string case_file;
   std::vector<std::string> topic;
   std::vector<std::string> overrides;
+  EnsembleRequest ensemble;
   ContactRequest contact;
   SignalRequest signal;
   ResponseRequest response;
@@ -104,6 +106,13 @@ int run_case(const Arguments& arguments) {
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
   return was_signalled() ? interrupted : run_ended_early;
+}
+
+int run_members(const EnsembleRequest& request) {
+  const EnsembleEnd end = run_ensemble(request, std::cout);
+  if (was_signalled()) return interrupted;
+  if (end.failed > 0) return failed;
+  return end.ended_early > 0 ? run_ended_early : done;
 }
 
 int check_case(const Arguments& arguments) {
@@ -235,6 +244,7 @@ int dispatch(int argc, char** argv) {
   run_command->add_option("--wall-time", arguments.wall_time,
                           "s; when so long has passed, write a checkpoint, close everything and end with exit code 4");
   run_command->callback([&] { code = run_case(arguments); });
+  add_ensemble_command(app, arguments.ensemble, [&] { code = run_members(arguments.ensemble); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and describe its run");
   add_case(check_command);
   check_command->callback([&] { code = check_case(arguments); });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/support/quaternion.hpp"
+#include "kernels/support/step_value.hpp"
 
 namespace railwave {
 
@@ -119,9 +120,9 @@ struct BeamForce {
   BeamArrays beams;
   Array<const double* [3]> position;
   Array<double* [3]> contribution;
-  bool held;                                    ///< the scene settles
-  double elapsed;                               ///< s since the last step
-  double given[BeamArrays::most_moments] = {};  ///< N m, now
+  bool held;                                               ///< the scene settles
+  double elapsed;                                          ///< s since the last step
+  StepValue<double> given[BeamArrays::most_moments] = {};  ///< N m, now
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     if (i < beams.count)
@@ -143,7 +144,7 @@ struct BeamForce {
 
   KOKKOS_INLINE_FUNCTION void moment_from_outside(int l) const {
     const int r = 2 * beams.count + l;
-    const Vector3 before = row(beams.moment, r), now = given[l] * row(beams.moment_axis, l);
+    const Vector3 before = row(beams.moment, r), now = given[l]() * row(beams.moment_axis, l);
     beams.work(l) += 0.5 * elapsed * dot(before + now, row(beams.spin, beams.loaded(l)));
     for (int k = 0; k < 3; ++k) beams.moment(r, k) = now[k];
   }

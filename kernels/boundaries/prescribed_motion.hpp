@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/nodes/nodes.hpp"
+#include "kernels/support/step_value.hpp"
 
 namespace railwave {
 
@@ -28,7 +29,7 @@ struct PrescribedMotion {
   Vector3 gravity;  ///< m/s2
   Array<const int*> nodes;
   Array<double*> work;  ///< J, by node of the set
-  RigidPlace next;
+  StepValue<RigidPlace> next;
   double lag;         ///< s, half of the step before; 0 at the first
   double step;        ///< s
   double held[3][3];  ///< sum of d d^T over the prescribed directions d
@@ -45,7 +46,7 @@ struct PrescribedMotion {
     const NodeArrays& all = force.nodes;
     const double mass = all.mass(n);
     const Vector3 before = prescribed(row(all.velocity, n));
-    const Vector3 now = prescribed((1.0 / step) * (next(row(all.reference, n)) - row(all.position, n)));
+    const Vector3 now = prescribed((1.0 / step) * (next()(row(all.reference, n)) - row(all.position, n)));
     const Vector3 acting = force(n) + mass * gravity;
     work(k) += 0.5 * mass * (dot(now, now) - dot(before, before)) - dot(acting, lag * before + (0.5 * step) * now);
     for (int i = 0; i < 3; ++i) all.velocity(n, i) += now[i] - before[i];

@@ -23,7 +23,6 @@ struct alignas(16) Segment {
 struct alignas(16) MouthCorner {
   static constexpr int pieces = 3;
   int node[pieces];      ///< of the model: of this lip, then two of the other
-  int master[pieces];    ///< the same as master nodes
   double share[pieces];  ///< where the lips are together: one half; what the other two have of the other half
   double widest;         ///< m; from that to twice that between the lips, the corner goes back to its node
 };

@@ -10,35 +10,56 @@ namespace railwave {
 inline constexpr int nodes_of_multiplier = 5;               ///< the slave's and the four of the segment
 inline constexpr int most_nodes_of_multiplier = 1 + 4 * 3;  ///< where all corners are at mouths, see MouthCorner
 
+/// A node that multipliers move, and what it does in the step as long as they stay those of the last one.
+struct alignas(16) FreeNode {
+  Vector3 predicted;  ///< m, its movement
+  double compliance;  ///< m/N, of FreeMotion
+  double together;    ///< m/N, the same times how many multipliers push it, each counted by its weight
+  int node;           ///< of the model
+  int constraint;     ///< row in the constraint table, -1: free
+};
+
+/// The nodes that multipliers of any contact pair move, by row of the external forces.
+struct FreeNodeArrays {
+  Array<FreeNode*> nodes;               ///< those that are listed hold in a step
+  Array<std::uint64_t*> multiplicity;   ///< sum of weights of the multipliers that push it, in whole quanta; zero
+                                        ///< between steps. Kokkos knows 64-bit atomics by this type alone
+  Array<std::uint64_t* [2][3]> change;  ///< force handed to it in this step, in quanta of ExternalForceSum: after
+                                        ///< the sweeps of even numbers, and of odd ones
+  Array<int*> listed;                   ///< rows of the nodes that are pushed, each once, in any order
+  Array<int*> listed_count;             ///< one; zero between steps
+};
+
+/// Where a sweep has left a multiplier.
+struct Swept {
+  Vector3 force;    ///< N on the slave
+  Vector3 change;   ///< N, of this sweep
+  double pressing;  ///< N, normal part of `force`
+};
+
 /// What a slave node's multiplier needs in a step.
 struct alignas(16) MultiplierRow {
   Vector3 normal;
-  Vector3 free;  ///< m, movement of the slave over the master's material in the step without this contact's forces
-  Vector3 predicted[most_nodes_of_multiplier];  ///< m, movements of the single nodes
-  Vector3 force;                                ///< N on the slave, so far
-  Vector3 pending;                              ///< N, what has still to be handed to the nodes
-  Vector3 moved;                                ///< m, over the master's material since the step before
-  double pressing;                              ///< N, normal part of `force`
-  double friction;                              ///< coefficient
-  double gap;                                   ///< m
+  Vector3 way;        ///< m, movement over the master's material that the step takes back
+  Vector3 free;       ///< m, the same with the movement in the step that the last step's forces leave
+  Vector3 moved;      ///< m, over the master's material since the step before
+  Vector3 begun;      ///< N on the slave, the last step's
+  Swept swept[2];     ///< after the sweeps of even numbers, the first of them the last step's force, and of odd ones
+  double friction;    ///< coefficient
+  double gap;         ///< m
   double closing;     ///< m, by how much the gap is to close in the step, at most where nothing presses yet
-  double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master; 0: not
-                      ///< known yet
-  int count;          ///< of nodes
-  int node[most_nodes_of_multiplier];            ///< of the model: the slave's and the segment's
-  int master[most_nodes_of_multiplier];          ///< the latter as master nodes; of the first none
-  int row[most_nodes_of_multiplier];             ///< theirs in the external forces
-  double weight[most_nodes_of_multiplier];       ///< 1, and minus the shape functions
-  double compliances[most_nodes_of_multiplier];  ///< m/N, of FreeMotion
+  double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master
   int slips;
   int active;
+  int count;                               ///< of nodes
+  int row[most_nodes_of_multiplier];       ///< of the external forces: the slave's and the segment's nodes
+  int node[most_nodes_of_multiplier];      ///< the same of the model
+  double share[most_nodes_of_multiplier];  ///< of the slave 1, of the others their shape functions: these sum to 1
+  double until[most_nodes_of_multiplier];  ///< sum of the segment's shares up to and with this one
 };
 
-/// What a contact pair has besides where its forces are multipliers; empty otherwise.
 struct MultiplierArrays {
-  Array<MultiplierRow*> rows;  ///< by slave
-  Array<std::uint64_t*>
-      multiplicity;  ///< by master: shape functions of the active slaves, in quanta; zero between steps
+  Array<MultiplierRow*> rows;            ///< by slave; those of near nodes hold in a step
   Array<double* [3]> way_since_stuck;    ///< m, by slave
   int most_nodes = nodes_of_multiplier;  ///< of a row
   Array<double*> impact_energy;          ///< J, by slave: what normal forces have taken out of the bodies so far

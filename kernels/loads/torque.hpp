@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/loads/set_motion.hpp"
+#include "kernels/support/step_value.hpp"
 
 namespace railwave {
 
@@ -17,13 +18,13 @@ struct TorqueArrays {
 struct TorqueNow {
   TorqueArrays torques;
   SetMotion sets;
-  double moment[TorqueArrays::most] = {};  ///< N m
+  StepValue<double> moment[TorqueArrays::most] = {};  ///< N m
 
   KOKKOS_INLINE_FUNCTION void operator()(int t) const {
     const int set = torques.set(t);
     const Vector3 centre = sets.mean_position(set);
     for (int i = 0; i < 3; ++i) torques.now(t, i) = centre[i];
-    torques.now(t, 3) = moment[t] / sets.squared_arm(set, row(torques.axis, t));
+    torques.now(t, 3) = moment[t]() / sets.squared_arm(set, row(torques.axis, t));
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kernels/nodes/nodes.hpp"
+#include "kernels/support/step_value.hpp"
 
 namespace railwave {
 
@@ -48,9 +49,10 @@ struct DeadLoad {
   Array<const double* [3]> velocity;
   int first;                           ///< its contributions are first, first + 1, ...
   Array<const double* [3]> amplitude;  ///< N, one for each
-  double factor, elapsed;
+  StepValue<double> factor;
+  double elapsed;
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    set_contribution(external, velocity, first + i, factor * row(amplitude, i), elapsed);
+    set_contribution(external, velocity, first + i, factor() * row(amplitude, i), elapsed);
   }
 };
 
@@ -61,11 +63,12 @@ struct PressureLoad {
   Array<const double*[3]> position, velocity;
   int first;
   Array<const int* [4]> facets;  ///< node numbers, turned outwards
-  double pressure, elapsed;      ///< Pa, positive pushes into the body
+  StepValue<double> pressure;    ///< Pa, positive pushes into the body
+  double elapsed;
   KOKKOS_INLINE_FUNCTION void operator()(const int f) const {
     const Vector3 p0 = row(position, facets(f, 0)), p1 = row(position, facets(f, 1));
     const Vector3 p2 = row(position, facets(f, 2)), p3 = row(position, facets(f, 3));
-    const Vector3 quarter = (-pressure * 0.125) * cross(p2 - p0, p3 - p1);
+    const Vector3 quarter = (-pressure() * 0.125) * cross(p2 - p0, p3 - p1);
     for (int k = 0; k < 4; ++k) set_contribution(external, velocity, first + 4 * f + k, quarter, elapsed);
   }
 };

@@ -14,7 +14,7 @@ namespace {
 std::atomic<bool> sudden{false};
 
 /// Allocates nothing: there may be nothing left.
-void report() {
+void report_sudden_end() {
   if (!sudden) return;
   remove_unfinished();
   constexpr const char* text =
@@ -29,7 +29,7 @@ void report() {
 }  // namespace
 
 NoSuddenExit::NoSuddenExit() {
-  static const int registered = std::atexit(report);
+  static const int registered = std::atexit(report_sudden_end);
   sudden = registered == 0;
 }
 

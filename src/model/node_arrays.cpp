@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "case/error.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/boundaries/ties.hpp"
@@ -91,6 +93,30 @@ void build_node_arrays(const AssembledScene& assembled, const std::vector<Elemen
   nodes.constraint = to_device("constraint", constraint);
   build_gather(groups, nodes);
   share_out_nodes(groups, nodal);
+}
+
+void set_early_nodes_apart(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
+                           NodalState& nodal) {
+  nodal.early_shared = 0;
+  std::vector<char> late(nodal.nodes.count, 0);
+  bool any = false;
+  const auto mark = [&](const std::vector<int>& nodes) {
+    for (int n : nodes) late[n] = 1;
+    any = any || !nodes.empty();
+  };
+  for (const ContactPair& pair : contacts) {
+    if (pair.has_springs()) continue;
+    mark(pair.slave_nodes);
+    mark(pair.master_nodes);
+  }
+  for (const PrescribedSet& set : prescribed) mark(to_vector(set.nodes));
+  if (!on_device || !any || nodal.subcycling.levels > 1) return;
+  const auto shared = to_host(nodal.shared_nodes);
+  const auto first_late =
+      std::stable_partition(shared.data(), shared.data() + shared.extent(0),
+                            [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
+  nodal.early_shared = static_cast<int>(first_late - shared.data());
+  Kokkos::deep_copy(nodal.shared_nodes, shared);
 }
 
 }  // namespace railwave

@@ -126,6 +126,7 @@ void visit_arrays(const Named<Visitor>& visit, NodeSets& sets) {
   visit(ArrayUse::constant, "weight", sets.weight);
   visit(ArrayUse::constant, "first_chunk", sets.first_chunk);
   visit(ArrayUse::constant, "chunks", sets.chunks);
+  visit(ArrayUse::scratch, "teams_done", sets.teams_done);
   visit(ArrayUse::scratch, "partial", sets.partial);
   visit(ArrayUse::scratch, "sums", sets.sums);
 }
@@ -245,8 +246,7 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::constant, "penalty_growth", pair.law.growth);
   visit(ArrayUse::trial_state, "law_state", pair.law.state);
 
-  visit(ArrayUse::run_state, "multiplier_rows", pair.multipliers.rows);
-  visit(ArrayUse::run_state, "multiplier_multiplicity", pair.multipliers.multiplicity);
+  visit(ArrayUse::scratch, "multiplier_rows", pair.multipliers.rows);
   visit(ArrayUse::settled_state, "way_since_stuck", pair.multipliers.way_since_stuck);
   visit(ArrayUse::run_state, "impact_energy", pair.multipliers.impact_energy);
 
@@ -258,6 +258,15 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::run_state, "window_entries", pair.window.entries, {0, true});
   visit(ArrayUse::run_state, "window_near", pair.window.near, {0, true});
   visit(ArrayUse::run_state, "window_near_count", pair.window.near_count, {0, true});
+}
+
+template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, FreeNodeArrays& free_nodes) {
+  visit(ArrayUse::scratch, "nodes", free_nodes.nodes);
+  visit(ArrayUse::scratch, "multiplicity", free_nodes.multiplicity);
+  visit(ArrayUse::scratch, "change", free_nodes.change);
+  visit(ArrayUse::scratch, "listed", free_nodes.listed);
+  visit(ArrayUse::scratch, "listed_count", free_nodes.listed_count);
 }
 
 template <class Visitor>
@@ -322,6 +331,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   visit_arrays(of("ends_"), model.ends.arrays);
   visit_arrays(of("ties_"), model.ties);
   each("contact", model.contacts);
+  visit_arrays(of("free_nodes_"), model.free_nodes);
   visit_arrays(of("reductions_"), *model.reduction_space);
   if (model.global_estimate) visit_arrays(of("global_estimate_"), *model.global_estimate);
   const Named<Visitor> own = of("model_");

@@ -12,54 +12,75 @@ namespace {
 // not wait for fields being written.
 constexpr std::size_t size_of_history = 1, size_of_fields = 4096, capacity = 3 * size_of_fields - 1;
 
+/// What the thread does with HDF5: another run's thread may want to, too.
+template <class Use>
+auto alone(Use use) {
+  return [use = std::move(use)] {
+    const std::lock_guard<std::recursive_mutex> holding(hdf5::in_use());
+    use();
+  };
+}
+
 }  // namespace
+
+void BackgroundWriter::EndAlone::operator()(ResultsWriter* writer) const {
+  const std::lock_guard<std::recursive_mutex> holding(hdf5::in_use());
+  delete writer;
+}
+
+BackgroundWriter::Writer BackgroundWriter::begin_alone(std::string path, RunDescription description,
+                                                       std::optional<ResultsSoFar> so_far) {
+  const std::lock_guard<std::recursive_mutex> holding(hdf5::in_use());
+  return Writer(new ResultsWriter(std::move(path), std::move(description), so_far));
+}
 
 BackgroundWriter::BackgroundWriter(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far,
                                    std::function<void()> on_failure)
-    : writer_(std::move(path), std::move(description), so_far), thread_(capacity, std::move(on_failure)) {
-  thread_.add(hdf5::be_quiet);
+    : writer_(begin_alone(std::move(path), std::move(description), so_far)), thread_(capacity, std::move(on_failure)) {
+  thread_.add(alone(hdf5::be_quiet));
 }
 
 void BackgroundWriter::settled(double unbalance, int evaluations) {
-  thread_.add([this, unbalance, evaluations] { writer_.settled(unbalance, evaluations); }, size_of_history);
+  thread_.add(alone([this, unbalance, evaluations] { writer_->settled(unbalance, evaluations); }), size_of_history);
 }
 
 void BackgroundWriter::history(const HistorySample& sample) {
-  thread_.add([this, sample] { writer_.history(sample); }, size_of_history);
+  thread_.add(alone([this, sample] { writer_->history(sample); }), size_of_history);
 }
 
 void BackgroundWriter::fields(const FieldSource& source, double time, long step) {
-  const RunDescription& run = writer_.description();
+  const RunDescription& run = writer_->description();
   fields(source, time, step, OutputChoice::all(run.sets.size(), run.contacts.size()));
 }
 
 void BackgroundWriter::fields(const FieldSource& source, double time, long step, const OutputChoice& choice) {
   auto& selection = selections_[choice];
   if (!selection) {
-    const RunDescription& run = writer_.description();
+    const RunDescription& run = writer_->description();
     selection = std::make_shared<const FieldSelection>(select_fields(run.sets, run.fields, choice));
   }
   // The snapshot and what is fetched for it: made only where that leaves HDF5, in its thread, what it looked for.
   if (!leaves_free_memory(2 * selection->bytes() + memory_margin))
     throw TooLittleMemory(2 * selection->bytes() + memory_margin);
   const auto snapshot = std::make_shared<const FieldSnapshot>(source, selection);
-  thread_.add([this, snapshot, time, step, choice] { writer_.fields(*snapshot, time, step, choice); }, size_of_fields);
+  thread_.add(alone([this, snapshot, time, step, choice] { writer_->fields(*snapshot, time, step, choice); }),
+              size_of_fields);
 }
 
 void BackgroundWriter::checkpoint(RunState state, const CheckpointFile& file) {
   const auto kept = std::make_shared<const RunState>(std::move(state));
-  thread_.add(
-      [this, kept, file] {
-        writer_.bring_to_disk();
-        try {
-          file.write(*kept, writer_.run());
-        } catch (const std::exception& error) {
-          const bool first = trouble_.empty();
-          trouble_ = std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();
-          if (first) report_at_once(trouble_);
-        }
-      },
-      size_of_fields);
+  thread_.add(alone([this, kept, file] {
+                writer_->bring_to_disk();
+                try {
+                  file.write(*kept, writer_->run());
+                } catch (const std::exception& error) {
+                  const bool first = trouble_.empty();
+                  trouble_ =
+                      std::string("a checkpoint could not be written, the one before it is the last: ") + error.what();
+                  if (first) report_at_once(trouble_);
+                }
+              }),
+              size_of_fields);
 }
 
 std::string BackgroundWriter::checkpoint_trouble() {
@@ -68,7 +89,7 @@ std::string BackgroundWriter::checkpoint_trouble() {
 }
 
 void BackgroundWriter::end(const RunSummary& summary) {
-  thread_.add([this, summary] { writer_.end(summary); });
+  thread_.add(alone([this, summary] { writer_->end(summary); }));
   thread_.finish();
 }
 

@@ -12,8 +12,8 @@
 namespace railwave {
 
 /// A ResultsWriter that works in a thread of its own: what it is given it copies into plain data, and returns before
-/// that is on the disk. The file becomes the same. After the constructor that thread alone touches HDF5, which need not
-/// be built for several; nobody else may while this object lives.
+/// that is on the disk. The file becomes the same. After the constructor that thread alone touches HDF5 for this file,
+/// under hdf5::in_use(); so must whoever else does while this object lives.
 ///
 /// Bounded: one output of fields is being written, one waits; the caller waits with the next. What the thread's writer
 /// throws is thrown by the next call of any member. The destructor writes what was given, as far as the disk lets it,
@@ -44,8 +44,15 @@ class BackgroundWriter {
   void end(const RunSummary& summary);
 
  private:
+  /// Files are made and closed while no other thread uses HDF5.
+  struct EndAlone {
+    void operator()(ResultsWriter* writer) const;
+  };
+  using Writer = std::unique_ptr<ResultsWriter, EndAlone>;
+  static Writer begin_alone(std::string path, RunDescription description, std::optional<ResultsSoFar> so_far);
+
   std::map<OutputChoice, std::shared_ptr<const FieldSelection>> selections_;  ///< each made with its first output
-  ResultsWriter writer_;                                                      ///< the thread's
+  Writer writer_;                                                             ///< the thread's
   std::string trouble_;                                                       ///< the thread's, until that has finished
   TaskThread thread_;                                                         // last: ends before the writer goes
 };

@@ -74,6 +74,7 @@ SettledStates::Found SettledFiles::find(const AssembledScene& assembled) {
   std::error_code ignored;
   if (!std::filesystem::exists(name, ignored)) return found;  // whatever else lies there is reported below
   found.file = name;
+  const std::lock_guard<std::recursive_mutex> holding(hdf5::in_use());
   try {
     found.state = read_state(name, key(assembled));
   } catch (const std::runtime_error& error) {
@@ -85,6 +86,7 @@ SettledStates::Found SettledFiles::find(const AssembledScene& assembled) {
 std::string SettledFiles::keep(const AssembledScene& assembled, const StaticState& state) {
   if (!assembled.scene.settle.cache || assembled.scene.static_text.empty()) return {};
   const std::string name = path(assembled);
+  const std::lock_guard<std::recursive_mutex> holding(hdf5::in_use());
   try {
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);

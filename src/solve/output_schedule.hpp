@@ -35,6 +35,12 @@ class OutputSchedule {
     return due_now;
   }
 
+  /// Whether something can be due at a step to come, the step size staying as it is.
+  bool any(long step) const {
+    return step >= sizes_.step_count || history_.due(step) || fields_.due(step) ||
+           std::any_of(windows_.begin(), windows_.end(), [&](const Window& w) { return w.outputs.due(step); });
+  }
+
   /// @param from s, the step size before
   void step_changed(double from) {
     history_.step_changed(nodal_.step, from, sizes_.step_size);

@@ -27,6 +27,14 @@ std::vector<std::string> describe_plan(const Plan& plan) {
   return lines;
 }
 
+std::vector<Task> placed(std::vector<Task> tasks, Stage stage, int lane) {
+  for (Task& task : tasks) {
+    task.stage = stage;
+    task.lane = lane;
+  }
+  return tasks;
+}
+
 void append(std::vector<Task>& tasks, std::vector<Task> more) {
   tasks.insert(tasks.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
@@ -43,10 +51,11 @@ GoingAlong going_along(const Model& model, StepKind kind) {
 }
 
 std::vector<Task> motion_tasks(Model& model, StepKind kind) {
-  std::vector<Task> tasks = prescribed_tasks(model, model.prescribed);
-  if (model.beams) tasks.push_back(rotation_task(model, *model.beams));
+  std::vector<Task> tasks = placed(prescribed_tasks(model, model.prescribed), Stage::motion, 0);
+  if (model.beams) append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
   append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind)));
-  if (model.ties.arrays.active()) tasks.push_back(tied_nodes_task(model, model.ties, kind));
+  if (model.ties.arrays.active())
+    append(tasks, placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0));
   return tasks;
 }
 
@@ -57,17 +66,19 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind) {
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
-  append(tasks, load_tasks(model, model, model.beams, kind, along));
-  append(tasks, contact_tasks(model.scene, model, model.contacts, kind, along));
+  append(tasks, placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0));
+  append(tasks, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, along));
   return tasks;
 }
 
 std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
   std::vector<Task> tasks = own_force_tasks(model, kind);
+  const MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
+  append(tasks, placed(multipliers.locate, Stage::own_forces, 1));
   append(tasks, tie_tasks(model, model.ties));
-  append(tasks, non_reflecting_tasks(model, model.ends, kind));
-  append(tasks, multiplier_tasks(model.scene, model, model.contacts, kind, relaxation));
+  append(tasks, placed(non_reflecting_tasks(model, model.ends, kind), Stage::last_forces, model.ties.at_ends ? 0 : 1));
+  append(tasks, placed(multipliers.find, Stage::motion, 0));
   return tasks;
 }
 
@@ -86,8 +97,8 @@ void StepPlans::advance(const Instant& instant) {
   advance_clock(instant);
 }
 
-void StepPlans::advance_clock(const Instant& instant) {
-  ++nodal_.step;
+void StepPlans::advance_clock(const Instant& instant, long steps) {
+  nodal_.step += steps;
   nodal_.velocity_lag = 0.5 * instant.step;
 }
 

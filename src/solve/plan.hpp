@@ -43,7 +43,7 @@ class StepPlans {
   void advance(const Instant& instant);
 
   /// The clock alone, for who has run the plan's motion himself.
-  void advance_clock(const Instant& instant);
+  void advance_clock(const Instant& instant, long steps = 1);
 
   const Plan& of(StepKind kind) const { return kind == StepKind::advancing ? advancing_ : sampled_; }
 

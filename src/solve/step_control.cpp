@@ -39,10 +39,6 @@ StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, con
   smallest_ = largest_ = sizes.step_size;
 }
 
-double StepControl::time() const {
-  return begin_time_ + static_cast<double>(nodal_.step - begin_step_) * sizes_.step_size;
-}
-
 bool StepControl::touched_unseen() const {
   for (std::size_t p = 0; p < contacts_.size(); ++p) {
     const auto status = to_host(contacts_[p].arrays.status);
@@ -60,16 +56,25 @@ void StepControl::find_step() {
     renew_global_step(scene_, contacts_, nodal_.time, sizes_);
 }
 
-bool StepControl::due() const {
+bool StepControl::interval_over(long step) const {
   const int every = scene_.solver.renew_steps;
+  return every > 0 && step - renewed_at_ >= every;
+}
+
+bool StepControl::may_renew(long step) const {
+  if (!sizes_.global_estimate || step == renewed_at_) return false;
   if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
-    return sizes_.global_estimate && nodal_.step != renewed_at_ && can_change(scene_, contacts_) &&
-           (may_touch_uncounted(contacts_, nodal_.step) ||
-            (every > 0 && nodal_.step - renewed_at_ >= every &&
-             may_search_again(scene_, sizes_, nodal_.time, nodal_.step)));
-  if (!sizes_.global_estimate || every == 0 || nodal_.step == renewed_at_) return false;
-  if (nodal_.step - renewed_at_ >= every) return true;
-  return nodal_.step % steps_between_checks == 0 && touched_unseen();
+    return can_change(scene_, contacts_) && (interval_over(step) || contact_checked_before(contacts_, step));
+  return scene_.solver.renew_steps > 0 && (interval_over(step) || step % steps_between_checks == 0);
+}
+
+bool StepControl::due() const {
+  const long step = nodal_.step;
+  if (!may_renew(step)) return false;
+  if (scene_.solver.step_estimate != scene::StepEstimate::automatic) return interval_over(step) || touched_unseen();
+  return may_touch_uncounted(contacts_, step) ||
+         (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
+}
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.

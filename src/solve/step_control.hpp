@@ -19,12 +19,17 @@ class StepControl {
               StepSizes& sizes);
 
   /// Time of the model's present step, s.
-  double time() const;
+  double time() const { return time_of(nodal_.step); }
+  /// Of a step to come too, the step size staying as it is.
+  double time_of(long step) const { return begin_time_ + static_cast<double>(step - begin_step_) * sizes_.step_size; }
   long last_step() const { return sizes_.step_count; }
 
   /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already.
   /// True: the step from this instant to the next is another one than the last.
   bool renew();
+
+  /// Whether the estimate can be renewed at a step to come.
+  bool may_renew(long step) const;
 
   /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as
   /// they are and go on to the first whole cycle at that end or after it. Throws InputError where the state lies beyond
@@ -48,6 +53,7 @@ class StepControl {
 
  private:
   bool due() const;
+  bool interval_over(long step) const;
   void find_step();
   bool touched_unseen() const;
   bool plan();

@@ -26,6 +26,14 @@ struct Instant {
   double time = 0;     ///< s
   double step = 0;     ///< s to the next instant
   double elapsed = 0;  ///< s since the instant before; 0 at the first, and in the pseudo-time of settling
+  /// While the step is recorded, where the device finds what follows from its time: by load, load_value(); by
+  /// prescribed set, its place at the next instant. See solve/step_recording.hpp.
+  const double* load_values = nullptr;
+  const RigidPlace* places = nullptr;
+
+  StepValue<double> value_of(const LoadArrays& load) const {
+    return {load_value(load, time), load_values == nullptr ? nullptr : load_values + load.number};
+  }
 };
 
 /// What a step is for decides what it computes, and how.
@@ -35,6 +43,17 @@ enum class StepKind {
   settling    ///< on the way to static equilibrium, in pseudo-time
 };
 
+/// The stages of a step. A task waits for all tasks of earlier stages.
+enum class Stage {
+  begin,         ///< frames
+  own_forces,    ///< loads, contact by springs, elements: from where the nodes are and how they move
+  passed_on,     ///< forces of tied nodes
+  last_forces,   ///< at the masters of ties, at non-reflecting ends
+  motion,        ///< multipliers and prescribed motions, beside them nodes that know neither, and rotations
+  other_motion,  ///< of all other nodes
+  tied_motion
+};
+
 /// One piece of physics of a step, or several that one launch computes together.
 struct Task {
   std::string name;                         ///< also of the profiler's region around it
@@ -42,9 +61,18 @@ struct Task {
   std::function<void(const Instant&)> run;  ///< launches its kernels
   long every = 1;                           ///< steps from one launch to the next, with subcycling and for frames
   long at = 0;                              ///< in which of them it is launched
+  Stage stage = Stage::begin;
+  /// Tasks of a stage in different lanes touch nothing in common and may run side by side; those of one go in order.
+  int lane = 0;
+  /// Whether all that it does is to launch the same kernels at each step that it is due. If not, it reads nothing that
+  /// its step's other tasks write, and may run before them all.
+  bool recordable = true;
 
   bool due(long step_number) const { return step_number % every == at; }
 };
+
+/// Puts tasks into a lane of a stage.
+std::vector<Task> placed(std::vector<Task> tasks, Stage stage, int lane);
 
 /// Tasks of one list after those of another.
 void append(std::vector<Task>& tasks, std::vector<Task> more);
@@ -74,12 +102,15 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
                                 const std::vector<ContactPair>& contacts, const LoadModel& loads, StepKind kind,
                                 GoingAlong along);
 
-/// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node. They predict where all other
-/// forces take the nodes, so they come after these.
+/// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node.
+struct MultiplierTasks {
+  std::vector<Task> locate;  ///< search, and the last step's forces: from where the nodes are
+  std::vector<Task> find;    ///< predicts where all other forces take the nodes, so it comes after these
+};
+
 /// @param relaxation how the nodes move while a scene settles; null: by the central difference
-std::vector<Task> multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
-                                   std::vector<ContactPair>& contacts, StepKind kind,
-                                   const RelaxationUpdate* relaxation = nullptr);
+MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
+                                 StepKind kind, const RelaxationUpdate* relaxation = nullptr);
 
 /// (a) Forces on tied nodes go to their masters: after all others on them.
 std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties);

@@ -4,8 +4,10 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 
 #include "model/checks/doubts.hpp"
+#include "solve/launch_graph.hpp"
 #include "solve/monitor/account.hpp"
 #include "solve/monitor/force_swing.hpp"
 #include "solve/monitor/monitor.hpp"
@@ -15,6 +17,7 @@
 #include "solve/run_timing.hpp"
 #include "solve/statics/settle.hpp"
 #include "solve/step_control.hpp"
+#include "solve/step_recording.hpp"
 
 namespace railwave {
 namespace {
@@ -75,7 +78,9 @@ struct LoopMemory {
 /// A run from its beginning, or from a checkpoint, to its end (thesis table 2.1).
 class TimeLoop {
  public:
-  TimeLoop(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping)
+  /// @param space of the launches of recorded steps, see StepRecording
+  TimeLoop(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled, const RunKeeping& keeping,
+           const ExecutionSpace* space = nullptr)
       : model_(model),
         observers_(observers),
         keeping_(keeping),
@@ -85,26 +90,44 @@ class TimeLoop {
         memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
                 Monitor(model, model, model, model, model.contacts)},
-        plans_(model) {
+        plans_(model),
+        recording_(model, plans_.of(StepKind::advancing), space) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
     instant_.elapsed = memory_.elapsed;
     since_first_step_.restart();
   }
 
-  RunSummary run() {
-    while (true) {
-      begin_step();
-      checkpoint_if_due();
-      plan_step();
-      plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
-      memory_.monitor.check_contact_ends();
-      if (sampled_) monitor_and_output();
-      if (ends()) break;
-      plans_.advance(instant_);
-      end_step();
-    }
-    return summary();
+  /// Takes a step, or the steps of a graph. @return false: the run has ended
+  bool go_on() {
+    begin_step();
+    checkpoint_if_due();
+    plan_step();
+    if (take_recorded_steps()) return true;
+    recording_.finish();
+    plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
+    memory_.monitor.check_contact_ends();
+    if (sampled_) monitor_and_output();
+    if (ends()) return false;
+    plans_.advance(instant_);
+    end_step();
+    return true;
+  }
+
+  /// Of a run that has ended.
+  RunSummary summary() {
+    const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
+    if (!trouble.empty()) summary_.warnings.push_back(trouble);
+    summary_.wall_seconds = since_first_step_.seconds();  // until all is written
+    timing_.finish(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
+    summary_.monitor_seconds = timing_.monitor();
+    summary_.output_seconds = timing_.outputs();
+    summary_.completed = summary_.reason.empty();
+    summary_.left_out = model_.left_out;
+    summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
+    summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
+    for (RunObserver* observer : observers_) observer->end(model_, summary_);
+    return summary_;
   }
 
  private:
@@ -143,6 +166,7 @@ class TimeLoop {
   }
 
   void checkpoint() {
+    recording_.finish();
     const WallClock clock;
     RunState state;
     save_model_state(model_, state);
@@ -159,6 +183,7 @@ class TimeLoop {
   /// The size of this step, and whether its instant is sampled.
   void plan_step() {
     const double size_before = model_.step_size;
+    if (memory_.control.may_renew(model_.step)) recording_.finish();
     if (memory_.control.renew()) memory_.due.step_changed(size_before);
     instant_.step = model_.step_size;
     // A run that goes on with a model that has run before begins at a later step.
@@ -168,7 +193,28 @@ class TimeLoop {
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
     only_fields_ = fields_due_.any() && !memory_.due.history() && !stopping_ && !first_ && !monitor_due;
-    if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
+    if (!sampled_) return;
+    recording_.finish();
+    (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
+  }
+
+  /// Whether nothing but the plan of advancing steps is due at a step to come.
+  bool quiet(long step) const {
+    return !memory_.due.any(step) && !memory_.monitor.due(step) && !memory_.control.may_renew(step);
+  }
+
+  /// As many steps at once as nobody looks at. Checks of contacts' ends come between forces and motion of a step.
+  bool take_recorded_steps() {
+    if (sampled_) return false;
+    long steps = 0;
+    while (steps < recording_.most() && !memory_.monitor.contact_ends_due(model_.step + steps) &&
+           (steps == 0 || quiet(model_.step + steps)))
+      ++steps;
+    steps = recording_.advance(instant_, steps, [this](long step) { return memory_.control.time_of(step); });
+    if (steps == 0) return false;
+    plans_.advance_clock(instant_, steps);
+    end_step();
+    return true;
   }
 
   void monitor_and_output() {
@@ -233,21 +279,6 @@ class TimeLoop {
     if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).end();
   }
 
-  RunSummary summary() {
-    const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
-    if (!trouble.empty()) summary_.warnings.push_back(trouble);
-    summary_.wall_seconds = since_first_step_.seconds();  // until all is written
-    timing_.finish(summary_.wall_seconds - summary_.checkpoint_seconds, model_.step - summary_.first_step);
-    summary_.monitor_seconds = timing_.monitor();
-    summary_.output_seconds = timing_.outputs();
-    summary_.completed = summary_.reason.empty();
-    summary_.left_out = model_.left_out;
-    summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
-    summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
-    for (RunObserver* observer : observers_) observer->end(model_, summary_);
-    return summary_;
-  }
-
   const WallClock since_call_;
   WallClock since_checkpoint_, since_first_step_;
   Model& model_;
@@ -258,6 +289,7 @@ class TimeLoop {
   const bool prepared_;  ///< false: stopped while it settled
   LoopMemory memory_;
   StepPlans plans_;
+  StepRecording recording_;
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;
@@ -275,7 +307,42 @@ void request_stop() { stop_requested = 1; }
 
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
                const RunKeeping& keeping) {
-  return TimeLoop(model, observers, settled, keeping).run();
+  TimeLoop loop(model, observers, settled, keeping);
+  while (loop.go_on()) {
+  }
+  return loop.summary();
+}
+
+std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
+  std::vector<RunOutcome> outcomes(members.size());
+  const std::vector<ExecutionSpace> spaces = separate_spaces(members.size());
+  std::vector<std::unique_ptr<TimeLoop>> loops(members.size());
+  const auto unless_it_fails = [&](std::size_t m, const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      outcomes[m].error = error.what();
+      loops[m].reset();
+    }
+  };
+  for (std::size_t m = 0; m < members.size(); ++m)
+    unless_it_fails(m, [&] {
+      loops[m] = std::make_unique<TimeLoop>(*members[m].model, members[m].observers, members[m].settled,
+                                            members[m].keeping, has_launch_graphs ? &spaces[m] : nullptr);
+    });
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      if (!loops[m]) continue;
+      unless_it_fails(m, [&] {
+        if (loops[m]->go_on()) return;
+        outcomes[m].summary = loops[m]->summary();
+        loops[m].reset();
+      });
+      any = any || loops[m];
+    }
+  }
+  return outcomes;
 }
 
 }  // namespace railwave

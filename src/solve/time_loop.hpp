@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "model/model.hpp"
@@ -24,6 +26,25 @@ struct RunKeeping {
 /// @param keeping throws std::runtime_error where the state to go on from does not fit the model
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled = nullptr,
                const RunKeeping& keeping = {});
+
+/// One of several runs that take turns.
+struct EnsembleMember {
+  Model* model;
+  std::vector<RunObserver*> observers;
+  SettledStates* settled = nullptr;
+  RunKeeping keeping = {};
+};
+
+/// What became of it.
+struct RunOutcome {
+  std::optional<RunSummary> summary;
+  std::string error;  ///< without a summary: what was thrown
+};
+
+/// Runs several models, each with its own clock, observers and end: it becomes what it would by itself, bit for bit,
+/// and what goes wrong with one ends no other. They settle one after the other; then each takes a step, or the steps of
+/// a graph, in turn. On a GPU graphs of different members run side by side, as far as one leaves room for others.
+std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members);
 
 /// Asks the running time loop to stop after the present step. Safe in a signal handler.
 void request_stop();

@@ -65,6 +65,7 @@ void build_prescribed_motions(const AssembledScene& assembled, std::vector<Presc
       taken[n] = 1;
     }
     PrescribedSet set;
+    set.number = static_cast<int>(prescribed.size());
     set.motion = &motion;
     set.curve = curve_of(assembled.scene, motion.curve);
     set.displacement_curve = curve_of(assembled.scene, motion.displacement_curve);
@@ -97,7 +98,7 @@ PrescribedMotion prescribed_motion(const NodalState& nodal, const PrescribedSet&
                           acceleration.gravity,
                           set.nodes,
                           set.work,
-                          place_at(set, nodal.time + step),
+                          {place_at(set, nodal.time + step)},
                           nodal.velocity_lag,
                           step,
                           {}};

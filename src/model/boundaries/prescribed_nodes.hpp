@@ -10,6 +10,7 @@ namespace railwave {
 /// A node set that moves as a rigid motion says, in the directions that are prescribed. In the others forces move its
 /// nodes. No node is of two such sets.
 struct PrescribedSet {
+  int number = 0;  ///< among the scene's prescribed motions
   const scene::PrescribedMotion* motion = nullptr;
   const scene::Curve* curve = nullptr;  ///< of the velocities; null: constant 1
   const scene::Curve* displacement_curve = nullptr;

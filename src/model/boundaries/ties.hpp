@@ -15,6 +15,7 @@ struct Ties {
   std::vector<TiedPlace> places;                ///< host copy
   std::unordered_map<int, int> place_of_slave;  ///< by model node number: position in `places`
   std::vector<int> masters;                     ///< ascending
+  bool at_ends = false;                         ///< whether a master is a non-reflecting end's node too
   Array<int*> frame;                            ///< by slave, where nodes are in single precision
 
   /// Where a node is tied to; null: nowhere.

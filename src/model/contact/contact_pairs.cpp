@@ -150,12 +150,7 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
     const auto corner = assembly.face_nodes(face);
     corners.push_back({corner[0], corner[1], corner[2], corner[3]});
   }
-  LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(assembly, contact, slave));
-  for (MouthCorner& corner : linked.mouth_corners)
-    for (int p = 0; p < MouthCorner::pieces; ++p)
-      corner.master[p] =
-          static_cast<int>(std::lower_bound(pair.master_nodes.begin(), pair.master_nodes.end(), corner.node[p]) -
-                           pair.master_nodes.begin());
+  const LinkedSegments linked = link_segments(assembly.nodes, corners, widest_mouth(assembly, contact, slave));
   arrays.surface = to_device("surface", linked.segments);
   arrays.mouth_corners = to_device("mouth corners", linked.mouth_corners);
   arrays.boxes = make_boxes(assembly.nodes, corners);
@@ -169,7 +164,6 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
   if (contact.algorithm == scene::ContactAlgorithm::multiplier)
     pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
-                        Array<std::uint64_t*>("multiplicity", masters),
                         Array<double* [3]>("way since stuck", arrays.slave_count),
                         linked.mouth_corners.empty() ? nodes_of_multiplier : most_nodes_of_multiplier,
                         Array<double*>("impact energy", arrays.slave_count)};

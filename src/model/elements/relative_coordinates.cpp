@@ -12,7 +12,6 @@ namespace railwave {
 namespace {
 
 /// Steps whose frames are worked out in one launch.
-constexpr int steps_of_block = 64;
 
 using Rows = Array<double* [3]>::HostMirror;
 using Eigen::Matrix3d;

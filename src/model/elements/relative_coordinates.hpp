@@ -11,6 +11,9 @@ struct AssembledScene;
 struct ElementGroup;
 struct NodalState;
 
+/// Steps for which the frames' motions are worked out at once.
+constexpr int steps_of_block = 64;
+
 /// Nodes in single precision and their co-rotating frames, one for each part and point mass: the rigid motion that
 /// suits its velocities best when the run begins. From then on these nodes are the state, and the double ones follow:
 /// those that external forces or constraints concern at every step, the others for samples and outputs. Empty unless

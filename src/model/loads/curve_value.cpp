@@ -85,4 +85,16 @@ double curve_integral(const scene::Curve* curve, double time) {
   return time;
 }
 
+double load_value(const LoadArrays& load, double time) {
+  const double factor = curve_value(load.curve, time);
+  switch (load.load->type) {
+    case scene::LoadType::torque:
+      return factor * load.load->moment;
+    case scene::LoadType::pressure:
+      return factor * load.load->pressure;
+    default:
+      return factor;
+  }
+}
+
 }  // namespace railwave

@@ -73,12 +73,20 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
   external.work = Array<double*>("work of contribution", external.contribution_count);
   nodal.nodes.external_row = to_device("external row", row_of_node);
 
+  if (std::any_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
+    nodal.free_nodes = {Array<FreeNode*>("free nodes", rows), Array<std::uint64_t*>("multiplicity", rows),
+                        Array<std::uint64_t* [2][3]>("change of multipliers", rows),
+                        Array<int*>("listed free nodes", rows), Array<int*>("number of listed free nodes", 1)};
+
   std::vector<int> master_rows;
   for (int n : ties.masters) master_rows.push_back(row_of_node[n]);
   ties.arrays.master_rows = to_device("rows of ties", master_rows);
   if (ends.nodes.empty()) return;
   ends.alone.assign(assembly.nodes.size(), 0);
-  for (int n : ends.nodes) ends.alone[n] = first[row_of_node[n]] == first[row_of_node[n] + 1] ? 1 : 0;
+  for (int n : ends.nodes) {
+    ends.alone[n] = first[row_of_node[n]] == first[row_of_node[n] + 1] ? 1 : 0;
+    ties.at_ends = ties.at_ends || std::binary_search(ties.masters.begin(), ties.masters.end(), n);
+  }
   for (const ContactPair& pair : contacts)
     for (const auto* nodes : {&pair.slave_nodes, &pair.master_nodes})
       for (int n : *nodes) ends.alone[n] = 0;

@@ -14,6 +14,7 @@ namespace railwave {
 
 /// A load of fixed direction, a pressure or a torque: its contributions, and the curve it follows.
 struct LoadArrays {
+  int number = 0;  ///< among the scene's loads
   const scene::Load* load = nullptr;
   const scene::Curve* curve = nullptr;  ///< null: constant 1
   int first = 0;                        ///< its first contribution
@@ -67,5 +68,9 @@ double curve_value(const scene::Curve* curve, double time);
 
 /// Its integral from 0 to a time of 0 or later, s.
 double curve_integral(const scene::Curve* curve, double time);
+
+/// What a load's kernel is given of a time: the curve's value times the moment (N m) or the pressure (Pa), of other
+/// loads the value alone.
+double load_value(const LoadArrays& load, double time);
 
 }  // namespace railwave

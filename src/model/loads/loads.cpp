@@ -83,6 +83,7 @@ void build_load(Collector& collector, const scene::Load& load, const std::shared
   const scene::Scene& scene = collector.assembled.scene;
   const Assembly& assembly = collector.assembled.assembly;
   LoadArrays arrays;
+  arrays.number = static_cast<int>(loads.size());
   arrays.load = &load;
   arrays.curve = curve_of(scene, load.curve);
   arrays.first = collector.contributions();
@@ -199,6 +200,7 @@ void build_sets(const Collector& collector, int moving, LoadModel& loads) {
   sets.weight = to_device("weight in set", weight);
   sets.first_chunk = to_device("first chunk of set", first_chunk);
   sets.chunks = to_device("chunks of sets", chunks);
+  sets.teams_done = Array<int*>("teams done", 1);
   sets.partial = Array<double * [NodeSets::values]>("sums of chunks", chunks.size());
   sets.sums = Array<double * [NodeSets::values]>("sums of sets", moving);
 }

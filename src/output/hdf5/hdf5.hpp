@@ -3,6 +3,7 @@
 #include <hdf5.h>
 
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,9 @@ namespace railwave::hdf5 {
 /// several threads keeps this for each thread: to be called in each one that uses it. File::create() and File::open()
 /// do so.
 void be_quiet();
+
+/// Whoever uses HDF5 while other threads may holds this, as the library need not be built for several.
+std::recursive_mutex& in_use();
 
 /// An HDF5 identifier together with the function that closes it.
 class Handle {

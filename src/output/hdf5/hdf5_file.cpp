@@ -92,6 +92,11 @@ std::string reason() {
   return words[0] == 0 ? "HDF5 gives no reason" : words.data();
 }
 
+std::recursive_mutex& in_use() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 void be_quiet() {
   expect_free_memory();  // HDF5 keeps something for each thread
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);

@@ -119,7 +119,7 @@ Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const
 
 void Monitor::check_contact_ends() {
   static_assert(EndMonitor::steps_between % (1L << (most_levels - 1)) == 0);
-  if (!ends_ || nodal_.step % EndMonitor::steps_between != 0) return;
+  if (!contact_ends_due(nodal_.step)) return;
   ends_->check(false);
   for (std::size_t c = 0; c < ends_->sightings().size(); ++c) {
     const EndSighting& seen = ends_->sightings()[c];

@@ -33,6 +33,7 @@ class Monitor {
   /// Checks the ends of contact surfaces, where it is time: every 256 steps, after the forces. That costs much less
   /// than a check of the model, and the step stays as any.
   void check_contact_ends();
+  bool contact_ends_due(long step) const { return ends_ && step % EndMonitor::steps_between == 0; }
 
   /// Judges the present instant.
   /// @param sample with its balance error

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "kernels/contact/contact_multiplier.hpp"
+#include "kernels/support/team.hpp"
 #include "model/contact/contact_law.hpp"
 #include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
@@ -31,16 +32,17 @@ using AnyMultiplier = std::variant<ContactMultiplier<false>, ContactMultiplier<t
 static_assert(GrowingPenalty::friction_state == 0, "multipliers take the first values of the law's state");
 
 template <class Normals>
-AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion,
-                              double elapsed, bool friction) {
-  const bool settling = motion.relaxation_mass.extent(0) != 0;
+AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, double elapsed, bool settling,
+                              bool friction) {
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
   const auto with = [&](auto has_friction) -> AnyMultiplier {
     return ContactMultiplier<decltype(has_friction)::value, Normals>{
         search,
         pair.window,
         nodal.external.sum,
-        motion,
+        nodal.nodes.external_row,
+        nodal.constraints,
+        nodal.free_nodes,
         pair.multipliers,
         first_touch(nodal, elapsed),
         settling ? taken_back_settling : taken_back_running,
@@ -50,44 +52,81 @@ AnyMultiplier multiplier_with(const NodalState& nodal, const ContactPair& pair, 
   return friction ? with(std::true_type()) : with(std::false_type());
 }
 
-AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, const FreeMotion& motion, double elapsed,
+AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, double elapsed, bool settling,
                             bool friction) {
   if (pair.contact->normals == scene::ContactNormals::smooth)
-    return multiplier_with<SmoothNormals>(nodal, pair, motion, elapsed, friction);
-  return multiplier_with<FacetNormals>(nodal, pair, motion, elapsed, friction);
+    return multiplier_with<SmoothNormals>(nodal, pair, elapsed, settling, friction);
+  return multiplier_with<FacetNormals>(nodal, pair, elapsed, settling, friction);
 }
 
+/// How many nodes can touch is known on the device only.
+template <class Phase, class Pair, int count>
+void launch(const char* name, const MultiplierPairs<Pair, count>& pairs) {
+  int slaves = 0;
+  for (const auto& pair : pairs.pairs) slaves += pair.window.count;
+  constexpr bool in_lanes = on_device && !std::is_same_v<Phase, Multiplier::Begin>;
+  if constexpr (in_lanes) {
+    constexpr int items = 8;
+    using Policy = Kokkos::TeamPolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<items * item_lanes>, AsArgument>;
+    Kokkos::parallel_for(name, Policy((slaves + items - 1) / items, items, item_lanes),
+                         MultiplierPairsInLanes<Pair, count>{pairs});
+  } else {
+    using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
+    Kokkos::parallel_for(name, Policy(0, slaves), pairs);
+  }
+}
+
+/// A phase of all pairs: two by two in one launch where they are of the same kind, as those of a joint are.
 template <class Phase>
-void run_phase(const char* name, const AnyMultiplier& any, bool by_node = false) {
-  std::visit(
-      [&](const auto& multiplier) {
-        // How many nodes can touch is known on the device only.
-        using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-        Kokkos::parallel_for(
-            name, Policy(0, (by_node ? multiplier.multipliers.most_nodes : 1) * multiplier.window.count), multiplier);
-      },
-      any);
+void run_phase(const char* name, const std::vector<AnyMultiplier>& pairs) {
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    std::visit(
+        [&](const auto& first) {
+          using Pair = std::decay_t<decltype(first)>;
+          const Pair* second = k + 1 < pairs.size() ? std::get_if<Pair>(&pairs[k + 1]) : nullptr;
+          if (second == nullptr) return launch<Phase>(name, MultiplierPairs<Pair, 1>{{first}});
+          launch<Phase>(name, MultiplierPairs<Pair, 2>{{first, *second}});
+          ++k;
+        },
+        pairs[k]);
 }
 
-void find_multipliers(const std::vector<AnyMultiplier>& pairs, int sweeps) {
-  for (const auto& pair : pairs) run_phase<Multiplier::Begin>("multipliers_begin", pair);
-  for (const auto& pair : pairs) run_phase<Multiplier::Predict>("multipliers_predict", pair, true);
-  for (const auto& pair : pairs) run_phase<Multiplier::Scatter>("multipliers_scatter", pair);
-  for (int sweep = 1; sweep <= sweeps; ++sweep)
-    for (const auto& pair : pairs) {
-      run_phase<Multiplier::Correct>("multipliers_correct", pair);
-      if (sweep < sweeps)
-        run_phase<Multiplier::Scatter>("multipliers_scatter", pair);
-      else
-        run_phase<Multiplier::Finish>("multipliers_finish", pair);
-    }
+/// Nodes that the multipliers of all pairs can push, at most.
+int most_listed(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
+  long most = 0;
+  for (const ContactPair& pair : contacts)
+    if (!pair.has_springs()) most += static_cast<long>(pair.multipliers.most_nodes) * pair.window.count;
+  return static_cast<int>(std::min<long>(most, nodal.external.row_count));
+}
+
+/// The multipliers of all pairs that have them.
+std::vector<AnyMultiplier> multipliers_of(const scene::Scene& scene, const NodalState& nodal,
+                                          const std::vector<ContactPair>& contacts, StepKind kind, double elapsed) {
+  std::vector<AnyMultiplier> pairs;
+  for (const ContactPair& pair : contacts)
+    if (!pair.has_springs())
+      pairs.push_back(multiplier_of(nodal, pair, elapsed, kind == StepKind::settling, has_friction(scene, pair, kind)));
+  return pairs;
+}
+
+void set_sweep(std::vector<AnyMultiplier>& pairs, int sweep) {
+  for (AnyMultiplier& any : pairs) std::visit([&](auto& pair) { pair.sweep = sweep; }, any);
+}
+
+/// All pairs' multipliers are of one iteration: they may push the same nodes.
+void find_multipliers(std::vector<AnyMultiplier> pairs, int sweeps) {
+  for (int sweep = 1; sweep < sweeps; ++sweep) {
+    set_sweep(pairs, sweep);
+    run_phase<Multiplier::Correct>("multipliers_correct", pairs);
+  }
+  set_sweep(pairs, sweeps);
+  run_phase<Multiplier::Finish>("multipliers_finish", pairs);
 }
 
 }  // namespace
 
-std::vector<Task> multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
-                                   std::vector<ContactPair>& contacts, StepKind kind,
-                                   const RelaxationUpdate* relaxation) {
+MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
+                                 StepKind kind, const RelaxationUpdate* relaxation) {
   std::string names;
   int sweeps = 0;
   for (const ContactPair& pair : contacts) {
@@ -97,20 +136,23 @@ std::vector<Task> multiplier_tasks(const scene::Scene& scene, const NodalState& 
     sweeps = std::max(sweeps, pair.contact->sweeps);
   }
   if (sweeps == 0) return {};
-  return {
-      {"search of" + names, "d",
-       [&scene, &nodal, &contacts, kind](const Instant& instant) {
-         for (ContactPair& pair : contacts)
-           if (!pair.has_springs()) keep_window(scene, nodal, pair, instant.step, kind);
-       }},
-      {"multipliers of" + names, "d", [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
-         const FreeMotion motion = free_motion(nodal, instant, relaxation);
-         std::vector<AnyMultiplier> pairs;
-         for (const ContactPair& pair : contacts)
-           if (!pair.has_springs())
-             pairs.push_back(multiplier_of(nodal, pair, motion, instant.elapsed, has_friction(scene, pair, kind)));
-         find_multipliers(pairs, sweeps);
-       }}};
+  Task search{"search of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {
+                for (ContactPair& pair : contacts)
+                  if (!pair.has_springs()) keep_window(scene, nodal, pair, instant.step, kind);
+              }};
+  search.recordable = false;
+  const Task begin{"location of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {
+                     const auto pairs = multipliers_of(scene, nodal, contacts, kind, instant.elapsed);
+                     run_phase<Multiplier::Begin>("multipliers_begin", pairs);
+                     run_phase<Multiplier::Push>("multipliers_push", pairs);
+                   }};
+  const Task find{"multipliers of" + names, "d",
+                  [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+                    Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
+                                         PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
+                    find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
+                  }};
+  return {{search, begin}, {find}};
 }
 
 }  // namespace railwave

@@ -8,9 +8,11 @@ namespace railwave {
 namespace {
 
 Task search_task(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, StepKind kind) {
-  return {
+  Task task{
       "search of contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : ""), "d",
       [&scene, &nodal, &pair, kind](const Instant& instant) { keep_window(scene, nodal, pair, instant.step, kind); }};
+  task.recordable = false;
+  return task;
 }
 
 template <bool Friction, class Normals, class Law>

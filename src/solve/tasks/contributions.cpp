@@ -35,7 +35,7 @@ SetLoads set_loads(const NodalState& nodal, const LoadModel& loads, const Instan
   const SetMotion motion{loads.sets, nodal.nodes.position, nodal.nodes.velocity};
   TorqueNow torques{loads.torques, motion};
   for (const LoadArrays& load : loads.loads)
-    if (load.torque >= 0) torques.moment[load.torque] = curve_value(load.curve, instant.time) * load.load->moment;
+    if (load.torque >= 0) torques.moment[load.torque] = instant.value_of(load);
   const ConnectorForce connectors{loads.connectors.arrays, motion, instant.elapsed,
                                   kind == StepKind::settling ? 0.0 : 1.0};
   return {motion, connectors, torques, row_loads(nodal, loads, instant.elapsed), rows};

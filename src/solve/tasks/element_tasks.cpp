@@ -77,18 +77,24 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
                                 GoingAlong along) {
   std::vector<Task> tasks;
   const bool settling = kind == StepKind::settling;
+  constexpr int first_lane = 2;  // behind loads and contact
+  const auto lane_of = [&](const ElementGroup& group) {
+    return first_lane + static_cast<int>(&group - elements.elements.data());
+  };
   for (const ElementGroup& group : elements.elements) {
     const long steps = settling ? 1 : 1L << group.level;
-    append(tasks, frame_tasks(nodal, group, kind, steps));
+    append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
     ElementLaunch launch{kind, nullptr, nullptr};
     if (&group == &elements.elements.front() && along.contact) launch.contact = &contacts.front();
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;
-    tasks.push_back(force_task(nodal, group, elements.in_single, launch));
-    tasks.back().every = steps;
+    Task task = force_task(nodal, group, elements.in_single, launch);
+    task.every = steps;
+    append(tasks, placed({task}, Stage::own_forces, lane_of(group)));
   }
   // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.
   for (const ElementGroup& group : elements.elements)
-    if (group.damping.active() && !settling) append(tasks, damping_tasks(nodal, group, elements.in_single));
+    if (group.damping.active() && !settling)
+      append(tasks, placed(damping_tasks(nodal, group, elements.in_single), Stage::own_forces, lane_of(group)));
   return tasks;
 }
 

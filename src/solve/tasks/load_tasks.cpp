@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "solve/tasks/contributions.hpp"
 
 namespace railwave {
@@ -5,26 +7,27 @@ namespace {
 
 /// A load that puts the values of its contributions in place by a kernel of its own.
 void apply_load(const NodalState& nodal, const LoadArrays& load, const Instant& instant) {
-  const double factor = curve_value(load.curve, instant.time);
+  const StepValue<double> value = instant.value_of(load);
   const NodeArrays& nodes = nodal.nodes;
   if (load.load->type == scene::LoadType::pressure) {
-    Kokkos::parallel_for("pressure", Range(0, load.count),
-                         PressureLoad{nodal.external, nodes.position, nodes.velocity, load.first, load.facets,
-                                      factor * load.load->pressure, instant.elapsed});
+    Kokkos::parallel_for(
+        "pressure", Range(0, load.count),
+        PressureLoad{nodal.external, nodes.position, nodes.velocity, load.first, load.facets, value, instant.elapsed});
   } else {
     Kokkos::parallel_for("dead_load", Range(0, load.count),
-                         DeadLoad{nodal.external, nodes.velocity, load.first, load.amplitude, factor, instant.elapsed});
+                         DeadLoad{nodal.external, nodes.velocity, load.first, load.amplitude, value, instant.elapsed});
   }
 }
 
+constexpr int threads_of_loads = on_device ? 512 : 1;
 using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
 
 /// Sums over sets, and what follows from them.
 void launch_set_loads(const SetLoads& all) {
-  if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(1, on_device ? 512 : 1), all);
-  Kokkos::parallel_for("set_chunks", SpreadRange(0, all.chunk_count()), SetChunks{all});
-  Kokkos::parallel_for("set_sums", SpreadRange(0, all.sum_count()), SetSums{all});
-  Kokkos::parallel_for("set_laws", SpreadRange(0, all.law_count()), SetLaws{all});
+  if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(1, threads_of_loads), all);
+  constexpr int most_teams = 64;
+  const int teams = std::min(most_teams, (all.chunk_count() + threads_of_loads - 1) / threads_of_loads);
+  Kokkos::parallel_for("set_loads", LoadTeam(teams, threads_of_loads), SetLoadTeams{all, teams});
 }
 
 /// Connectors, torques, and the gather of all loads: one launch where they are few.
@@ -66,13 +69,20 @@ std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflect
 
 std::vector<Task> tie_tasks(const NodalState& nodal, const Ties& ties) {
   if (!ties.arrays.active()) return {};
-  return {{"ties", "a", [&nodal, &ties](const Instant&) {
-             const TieArrays& arrays = ties.arrays;
-             Kokkos::parallel_for("tie_force", SpreadRange(0, arrays.slave_count),
-                                  TieForce{arrays, nodal.acceleration().force});
-             Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
-                                  TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
-           }}};
+  std::vector<Task> tasks = placed({{"forces of ties", "a",
+                                     [&nodal, &ties](const Instant&) {
+                                       Kokkos::parallel_for("tie_force", SpreadRange(0, ties.arrays.slave_count),
+                                                            TieForce{ties.arrays, nodal.acceleration().force});
+                                     }}},
+                                   Stage::passed_on, 0);
+  append(tasks, placed({{"gather of ties", "a",
+                         [&nodal, &ties](const Instant&) {
+                           const TieArrays& arrays = ties.arrays;
+                           Kokkos::parallel_for("tie_gather", SumTeams(3 * arrays.master_count, threads_of_sum),
+                                                TieGather{arrays, arrays.master_rows, nodal.external.sum.load});
+                         }}},
+                       Stage::last_forces, 0));
+  return tasks;
 }
 
 }  // namespace railwave

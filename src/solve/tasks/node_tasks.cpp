@@ -36,20 +36,27 @@ Task relative_blocks_task(const NodalState& nodal, const std::vector<ElementGrou
           }};
 }
 
+/// Of nodal.shared_nodes.
+struct SharedRange {
+  std::string name;
+  int begin, end;
+};
+
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
-Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
-  return {"nodes that element blocks share", "f to j", [&nodal, &loads, rows_are_due](const Instant& instant) {
-            Kokkos::parallel_for("shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
+Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due,
+                          const SharedRange& range) {
+  return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
+            Kokkos::parallel_for("shared_nodes", Range(range.begin, range.end),
                                  RelativeSharedUpdate{nodal.acceleration(), relative_advance(nodal, {}, instant.step),
                                                       nodal.shared_nodes, nodal.relative.shared_arm,
                                                       row_loads(nodal, loads, instant.elapsed), rows_are_due});
           }};
 }
 
-Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due) {
-  return {"nodes that element blocks share", "f to j", [&nodal, &loads, rows_are_due](const Instant& instant) {
+Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const SharedRange& range) {
+  return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
             Kokkos::parallel_for(
-                "shared_nodes", Range(0, static_cast<int>(nodal.shared_nodes.extent(0))),
+                "shared_nodes", Range(range.begin, range.end),
                 SharedNodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step), nodal.shared_nodes,
                                  row_loads(nodal, loads, instant.elapsed), rows_are_due});
           }};
@@ -64,8 +71,9 @@ Task node_task(const NodalState& nodal) {
 
 Task prescribed_task(const NodalState& nodal, const PrescribedSet& set) {
   return {"prescribed motion of " + set.motion->target, "g", [&nodal, &set](const Instant& instant) {
-            Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))),
-                                 prescribed_motion(nodal, set, instant.step));
+            PrescribedMotion motion = prescribed_motion(nodal, set, instant.step);
+            if (instant.places != nullptr) motion.next.recorded = instant.places + set.number;
+            Kokkos::parallel_for("prescribed_motion", Range(0, static_cast<int>(set.nodes.extent(0))), motion);
           }};
 }
 
@@ -73,14 +81,16 @@ Task prescribed_task(const NodalState& nodal, const PrescribedSet& set) {
 
 Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
                             StepKind kind) {
-  return {"co-rotating frames of nodes in single precision", "j",
-          [&assembled, &groups, &nodal, kind](const Instant& instant) {
-            if (!nodal.relative.begun)
-              begin_relative_nodes(assembled, groups, nodal);
-            else if (kind == StepKind::sampled)
-              update_absolute_nodes(nodal);
-            compute_frame_steps(nodal, instant.step);
-          }};
+  Task task{"co-rotating frames of nodes in single precision", "j",
+            [&assembled, &groups, &nodal, kind](const Instant& instant) {
+              if (!nodal.relative.begun)
+                begin_relative_nodes(assembled, groups, nodal);
+              else if (kind == StepKind::sampled)
+                update_absolute_nodes(nodal);
+              compute_frame_steps(nodal, instant.step);
+            }};
+  task.recordable = false;
+  return task;
 }
 
 Task tied_nodes_task(const NodalState& nodal, const Ties& ties, StepKind kind) {
@@ -106,14 +116,19 @@ std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<Pr
 std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementGroup>& groups, const LoadModel& loads,
                              StepKind kind, GoingAlong along) {
   const bool inner_have_moved = kind == StepKind::advancing;
-  if (nodal.subcycling.levels > 1) return {subcycled_task(nodal, inner_have_moved)};
+  if (nodal.subcycling.levels > 1) return placed({subcycled_task(nodal, inner_have_moved)}, Stage::other_motion, 0);
   std::vector<Task> tasks;
-  if (nodal.relative.active()) {
-    if (!inner_have_moved) tasks.push_back(relative_blocks_task(nodal, groups));
-    tasks.push_back(relative_shared_task(nodal, loads, along.sets));
-  } else {
-    tasks.push_back(inner_have_moved ? shared_task(nodal, loads, along.sets) : node_task(nodal));
-  }
+  const bool relative = nodal.relative.active();
+  if (!inner_have_moved && !relative) return placed({node_task(nodal)}, Stage::other_motion, 0);
+  if (!inner_have_moved) append(tasks, placed({relative_blocks_task(nodal, groups)}, Stage::other_motion, 0));
+  const auto add = [&](const SharedRange& range, Stage stage, int lane) {
+    append(tasks,
+           placed({(relative ? relative_shared_task : shared_task)(nodal, loads, along.sets, range)}, stage, lane));
+  };
+  const int all = static_cast<int>(nodal.shared_nodes.extent(0)), early = inner_have_moved ? nodal.early_shared : 0;
+  const std::string name = "nodes that element blocks share";
+  if (early > 0) add({name + ", beside multipliers and prescribed motions", 0, early}, Stage::motion, 1);
+  add({name, early, all}, Stage::other_motion, 0);
   return tasks;
 }
 

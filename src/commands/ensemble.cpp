@@ -1,0 +1,138 @@
+#include "commands/ensemble.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <ostream>
+
+#include "case/error.hpp"
+#include "case/read_case.hpp"
+#include "commands/process.hpp"
+#include "commands/threads.hpp"
+#include "mesh/contact_zone.hpp"
+#include "model/assembly.hpp"
+#include "output/checkpoint_file.hpp"
+#include "output/progress.hpp"
+#include "output/results_file.hpp"
+#include "output/run_places.hpp"
+#include "output/settled_file.hpp"
+#include "solve/time_loop.hpp"
+
+namespace railwave {
+namespace {
+
+/// A member from its case to its end.
+struct Member {
+  std::string name;
+  scene::Scene scene;
+  std::vector<std::string> notes;
+  std::unique_ptr<HeldPlaces> places;
+  Model model;
+  std::unique_ptr<ResultsFile> results;
+  std::ofstream log;
+  std::unique_ptr<Progress> progress;
+};
+
+std::string log_path(const std::string& results) { return std::filesystem::path(results).replace_extension(".log"); }
+
+std::string results_of_member(const scene::Scene& scene, std::size_t number) {
+  return fmt::format("{}/member_{}.h5", default_results_folder(scene.path), number);
+}
+
+bool names_results(const std::vector<std::string>& overrides) {
+  for (const std::string& one : overrides)
+    if (one.rfind("output.file=", 0) == 0) return true;
+  return false;
+}
+
+/// Reads a member's case.
+void read_member(const EnsembleRequest& request, std::size_t m, Member& member) {
+  std::vector<std::string> overrides = request.overrides;
+  overrides.insert(overrides.end(), request.members[m].begin(), request.members[m].end());
+  member.name = fmt::format("member {}", m + 1);
+  try {
+    member.scene = read_case(request.case_file, overrides, &member.notes);
+    if (!names_results(overrides)) member.scene.output.file = results_of_member(member.scene, m + 1);
+    const auto bands = place_contact_zones(member.scene);
+    member.notes.insert(member.notes.end(), bands.begin(), bands.end());
+    member.places = std::make_unique<HeldPlaces>(member.scene, RunFiles{false, request.overwrite});
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} of the ensemble: {}", member.name, error.what()));
+  }
+}
+
+void build_member(Member& member) {
+  try {
+    build_model(member.scene, assemble(member.scene, member.notes), member.model);
+    check_run_places(member.scene, {});
+    member.results = std::make_unique<ResultsFile>(member.model.scene, member.model.assembly, RAILWAVE_VERSION);
+    member.results->check_disk_space(member.model, member.model);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} of the ensemble: {}", member.name, error.what()));
+  }
+  member.log.open(log_path(member.scene.output.file));
+  for (const std::string& note : member.notes) member.log << "note: " << note << '\n';
+  member.progress = std::make_unique<Progress>(member.log);
+}
+
+EnsembleEnd report_ends(const std::vector<std::unique_ptr<Member>>& members, const std::vector<RunOutcome>& outcomes,
+                   std::ostream& out) {
+  EnsembleEnd end;
+  for (std::size_t m = 0; m < members.size(); ++m) {
+    const RunOutcome& outcome = outcomes[m];
+    const std::string where = members[m]->name + ", " + members[m]->scene.output.file + ": ";
+    if (!outcome.summary) {
+      ++end.failed;
+      out << where << "failed: " << outcome.error << '\n';
+    } else if (!outcome.summary->completed) {
+      ++end.ended_early;
+      out << where << "ended early: " << outcome.summary->reason << '\n';
+    } else {
+      ++end.completed;
+      out << where << "completed\n";
+    }
+  }
+  return end;
+}
+
+}  // namespace
+
+void add_ensemble_command(CLI::App& app, EnsembleRequest& request, const std::function<void()>& run) {
+  CLI::App* command = app.add_subcommand("ensemble", "run several variants of a case at once in one process");
+  command->add_option("case", request.case_file, "case file (TOML); docs/case-file.md lists its keys")->required();
+  command
+      ->add_option("--set", request.overrides,
+                   "section.key=value in place of what the case file says, for all members; may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--member", request.members,
+                   "section.key=value ... of one member; output.file among them is where its results go, else "
+                   "results/NAME/member_NUMBER.h5; once for each member")
+      ->required();
+  command->add_flag("--overwrite", request.overwrite,
+                    "replace files that are there even if railwave has not written them; never what the command reads");
+  command->callback(run);
+}
+
+EnsembleEnd run_ensemble(const EnsembleRequest& request, std::ostream& out) {
+  std::vector<std::unique_ptr<Member>> members;
+  for (std::size_t m = 0; m < request.members.size(); ++m) {
+    members.push_back(std::make_unique<Member>());
+    read_member(request, m, *members.back());
+  }
+  const KokkosScope kokkos;
+  std::vector<EnsembleMember> runs;
+  SettledFiles settled(RAILWAVE_VERSION);
+  for (const auto& member : members) {
+    build_member(*member);
+    runs.push_back({&member->model, {member->results.get(), member->progress.get()}, &settled, {}});
+  }
+  stop_on_signals();
+  const EnsembleEnd end = report_ends(members, run_together(runs), out);
+  for (const auto& member : members) member->model = Model{};  // before Kokkos ends
+  return end;
+}
+
+}  // namespace railwave

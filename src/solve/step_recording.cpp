@@ -1,0 +1,253 @@
+#include "solve/step_recording.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "model/boundaries/prescribed_nodes.hpp"
+#include "model/elements/relative_coordinates.hpp"
+#include "solve/launch_graph.hpp"
+
+namespace railwave {
+
+#ifdef RAILWAVE_LAUNCH_GRAPHS
+
+namespace {
+
+/// Graphs of so many steps cost no more than a hundredth of the time between two changes of a contact's window, after
+/// which they are recorded anew.
+constexpr int default_steps = 4;
+
+/// Steps of the largest graph: RAILWAVE_STEP_GRAPHS; 0, with which all steps are plain, also where a tool listens, as
+/// it would not be told of launches within graphs.
+int most_steps() {
+  if (Kokkos::Profiling::profileLibraryLoaded()) return 0;
+  const char* chosen = std::getenv("RAILWAVE_STEP_GRAPHS");
+  return chosen != nullptr ? std::clamp(std::atoi(chosen), 0, 64) : default_steps;
+}
+
+/// Copies a graph's values to where its launches read them.
+template <class Value>
+struct TakeStepValues {
+  Array<const Value*> table;
+  Array<Value*> taken;
+  int first;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { taken(i) = table(first + i); }
+};
+
+/// One kind of values that follow from a step's time, `width` of them a step, for the steps to come.
+template <class Value>
+class StepValues {
+ public:
+  StepValues(int width, int steps_of_graph)
+      : width_(width),
+        table_("values of steps", width * (steps_of_table + steps_of_graph)),
+        taken_("values of a graph", width * steps_of_graph) {}
+
+  const Value* of(int step_of_graph) const { return width_ == 0 ? nullptr : taken_.data() + step_of_graph * width_; }
+
+  /// Brings the values of some steps in place, in the order of a space.
+  /// @param value of a step, of the given number
+  template <class ValueAt>
+  void take(const ExecutionSpace& space, long step, long steps, double step_size, const ValueAt& value) {
+    if (width_ == 0) return;
+    if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_) {
+      space.fence();
+      fill(step, step_size, value);
+    }
+    if (constant_ && in_place_) return;
+    const int all = static_cast<int>(constant_ ? taken_.extent(0) : steps * width_);
+    Kokkos::parallel_for("step_values", Range(space, 0, all),
+                         TakeStepValues<Value>{table_, taken_, static_cast<int>(step - first_) * width_});
+    in_place_ = true;
+  }
+
+ private:
+  static constexpr int steps_of_table = 512;
+
+  template <class ValueAt>
+  void fill(long step, double step_size, const ValueAt& value) {
+    first_ = step;
+    step_size_ = step_size;
+    in_place_ = false;
+    constant_ = true;
+    auto host = Kokkos::create_mirror_view(table_);
+    const int rows = static_cast<int>(host.extent(0)) / width_;
+    for (int s = 0; s < rows; ++s)
+      for (int k = 0; k < width_; ++k) {
+        const Value now = value(step + s, k);
+        constant_ = constant_ && (s == 0 || std::memcmp(&now, &host(k), sizeof now) == 0);
+        host(s * width_ + k) = now;
+      }
+    Kokkos::deep_copy(table_, host);
+  }
+
+  int width_;
+  Array<Value*> table_, taken_;
+  long first_ = 0;
+  double step_size_ = 0;  ///< s; 0: nothing is in the table
+  bool constant_ = false, in_place_ = false;
+};
+
+}  // namespace
+
+struct StepRecording::Recordings {
+  /// What launches depend on besides the time.
+  using State = std::vector<double>;
+  /// Phase of the cycle of subcycling, step of the frames' block, steps.
+  using Key = std::tuple<long, long, long>;
+
+  Recordings(Model& the_model, const Plan& plan, const ExecutionSpace* own_space)
+      : model(the_model),
+        space(own_space != nullptr ? *own_space : ExecutionSpace()),
+        own(own_space != nullptr),
+        most(most_steps()),
+        load_values(static_cast<int>(model.loads.size()), std::max(1, most)),
+        places(static_cast<int>(model.prescribed.size()), std::max(1, most)) {
+    for (const std::vector<Task>* tasks : {&plan.forces, &plan.motion})
+      for (const Task& task : *tasks) (task.recordable ? recordable : plain).push_back(task);
+  }
+
+  State state() const {
+    State now{model.step_size};
+    for (const ContactPair& pair : model.contacts) {
+      now.push_back(static_cast<double>(pair.layouts));
+      now.push_back(pair.window.count);
+    }
+    return now;
+  }
+
+  /// Whether tasks that are not recorded may launch something at this step.
+  bool plain_due() const {
+    for (const ContactPair& pair : model.contacts)
+      if (model.step >= pair.next_check || model.step >= pair.next_near_check) return true;
+    return model.relative.active();
+  }
+
+  /// Before launches in the default space, and after them.
+  void finish() {
+    if (own && launched) space.fence();
+    launched = false;
+    others_launched = true;
+  }
+  void begin() {
+    if (own && others_launched) ExecutionSpace().fence();
+    others_launched = false;
+    launched = true;
+  }
+
+  long frame_step() const { return model.relative.active() ? model.step - model.relative.block_step : 0; }
+
+  /// Steps for one graph: a power of two that begins at a multiple of itself within a block of frames and a cycle of
+  /// subcycling, so that few graphs do for all.
+  long steps_of_graph(long quiet) const {
+    for (const ContactPair& pair : model.contacts)
+      quiet = std::min({quiet, pair.next_check - model.step, pair.next_near_check - model.step});
+    const long frame = frame_step(), cycle = model.subcycling.cycle();
+    if (model.relative.active()) quiet = std::min(quiet, steps_of_block - frame);
+    long steps = 1;
+    while (2 * steps <= std::min<long>(quiet, most) && frame % (2 * steps) == 0 &&
+           model.step % std::min(2 * steps, cycle) == 0)
+      steps *= 2;
+    return steps;
+  }
+
+  /// A stage's lanes begin when all lanes of the stage before are done.
+  LaunchGraph::Node record_step(const LaunchGraph::Node& begin, const Instant& instant) const {
+    LaunchGraph::Node ready = begin;
+    for (std::size_t first = 0, end = 0; first < recordable.size(); first = end) {
+      std::map<int, std::vector<const Task*>> lanes;
+      for (; end < recordable.size() && recordable[end].stage == recordable[first].stage; ++end)
+        if (recordable[end].due(model.step)) lanes[recordable[end].lane].push_back(&recordable[end]);
+      std::vector<LaunchGraph::Node> done;
+      for (const auto& [lane, tasks] : lanes)
+        done.push_back(LaunchGraph::after(ready, [&tasks = tasks, &instant] {
+          for (const Task* task : tasks) task->run(instant);
+        }));
+      if (!done.empty()) ready = LaunchGraph::joined(done);
+    }
+    return ready;
+  }
+
+  LaunchGraph record(const Instant& instant, long steps) const {
+    LaunchGraph graph;
+    LaunchGraph::Node ready = graph.root();
+    const long begin = model.step;
+    for (long s = 0; s < steps; ++s, ++model.step) {
+      Instant now = instant;
+      now.load_values = load_values.of(static_cast<int>(s));
+      now.places = places.of(static_cast<int>(s));
+      ready = record_step(ready, now);
+    }
+    model.step = begin;
+    graph.finish();
+    return graph;
+  }
+
+  Model& model;
+  const ExecutionSpace space;
+  const bool own;               ///< not the default one
+  bool launched = false;        ///< in that space since finish()
+  bool others_launched = true;  ///< in the default one since begin()
+  const int most;
+  std::vector<Task> plain, recordable;
+  StepValues<double> load_values;
+  StepValues<RigidPlace> places;
+  std::map<Key, LaunchGraph> graphs;
+  State recorded_in;  ///< of all of them
+};
+
+StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space)
+    : recordings_(std::make_unique<Recordings>(model, plan, space)) {}
+
+StepRecording::~StepRecording() { finish(); }
+
+void StepRecording::finish() { recordings_->finish(); }
+
+int StepRecording::most() const { return recordings_->most; }
+
+long StepRecording::advance(const Instant& instant, long quiet, const std::function<double(long)>& time) {
+  Recordings& all = *recordings_;
+  Model& model = all.model;
+  // The first steps know another time before them.
+  const bool regular = instant.elapsed == instant.step && model.velocity_lag == 0.5 * instant.step;
+  if (all.most == 0 || quiet < 1 || !regular) return 0;
+  if (all.plain_due()) {
+    all.finish();
+    run_tasks(all.plain, instant, model.step);
+  }
+  const long steps = all.steps_of_graph(quiet);
+  if (auto now = all.state(); now != all.recorded_in) {
+    all.finish();
+    all.graphs.clear();
+    all.recorded_in = std::move(now);
+  }
+  const auto value = [&](long step, int number) { return load_value(model.loads[number], time(step)); };
+  const auto place = [&](long step, int number) {
+    return place_at(model.prescribed[number], time(step) + instant.step);
+  };
+  const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps};
+  auto found = all.graphs.find(key);
+  if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
+  all.begin();
+  all.load_values.take(all.space, model.step, steps, instant.step, value);
+  all.places.take(all.space, model.step, steps, instant.step, place);
+  found->second.launch(all.space);
+  return steps;
+}
+
+#else
+
+struct StepRecording::Recordings {};
+StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*) {}
+StepRecording::~StepRecording() = default;
+void StepRecording::finish() {}
+int StepRecording::most() const { return 0; }
+long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
+
+#endif
+
+}  // namespace railwave

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "solve/plan.hpp"
+
+namespace railwave {
+
+/// Advancing steps whose launches are recorded as graphs, several steps a graph, where Kokkos can record them
+/// (solve/launch_graph.hpp). Then a GPU doesn't wait for the host between launches, and tasks in different lanes run
+/// side by side. Each kernel computes what it computes when launched by itself, so that results are bit for bit those
+/// of plain steps.
+class StepRecording {
+ public:
+  /// @param plan of advancing steps; both it and the model must outlive this
+  /// @param space in whose order graphs are launched; null: the default one, in which all else is launched
+  StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr);
+  ~StepRecording();
+
+  /// Steps of the largest graph; 0: all steps are plain.
+  int most() const;
+
+  /// Launches several steps. The clock stays as it is.
+  /// @param quiet steps, the present one first, in which nothing is due but the plan
+  /// @param time s, of a step
+  /// @return how many were launched; 0: this step must be plain
+  long advance(const Instant& instant, long quiet, const std::function<double(long)>& time);
+
+  /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
+  void finish();
+
+ private:
+  struct Recordings;
+  std::unique_ptr<Recordings> recordings_;
+};
+
+}  // namespace railwave

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "model/host_copy.hpp"
+#include "model/model.hpp"
+#include "tests/verify/two_blocks.hpp"
+
+namespace railwave::verify {
+
+/// Most of what a step can have: besides busy_blocks' a load that grows, a pressure, a motion that is prescribed.
+inline scene::Scene moved_blocks() {
+  scene::Scene scene = busy_blocks();
+  add_ramp(scene, "grows", 0, 6e-5);
+  scene.loads[0].curve = scene.loads[1].curve = "grows";
+  add_pressure(scene, "upper.x_min", 1e6, "grows");
+  scene::PrescribedMotion& motion = scene.prescribed_motions.emplace_back();
+  motion.name = "pushed";
+  motion.target = "lower.x_max";
+  motion.velocity = {-0.05, 0, 0};
+  motion.curve = "grows";
+  motion.directions = {true, false, false};
+  scene.constraints.clear();
+  hold(scene, "lower.x_min", {true, true, true});
+  return scene;
+}
+
+/// Where a run has left its nodes.
+struct End {
+  std::vector<double> position, velocity;
+  long steps;
+};
+
+inline End end_of(const Model& model) {
+  const auto position = to_host(model.nodes.position), velocity = to_host(model.nodes.velocity);
+  End end{{}, {}, model.step};
+  for (int n = 0; n < model.nodes.count; ++n)
+    for (int k = 0; k < 3; ++k) {
+      end.position.push_back(position(n, k));
+      end.velocity.push_back(velocity(n, k));
+    }
+  return end;
+}
+
+}  // namespace railwave::verify

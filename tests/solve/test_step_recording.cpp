@@ -1,0 +1,71 @@
+#include <catch2/catch_test_macros.hpp>
+#include <cstdlib>
+#include <string>
+
+#include "solve/launch_graph.hpp"
+#include "solve/plan.hpp"
+#include "solve/time_loop.hpp"
+#include "tests/solve/moved_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+/// @param graphs value of RAILWAVE_STEP_GRAPHS
+End end_with(const scene::Scene& scene, const std::string& graphs) {
+  setenv("RAILWAVE_STEP_GRAPHS", graphs.c_str(), 1);
+  Model model;
+  build_model(scene, model);
+  run(model, {});
+  unsetenv("RAILWAVE_STEP_GRAPHS");
+  return end_of(model);
+}
+
+}  // namespace
+
+TEST_CASE("stages of a step come one after the other") {
+  scene::Scene scene = moved_blocks();
+  SECTION("penalty") {}
+  SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
+  Model model;
+  build_model(scene, model);
+  const StepPlans plans(model);
+  for (StepKind kind : {StepKind::advancing, StepKind::sampled}) {
+    Stage last = Stage::begin;
+    for (const auto* tasks : {&plans.of(kind).forces, &plans.of(kind).motion})
+      for (const Task& task : *tasks) {
+        INFO(task.name);
+        CHECK(task.stage >= last);
+        last = task.stage;
+      }
+  }
+}
+
+TEST_CASE("recorded steps are plain ones, bit for bit") {
+  if (!has_launch_graphs) SKIP("Kokkos records no launches here");
+  scene::Scene scene = moved_blocks();
+  SECTION("double") {}
+  SECTION("mixed") { scene.solver.precision = scene::Precision::mixed; }
+  SECTION("single") {
+    scene.parts[1].stiffness_damping = 0;
+    scene.solver.precision = scene::Precision::single_precision;
+  }
+  SECTION("subcycling") { scene.solver.subcycling = true; }
+  SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
+  SECTION("two contacts by multipliers") {
+    scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;
+    scene.contacts.push_back(scene.contacts[0]);
+    scene.contacts[1].name = "sides";
+    scene.contacts[1].slave = "upper.x_max";
+  }
+  const End plain = end_with(scene, "0");
+  REQUIRE(plain.steps > 200);
+  for (const char* graphs : {"1", "4", "16"}) {
+    INFO("graphs of " << graphs << " steps");
+    const End recorded = end_with(scene, graphs);
+    CHECK(recorded.steps == plain.steps);
+    CHECK(recorded.position == plain.position);
+    CHECK(recorded.velocity == plain.velocity);
+  }
+}

@@ -165,6 +165,7 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
   set_algorithm(pair);
   pair.growth = largest_growth(contact);
   pair.missed = Array<int*>("missed", 1);
+  pair.uncounted = Array<int*>("uncounted", 1);
   return pair;
 }
 

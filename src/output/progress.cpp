@@ -58,7 +58,7 @@ void Progress::settled(const Model& model, const SettleReport& report) {
   const std::string in_steps =
       report.iterations > 0 ? fmt::format(" in {} steps of Newton's method", report.iterations) : "";
   out_ << fmt::format(
-      "{} after {} evaluations of the forces{}, {:.1f} s: unbalanced force {:.2e} of all forces (settle.tolerance "
+      "{} after {} evaluations of the forces{}, {:.2f} s: unbalanced force {:.2e} of all forces (settle.tolerance "
       "{:.2e})\n",
       report.settled ? "settled" : "NOT settled", report.steps, in_steps, report.wall_seconds, report.unbalance,
       tolerance);

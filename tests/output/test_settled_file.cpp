@@ -347,7 +347,11 @@ material = "steel"
 hourglass = "stiffness"
 [constraints.bore]
 target = "roller.bore"
-fixed = ["x", "y", "z"]
+fixed = ["y"]
+[connectors.axle]
+from = "ground"
+to = "roller.bore"
+stiffness = [1e9, 0, 1e9]
 [initial_motion.roll]
 parts = ["roller"]
 velocity = [1, 0, 0]

@@ -150,7 +150,7 @@ TEST_CASE("plans hold what the scene needs, and a fused launch is a task of its 
   for (const Plan* plan : {&advancing, &sampled}) {
     CHECK_FALSE(has(*plan, "damping"));
     CHECK_FALSE(has(*plan, "multipliers"));
-    CHECK_FALSE(has(*plan, "ties"));
+    CHECK_FALSE(has(*plan, "forces of ties"));
     CHECK_FALSE(has(*plan, "beams"));
     for (const auto* tasks : {&plan->forces, &plan->motion})
       for (const Task& task : *tasks) CHECK_FALSE(task.step.empty());

@@ -36,4 +36,5 @@ fixed = ["x", "y", "z"]
 slave = "upper.z_min"
 master = "lower.z_max"
 friction = 0.3
+algorithm = "penalty"
 """

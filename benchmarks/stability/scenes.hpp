@@ -85,6 +85,7 @@ inline Setup pressed(const Pressing& pressing, const Control& control, double pe
   contact.master = "lower.z_max";
   contact.friction = pressing.friction;
   contact.symmetric = pressing.symmetric;
+  contact.algorithm = scene::ContactAlgorithm::penalty;
   contact.penalty_scale = penalty_scale;
   scene.contacts.push_back(contact);
   const auto hold = [&](const std::string& target, const std::array<bool, 3>& fixed) {

@@ -6,7 +6,6 @@
 #include "kernels/contact/contact_track.hpp"
 #include "kernels/contact/laws/falling_friction.hpp"
 #include "kernels/contact/multiplier_arrays.hpp"
-#include "kernels/support/item_lanes.hpp"
 
 namespace railwave {
 
@@ -35,12 +34,10 @@ struct FreeMotion {
 
 inline constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
 
-/// Phases of finding multipliers. Begin and Push need nothing but where the nodes are; PredictFreeNodes comes between
-/// them and the sweeps: Correct, and Finish as the last one. On a GPU a multiplier's nodes are shared out among lanes
-/// in all but the first.
+/// Phases of finding multipliers. Begin needs nothing but where the nodes are; PredictFreeNodes comes between it and the
+/// sweeps: Correct, and Finish as the last one.
 struct Multiplier {
   struct Begin {};
-  struct Push {};
   struct Correct {};
   struct Finish {};
 };
@@ -60,9 +57,9 @@ struct Multiplier {
 /// 2 (1 - cos(omega dt)) < 1 - tau gain from, and hardly (docs/contact.md). Forces are summed in whole quanta: a run is
 /// bitwise repeatable.
 ///
-/// The last step's multipliers go to the external forces at once, so that what the nodes are predicted to do holds
-/// them. A sweep reads the changes that its predecessor has left and adds its own to what the one before that had left,
-/// so that nobody reads what others are adding to; the last adds them all to the external forces.
+/// The last step's multipliers go to the external forces at once, so that what the nodes are predicted to do holds them.
+/// A sweep reads the changes that its predecessor has left and adds its own to what the one before that had left, so
+/// that nobody reads what others are adding to; the last adds them all to the external forces.
 /// @tparam Normals along which they press: see kernels/contact/contact_normals.hpp
 template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
@@ -84,14 +81,13 @@ struct ContactMultiplier {
   static constexpr double near_share = 0.01;
 
   /// @param i of the window's nodes: how many of them are near is known on the device only
-  template <class Phase, class Lanes>
-  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i, const Lanes& lanes) const {
-    if (i < window.near_count(0)) run(phase, window.entries(window.near(i)), lanes);
+  template <class Phase>
+  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i) const {
+    if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near,
-                                  const OneLane& /*lanes*/) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const Vector3 slave = row(search.position, near.node);
@@ -118,54 +114,45 @@ struct ContactMultiplier {
     r.moved =
         touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0)
                 : Vector3{{0, 0, 0}};
-    r.begun = Vector3{{0, 0, 0}};
+    r.force = r.begun = r.change = Vector3{{0, 0, 0}};
+    r.pressing = 0;
     r.slips = 1;
     if constexpr (Friction)
       r.friction = friction(s, touched && r.active != 0, status == status_slips ? r.moved : Vector3{{0, 0, 0}});
     if (r.active == 0) return;
 
     r.count = 0;
-    double until = 0;
-    add_node(r, near.node, 1, until);
+    add_node(r, near.node, 1);
     for (int k = 0; k < 4; ++k) {
-      const double weight = segment_shape(k, now.place.xi, now.place.eta);
+      const double weight = -segment_shape(k, now.place.xi, now.place.eta);
       if (segment.node[k] >= 0) {
-        add_node(r, segment.node[k], weight, until);
+        add_node(r, segment.node[k], weight);
         continue;
       }
       const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
       double share[MouthCorner::pieces];
       search.shares_of(mouth, share);
       for (int piece = 0; piece < MouthCorner::pieces; ++piece)
-        add_node(r, mouth.node[piece], share[piece] * weight, until);
+        add_node(r, mouth.node[piece], share[piece] * weight);
     }
-    r.until[r.count - 1] = 1;
-    r.way = Vector3{{0, 0, 0}};
+    r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
       // Towards where the node stuck, should it have crept from there.
       Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
       way = way - dot(way, now.normal) * now.normal;
       for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
-      r.way = taken_back * way;
+      r.free = taken_back * way;
     }
-    const double pressing = norm(row(contact.normal_force, s));
-    if (touched) {
-      r.begun = pressing * now.normal;
-      if constexpr (Friction) {
-        Vector3 tangential = row(contact.tangential_force, s);
-        tangential = tangential - dot(tangential, now.normal) * now.normal;
-        r.begun = r.begun + tangential;
-      }
+    r.pressing = norm(row(contact.normal_force, s));
+    if (!touched) return;
+    r.force = r.pressing * now.normal;
+    if constexpr (Friction) {
+      Vector3 tangential = row(contact.tangential_force, s);
+      tangential = tangential - dot(tangential, now.normal) * now.normal;
+      r.force = r.force + tangential;
     }
-    r.swept[0] = {r.begun, {{0, 0, 0}}, pressing};
-  }
-
-  KOKKOS_INLINE_FUNCTION static void add_node(MultiplierRow& r, int node, double share, double& until) {
-    until += r.count > 0 ? share : 0;
-    r.node[r.count] = node;
-    r.share[r.count] = share;
-    r.until[r.count] = until;
-    ++r.count;
+    r.begun = r.force;
+    scatter(r, r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
   }
 
   /// The coefficient that bounds the force to be found, by how the node has slid up to now. What one that sticks creeps
@@ -183,89 +170,72 @@ struct ContactMultiplier {
     return state[FallingFriction::now];
   }
 
-  /// Lists the nodes that a multiplier pushes, and hands them the last step's force. Who first pushes a node lists it.
-  template <class Lanes>
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Push& /*phase*/, const WindowEntry& near,
-                                  const Lanes& lanes) const {
-    MultiplierRow& r = multipliers.rows(near.slave);
-    if (r.active == 0) return;
-    const Vector3 quanta = external.in_quanta(r.begun);
-    lanes.each(r.count, [&](int k) {
-      const int at = external_row(r.node[k]);
-      r.row[k] = at;
-      hand(r, k, quanta, &external.contact(at, 0), &external.contact(at, 1), &external.contact(at, 2));
-      const auto weight = static_cast<std::uint64_t>(std::fabs(r.share[k]) / multiplicity_quantum) + 1;
-      if (Kokkos::atomic_fetch_add(&free_nodes.multiplicity(at), weight) != 0) return;
-      free_nodes.nodes(at).node = r.node[k];
-      free_nodes.listed(Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), 1)) = at;
-    });
+  /// Who first pushes a node lists it.
+  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, double weight) const {
+    const int at = external_row(node);
+    r.row[r.count] = at;
+    r.weight[r.count] = weight;
+    ++r.count;
+    const auto share = static_cast<std::uint64_t>(std::fabs(weight) / multiplicity_quantum) + 1;
+    if (Kokkos::atomic_fetch_add(&free_nodes.multiplicity(at), share) != 0) return;
+    free_nodes.nodes(at).node = node;
+    free_nodes.listed(Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), 1)) = at;
   }
 
-  /// Adds a node's share of a force on the slave to sums in whole quanta. Equal and opposite to the last bit: the
-  /// segment's nodes have what is between two sums of shares, the last of which is the whole.
-  KOKKOS_INLINE_FUNCTION void hand(const MultiplierRow& r, int k, const Vector3& quanta, std::uint64_t* x,
-                                   std::uint64_t* y, std::uint64_t* z) const {
-    FixedForce share = external.fixed(k == 0 ? quanta : r.until[k] * quanta);
-    if (k > 0) {
-      const FixedForce before = k == 1 ? FixedForce{{0, 0, 0}} : external.fixed(r.until[k - 1] * quanta);
-      for (int c = 0; c < 3; ++c) share.quanta[c] = before.quanta[c] - share.quanta[c];
+  /// Hands a force on the slave to its nodes. Equal and opposite to the last bit: the last corner takes what the others
+  /// leave.
+  /// @param place of a row's sum, by axis
+  template <class Place>
+  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r, const Vector3& force, const Place& place) const {
+    const Vector3 quanta = external.in_quanta(force);
+    const FixedForce whole = external.fixed(quanta);
+    FixedForce left = whole;
+    for (int c = 0; c < 3; ++c) Kokkos::atomic_add(place(r.row[0], c), static_cast<std::uint64_t>(whole.quanta[c]));
+    for (int k = 1; k < r.count; ++k) {
+      const FixedForce share = k + 1 < r.count ? external.fixed(-r.weight[k] * quanta) : left;
+      for (int c = 0; c < 3; ++c) {
+        left.quanta[c] -= share.quanta[c];
+        Kokkos::atomic_add(place(r.row[k], c), static_cast<std::uint64_t>(-share.quanta[c]));
+      }
     }
-    Kokkos::atomic_add(x, static_cast<std::uint64_t>(share.quanta[0]));
-    Kokkos::atomic_add(y, static_cast<std::uint64_t>(share.quanta[1]));
-    Kokkos::atomic_add(z, static_cast<std::uint64_t>(share.quanta[2]));
   }
 
-  template <class Lanes>
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near,
-                                  const Lanes& lanes) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
     MultiplierRow& r = multipliers.rows(near.slave);
     if (r.active == 0) return;
-    const Vector3 before = r.swept[(sweep - 1) & 1].change;
-    const Swept now = correct(r, lanes);
-    const Vector3 quanta = external.in_quanta(before + now.change);
-    const int parity = sweep & 1;
-    lanes.each(r.count, [&](int k) {
-      const int at = r.row[k];
-      hand(r, k, quanta, &free_nodes.change(at, parity, 0), &free_nodes.change(at, parity, 1),
-           &free_nodes.change(at, parity, 2));
-    });
+    const Vector3 before = r.change;
+    correct(r);
+    scatter(r, before + r.change, [&](int at, int axis) { return &free_nodes.change(at, sweep & 1, axis); });
   }
 
   /// A sweep's new force of one multiplier.
-  template <class Lanes>
-  KOKKOS_INLINE_FUNCTION Swept correct(MultiplierRow& r, const Lanes& lanes) const {
-    const bool first = sweep == 1;
-    const Swept before = r.swept[(sweep - 1) & 1];
-    const Vector3 normal = r.normal;
-    double compliance =
-        first ? lanes.sum(r.count, [&](int k) { return std::fabs(r.share[k]) * free_nodes.nodes(r.row[k]).together; })
-              : r.compliance;
-    const Vector3 moved = lanes.sum_of_vectors(r.count, [&](int k) {
-      const double share = k == 0 ? r.share[k] : -r.share[k];
-      return share * (first ? free_nodes.nodes(r.row[k]).predicted : movement(r.row[k]));
-    });
-    const Vector3 moves = (first ? r.way : r.free) + moved;
-    const double opening = dot(moves, normal);
-    Swept now;
-    now.pressing = std::fmax(0.0, before.pressing - (r.closing + opening) / compliance);
-    now.force = now.pressing * normal;
-    int slips = 1;
-    if constexpr (Friction) {
-      Vector3 tangential = before.force - before.pressing * normal - (1 / compliance) * (moves - opening * normal);
-      const double bound = r.friction * now.pressing, size = norm(tangential);
-      slips = size > bound ? 1 : 0;
-      if (size > bound) tangential = (bound / size) * tangential;
-      now.force = now.force + tangential;
-    }
-    now.change = now.force - before.force;
-    lanes.once([&] {
-      r.swept[sweep & 1] = now;
-      r.slips = slips;
-      if (!first) return;
-      r.compliance = compliance;
+  KOKKOS_INLINE_FUNCTION void correct(MultiplierRow& r) const {
+    Vector3 moves = r.free;
+    if (sweep == 1) {
+      r.compliance = 0;
+      for (int k = 0; k < r.count; ++k) {
+        const FreeNode& free = free_nodes.nodes(r.row[k]);
+        moves = moves + r.weight[k] * free.predicted;
+        r.compliance += std::fabs(r.weight[k]) * free.together;
+      }
       r.free = moves;
-    });
-    return now;
+    } else {
+      for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r.row[k]);
+    }
+    const double opening = dot(moves, r.normal);
+    const double pressing = std::fmax(0.0, r.pressing - (r.closing + opening) / r.compliance);
+    Vector3 force = pressing * r.normal;
+    r.slips = 1;
+    if constexpr (Friction) {
+      Vector3 tangential = r.force - r.pressing * r.normal - (1 / r.compliance) * (moves - opening * r.normal);
+      const double bound = r.friction * pressing, size = norm(tangential);
+      r.slips = size > bound ? 1 : 0;
+      if (size > bound) tangential = (bound / size) * tangential;
+      force = force + tangential;
+    }
+    r.change = force - r.force;
+    r.force = force;
+    r.pressing = pressing;
   }
 
   /// m, of a node for what multipliers have changed by in this step.
@@ -273,48 +243,37 @@ struct ContactMultiplier {
     const FreeNode& free = free_nodes.nodes(at);
     Vector3 force;
     for (int c = 0; c < 3; ++c)
-      force[c] =
-          external.quantum * static_cast<double>(static_cast<long long>(free_nodes.change(at, (sweep - 1) & 1, c)));
+      force[c] = external.quantum *
+                 static_cast<double>(static_cast<long long>(free_nodes.change(at, (sweep - 1) & 1, c)));
     return projected(constraints, free.constraint, free.compliance * force);
   }
 
   /// The last sweep; leaves forces and status for the next step and for those who read them, and books the work done
   /// since the last.
-  template <class Lanes>
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near,
-                                  const Lanes& lanes) const {
-    MultiplierRow& r = multipliers.rows(near.slave);
-    Swept now{{{0, 0, 0}}, {{0, 0, 0}}, 0};
-    if (r.active != 0) {
-      now = correct(r, lanes);
-      const Vector3 quanta = external.in_quanta(now.force - r.begun);
-      lanes.each(r.count, [&](int k) {
-        const int at = r.row[k];
-        hand(r, k, quanta, &external.contact(at, 0), &external.contact(at, 1), &external.contact(at, 2));
-      });
-    }
-    lanes.once([&] { leave(r, now, near); });
-  }
-
-  KOKKOS_INLINE_FUNCTION void leave(const MultiplierRow& r, const Swept& now, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
+    MultiplierRow& r = multipliers.rows(s);
+    if (r.active != 0) {
+      correct(r);
+      scatter(r, r.force - r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
+    }
     if constexpr (Normals::curved) {
       const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
-      if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, now.pressing * r.normal);
+      if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
     } else {
       const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
       const bool closes = is_distance(before) && is_distance(r.gap);
-      if (closes) multipliers.impact_energy(s) -= 0.5 * (held + now.pressing) * (r.gap - before);
+      if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
     }
     if constexpr (Friction) {
-      const Vector3 tangential = now.force - now.pressing * r.normal;
+      const Vector3 tangential = r.force - r.pressing * r.normal;
       contact.friction_energy(s) -= 0.5 * dot(row(contact.tangential_force, s) + tangential, r.moved);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
     }
-    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = now.pressing * r.normal[k];
+    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = r.pressing * r.normal[k];
     contact.gap(s) = r.gap;
-    contact.status(s) = !(now.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
+    contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
   }
 
   /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does
@@ -352,30 +311,15 @@ template <class Pair, int count>
 struct MultiplierPairs {
   Pair pairs[count];
 
-  template <class Phase, class Lanes>
-  KOKKOS_INLINE_FUNCTION void item(const Phase& phase, int i, const Lanes& lanes) const {
-    if constexpr (std::is_same_v<Phase, Multiplier::Finish>)
-      if (i == 0) lanes.once([&] { pairs[0].free_nodes.listed_count(0) = 0; });
-    for (const Pair& pair : pairs) {
-      if (i >= 0 && i < pair.window.count) pair.item(phase, i, lanes);
-      i -= pair.window.count;
-    }
-  }
-
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
-    item(phase, i, OneLane{});
-  }
-};
-
-/// The same in lanes.
-template <class Pair, int count>
-struct MultiplierPairsInLanes {
-  MultiplierPairs<Pair, count> all;
-
-  template <class Phase, class Member>
-  KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const Member& team) const {
-    all.item(phase, team.league_rank() * team.team_size() + team.team_rank(), VectorLanes<Member>{team});
+    int k = i;
+    for (const Pair& pair : pairs) {
+      if (k >= 0 && k < pair.window.count) pair.item(phase, k);
+      k -= pair.window.count;
+    }
+    if constexpr (std::is_same_v<Phase, Multiplier::Finish>)
+      if (i == 0) pairs[0].free_nodes.listed_count(0) = 0;
   }
 };
 

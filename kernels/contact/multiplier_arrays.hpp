@@ -30,32 +30,24 @@ struct FreeNodeArrays {
   Array<int*> listed_count;             ///< one; zero between steps
 };
 
-/// Where a sweep has left a multiplier.
-struct Swept {
-  Vector3 force;    ///< N on the slave
-  Vector3 change;   ///< N, of this sweep
-  double pressing;  ///< N, normal part of `force`
-};
-
 /// What a slave node's multiplier needs in a step.
 struct alignas(16) MultiplierRow {
   Vector3 normal;
-  Vector3 way;        ///< m, movement over the master's material that the step takes back
-  Vector3 free;       ///< m, the same with the movement in the step that the last step's forces leave
+  Vector3 free;       ///< m, movement of the slave over the master's material in the step with the last step's forces
+  Vector3 force;      ///< N on the slave, so far
+  Vector3 begun;      ///< N, the last step's
+  Vector3 change;     ///< N, of the last sweep
   Vector3 moved;      ///< m, over the master's material since the step before
-  Vector3 begun;      ///< N on the slave, the last step's
-  Swept swept[2];     ///< after the sweeps of even numbers, the first of them the last step's force, and of odd ones
+  double pressing;    ///< N, normal part of `force`
   double friction;    ///< coefficient
   double gap;         ///< m
   double closing;     ///< m, by how much the gap is to close in the step, at most where nothing presses yet
   double compliance;  ///< m/N, no less than what all multipliers together can move this node against the master
+  int count;          ///< of nodes
+  int row[most_nodes_of_multiplier];        ///< of the external forces: the slave's and the segment's nodes
+  double weight[most_nodes_of_multiplier];  ///< 1, and minus the shape functions
   int slips;
   int active;
-  int count;                               ///< of nodes
-  int row[most_nodes_of_multiplier];       ///< of the external forces: the slave's and the segment's nodes
-  int node[most_nodes_of_multiplier];      ///< the same of the model
-  double share[most_nodes_of_multiplier];  ///< of the slave 1, of the others their shape functions: these sum to 1
-  double until[most_nodes_of_multiplier];  ///< sum of the segment's shares up to and with this one
 };
 
 struct MultiplierArrays {

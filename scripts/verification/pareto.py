@@ -38,7 +38,8 @@ ERRORS = ["peak_pressure_error", "area_error", "approach_error", "stick_share_er
           "creepage_error", "normal_force_error", "stress_error", "creep_force_swing"]
 COLUMNS = ["scene", "algorithm", "scale", "growth", "elements_across", "status", "wall_s", "settling_s", "running_s",
            "process_s", "settling_evaluations", "steps", "step_s", "elements", "element_steps_per_s", *ERRORS,
-           "threads", "jobs", "device"]
+           "threads", "jobs", "device", "processor_s"]
+LATER = {"processor_s"}  # that older tables lack
 
 DONE = ("done", "not settled")  # of rows: the latter took settle.max_steps, and was measured as it stood
 
@@ -116,11 +117,11 @@ def read_table(path):
     """Rows of runs.csv, as texts. Throws ValueError where it is none."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    if missing := [name for name in COLUMNS if rows and name not in rows[0]]:
+    if missing := [name for name in COLUMNS if rows and name not in rows[0] and name not in LATER]:
         raise ValueError(f"{path} is no table of scripts/contact_pareto: it has no column {', '.join(missing)}")
     if any(None in row or None in row.values() for row in rows):
         raise ValueError(f"{path}: a row has more or fewer values than there are columns")
-    return rows
+    return [{**dict.fromkeys(COLUMNS, ""), **row} for row in rows]
 
 
 def key_of(row):
@@ -173,9 +174,9 @@ class OneRun:
         with open(log, "w", encoding="utf-8") as file:
             file.write(" ".join(command) + "\n")
             file.flush()
-            code = subprocess.run(
-                command, stdout=file, stderr=subprocess.STDOUT, env=self.environment, check=False
-            ).returncode
+            run = subprocess.Popen(command, stdout=file, stderr=subprocess.STDOUT, env=self.environment)
+            _, status, used = os.wait4(run.pid, 0)
+            code = run.returncode = os.waitstatus_to_exitcode(status)
         process = time.monotonic() - begin
         said = log.read_text(encoding="utf-8", errors="replace")
         if code != 0:
@@ -189,7 +190,7 @@ class OneRun:
             wall_s=settling + run.seconds, settling_s=settling, running_s=run.seconds, process_s=process,
             settling_evaluations=int(settled.group(1)), steps=run.steps, step_s=run.step_size, elements=run.elements,
             element_steps_per_s=float(run.file.attrs["element_steps_per_second"]),
-            status="not settled" if "NOT settled" in said else "done",
+            status="not settled" if "NOT settled" in said else "done", processor_s=used.ru_utime + used.ru_stime,
         )
         self.results = run
         return run
@@ -239,8 +240,9 @@ def processors(slots, threads):
     ]
 
 
-def run_all(jobs, folder, program, device, slots=1, threads=None, seconds=None, report=print):
-    """Runs what runs.csv in the folder has not yet. @return rows of this call"""
+def run_all(jobs, folder, program, device, slots=1, threads=None, seconds=None, processor_time=False, report=print):
+    """Runs what runs.csv in the folder has not yet. @param processor_time the time that counts is the processor's, of
+    the whole process. @return rows of this call"""
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     table = Table(folder / "runs.csv")
@@ -265,12 +267,20 @@ def run_all(jobs, folder, program, device, slots=1, threads=None, seconds=None, 
         finally:
             free.put(prefix)
         row.update(threads=str(threads or ""), jobs=str(slots), device=device)
+        if not processor_time:
+            row["processor_s"] = ""
         table.add(row)
         report(line(row))
         return row
 
     with concurrent.futures.ThreadPoolExecutor(slots) as pool:
         return [row for row in pool.map(one, jobs) if row]
+
+
+def time_of(row):
+    """s, what counts: settling and steps by the clock, or the whole process by the processor's time where a table has
+    that."""
+    return float(row["processor_s"] or row["wall_s"])
 
 
 def line(row):
@@ -283,4 +293,4 @@ def line(row):
         for column in ERRORS if row[column]
     )
     remark = "" if row["status"] == "done" else f" ({row['status']})"
-    return f"{name}: {float(row['wall_s']):.2f} s, {errors}{remark}"
+    return f"{name}: {time_of(row):.2f} s, {errors}{remark}"

@@ -4,7 +4,7 @@ run's worst error is the largest of its errors over the targets that docs/verifi
 import csv
 import math
 
-from verification.pareto import COLUMNS, DONE, Method, key_of, read_table
+from verification.pareto import COLUMNS, DONE, Method, key_of, read_table, time_of
 
 # Targets for ten and for twenty elements over the minor axis.
 TARGETS = {
@@ -56,8 +56,8 @@ def joined(paths):
             mine = {"worst_error": row["worst_error"], **errors(row)}
             row["front"] = " ".join(
                 SHORT[name] for name, size in mine.items()
-                if not beaten((float(row["wall_s"]), size), [
-                    (float(r["wall_s"]), {"worst_error": r["worst_error"], **errors(r)}[name]) for r in group])
+                if not beaten((time_of(row), size), [
+                    (time_of(r), {"worst_error": r["worst_error"], **errors(r)}[name]) for r in group])
             )
     return rows
 
@@ -95,7 +95,7 @@ def write_joined(rows, path):
 def cheapest(rows, limit):
     """@param limit name of the worst error that must be at most 1"""
     good = [row for row in rows if row[limit] <= 1]
-    return min(good, key=lambda row: float(row["wall_s"])) if good else None
+    return min(good, key=time_of) if good else None
 
 
 def seconds(value):
@@ -121,8 +121,8 @@ def summary(rows):
             lines.append(" | ".join([
                 f"| {name}",
                 " / ".join(f"{100 * float(ten[f]):+.1f}" for f in figures) + " %" if ten else "not run",
-                seconds(ten["wall_s"]) if ten else "",
-                *(f"{seconds(b['wall_s'])}, {b['elements_across']} elements" if b else "none" for b in best),
+                seconds(time_of(ten)) if ten else "",
+                *(f"{seconds(time_of(b))}, {b['elements_across']} elements" if b else "none" for b in best),
             ]) + " |")
         lines.append("")
     return lines
@@ -138,7 +138,7 @@ def details(rows):
                   "|" + "---|" * (8 + len(figures))]
         for row in sorted(group, key=order):
             lines.append(" | ".join([
-                f"| {spoken(row)}", row["elements_across"], seconds(row["wall_s"]) + remark(row),
+                f"| {spoken(row)}", row["elements_across"], seconds(time_of(row)) + remark(row),
                 seconds(row["settling_s"]),
                 f"{1e9 * float(row['step_s']):.0f} ns", f"{1e-6 * float(row['element_steps_per_s']):.3g}",
                 *(f"{100 * float(row[f]):+.1f} %" for f in figures), f"{row['worst_error']:.2f}", row["front"],

@@ -76,8 +76,9 @@ Section contact_section() {
           .within(between(0, 1)),
       key("algorithm", &Contact::algorithm,
           "`penalty`: springs where nodes penetrate; `multiplier`: the forces with which no node penetrates at the "
-          "next step, nor slips where friction holds it")
-          .one_of({"penalty", "multiplier"}),
+          "next step, nor slips where friction holds it; `automatic`: multipliers, but springs where the scene has "
+          "what only these go with (docs/contact.md)")
+          .one_of({"penalty", "multiplier", "automatic"}),
       key("normals", &Contact::normals,
           "`facet`: each face of the master is as its nodes make it and presses along its own normal; `smooth`: it "
           "is curved such that the normal is continuous, at nodes the mean of the faces around; faces that meet at "

@@ -96,14 +96,16 @@ Section solver_section() {
           .one_of({"double", "mixed", "float"}),
       key("step_estimate", &Solver::step_estimate,
           "what the stable step is taken from: each element's height over the wave speed, each element's highest "
-          "eigenvalue (safe for bodies one element thick), or the whole scene's highest frequency (the longest step)")
-          .one_of({"element", "eigenvalue", "global"}),
+          "eigenvalue (the shortest), or the whole scene's highest frequency (the longest step); `automatic` takes "
+          "the last where the steps that it saves are worth more than finding it, else the first")
+          .one_of({"automatic", "element", "eigenvalue", "global"}),
       key("subcycling", &Solver::subcycling,
           "coarse regions take longer steps, 2, 4, ... 32 times the finest, with layers of buffer elements between "
           "the levels; what is in contact or loaded takes the finest step. Outputs fall on whole cycles, which are "
           "as long as the longest step: their intervals are rounded to it. Settling does not use it; not with "
           "`step_estimate = \"global\"`"),
-      key("renew_steps", &Solver::renew_steps, "steps between renewals of the global estimate; 0 is never")
+      key("renew_steps", &Solver::renew_steps,
+          "steps between renewals of the whole scene's step; 0 is never (`automatic`: only as contact asks for it)")
           .within(at_least(0)),
   };
   return section;

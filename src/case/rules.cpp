@@ -237,7 +237,7 @@ void check_penalty_growth(const scene::Contact& contact, EntryCheck& check) {
 
 /// Multipliers have no springs, and one surface whose nodes must not enter the other.
 void check_algorithm(const scene::Contact& contact, EntryCheck& check) {
-  if (!check.sound({"algorithm"}) || contact.algorithm == scene::ContactAlgorithm::penalty) return;
+  if (!check.sound({"algorithm"}) || contact.algorithm != scene::ContactAlgorithm::multiplier) return;
   for (const char* key : {"penalty_growth", "damping", "symmetric"})
     if (check.given(key))
       check.complain(key, "belongs to the penalty algorithm; leave it out, or set algorithm = \"penalty\"");

@@ -143,7 +143,7 @@ struct Constraint : Place {
   std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
-enum class ContactAlgorithm { penalty, multiplier };
+enum class ContactAlgorithm { penalty, multiplier, automatic };
 enum class ContactNormals { facet, smooth };
 
 /// m: cracks, slots and gaps in a master as wide as this are crossed, but none wider than four of the slave's smallest
@@ -159,8 +159,10 @@ struct Contact : Place {
   double friction = 0;                     ///< Coulomb coefficient, at rest where it falls with the sliding speed
   std::optional<double> dynamic_friction;  ///< at high speed, mu_d of thesis eq. 2.29
   double friction_decay = 0;               ///< c of thesis eq. 2.29, s/m; 0: friction is constant
-  double friction_memory = usual_friction_memory;  ///< s, see kernels/contact/laws/falling_friction.hpp
-  ContactAlgorithm algorithm = ContactAlgorithm::penalty;
+  double friction_memory = usual_friction_memory;            ///< s, see kernels/contact/laws/falling_friction.hpp
+  ContactAlgorithm algorithm = ContactAlgorithm::automatic;  ///< the model makes that one of the two
+  /// Of one that was automatic: why it became penalty, or "" for multipliers; see model/checks/choose_algorithm.cpp.
+  std::optional<std::string> algorithm_reason;
   ContactNormals normals = ContactNormals::facet;  ///< of the master, along which it presses
   int sweeps = 2;                                  ///< of the multipliers' iteration, in a step
   double penalty_scale = 1.0;                      ///< f_SI of thesis eq. 2.26d

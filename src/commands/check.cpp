@@ -10,6 +10,7 @@
 #include "mesh/quality.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/checks/doubts.hpp"
+#include "model/contact/contact_law.hpp"
 #include "model/contact/initial_overlap.hpp"
 #include "model/sets/place_sets.hpp"
 #include "model/time_step/stable_step.hpp"
@@ -101,6 +102,12 @@ void describe_overlaps(const AssembledScene& assembled, const std::vector<Contac
     if (!overlap.deep) out << "note: " << describe(assembled.scene, overlap) << '\n';
 }
 
+/// Which algorithm each contact has, and why.
+void describe_algorithms(const scene::Scene& scene, std::ostream& out) {
+  for (const scene::Contact& contact : scene.contacts)
+    out << fmt::format("[contacts.{}]: {}\n", contact.name, describe_algorithm(contact));
+}
+
 /// What rolls, and at what rate; then all that may be a mistake.
 void describe_motions(const Model& model, std::ostream& out) {
   for (const scene::InitialMotion& motion : model.scene.initial_motions)
@@ -146,6 +153,7 @@ void describe_run(Model& model, std::ostream& out) {
                        model.connectors.cells.size());
   describe_places(model, out);
   describe_ends(model, model.absorbing, out);
+  describe_algorithms(model.scene, out);
   describe_overlaps(model, model.contacts, model.step_size, out);
   describe_motions(model, out);
   describe_step(model, out);

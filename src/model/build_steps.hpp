@@ -53,8 +53,13 @@ void build_non_reflecting(const AssembledScene& assembled, const std::vector<Con
                           NonReflectingEnds& ends);
 /// element_histories.cpp: elements whose stress or strain is written
 void build_element_histories(const AssembledScene& assembled, ElementModel& elements);
-/// contact_pairs.cpp: surfaces, stiffnesses, and what is beyond their sides
+/// contact_pairs.cpp: surfaces, stiffnesses, and what is beyond their sides. An automatic algorithm has springs until
+/// choose_algorithms()
 void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts);
+/// contact_pairs.cpp: arrays of multipliers, law of the springs, as the pair's contact has its algorithm
+void set_algorithm(ContactPair& pair);
+/// choose_algorithm.cpp: of contacts whose algorithm is automatic
+void choose_algorithms(AssembledScene& assembled, std::vector<ContactPair>& contacts);
 /// contradictions.cpp: InputError for entries that contradict each other
 void refuse_contradictions(const AssembledScene& assembled, const std::vector<ContactPair>& contacts);
 /// rolling.cpp: angular velocities of initial motions that roll

@@ -27,6 +27,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   {
     const Activity activity("laying out contacts and ties");
     build_contacts(model, model.contacts);
+    choose_algorithms(model, model.contacts);
     build_ties(model, model.contacts, model.ties);
   }
   build_non_reflecting(model, model.contacts, model.ends);
@@ -84,7 +85,7 @@ void reset_to_start(Model& model) {
     Kokkos::deep_copy(pair.arrays.tracked, -1);
     Kokkos::deep_copy(pair.arrays.gap, beside_surface);
     reset_contact_law(*pair.contact, pair.law);
-    pair.next_check = -1;
+    pair.next_check = pair.near_checked_at = -1;
     pair.boxed = false;
     pair.slaves_at_layout = {};
   }

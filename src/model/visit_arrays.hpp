@@ -251,6 +251,8 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
   visit(ArrayUse::run_state, "impact_energy", pair.multipliers.impact_energy);
 
   visit(ArrayUse::run_state, "missed", pair.missed);
+  visit(ArrayUse::run_state, "counted", pair.counted, {0, true});
+  visit(ArrayUse::run_state, "uncounted", pair.uncounted);
   visit(ArrayUse::run_state, "slaves_at_layout", pair.slaves_at_layout, {0, true});
   visit(ArrayUse::run_state, "masters_at_layout", pair.masters_at_layout, {0, true});
   visit(ArrayUse::run_state, "window_entries", pair.window.entries, {0, true});

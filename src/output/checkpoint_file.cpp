@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
+#include "model/contact/contact_law.hpp"
 #include "output/atomic_file.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
@@ -119,6 +120,7 @@ std::string checkpoint_key(const AssembledScene& assembled, const std::string& p
   hash.add(program_version);
   hash.add(fmt::format("{} elements of a block", elements_of_block));
   hash.add(scene.static_text);
+  hash.add(chosen_algorithms(scene));
   hash.add(
       fmt::format("time {:.17g} {:.17g}, settled {}", scene.time.step_scale, scene.time.step, scene.settle.active));
   hash.add(fmt::format("solver {} {} {} {}", static_cast<int>(scene.solver.precision),

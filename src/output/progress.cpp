@@ -24,7 +24,10 @@ void Progress::begin(const Model& model) {
   plan.updates_saved = model.subcycling.gain();
   plan.end_time = model.scene.time.end;
   plan.interval = model.scene.output.progress_interval;
-  for (const auto& contact : model.scene.contacts) plan.contacts.push_back(describe_contact(contact));
+  for (const auto& contact : model.scene.contacts) {
+    plan.contacts.push_back(describe_contact(contact));
+    plan.algorithms.push_back(describe_algorithm(contact));
+  }
   table_ = std::make_unique<ProgressTable>(out_, std::move(plan), wall_seconds);
 }
 
@@ -55,7 +58,7 @@ void Progress::settled(const Model& model, const SettleReport& report) {
   const std::string in_steps =
       report.iterations > 0 ? fmt::format(" in {} steps of Newton's method", report.iterations) : "";
   out_ << fmt::format(
-      "{} after {} evaluations of the forces{}, {:.1f} s: unbalanced force {:.2e} of all forces (settle.tolerance "
+      "{} after {} evaluations of the forces{}, {:.2f} s: unbalanced force {:.2e} of all forces (settle.tolerance "
       "{:.2e})\n",
       report.settled ? "settled" : "NOT settled", report.steps, in_steps, report.wall_seconds, report.unbalance,
       tolerance);

@@ -13,10 +13,10 @@ namespace railwave {
 /// What the progress table must know of a run before it begins.
 struct ProgressPlan {
   long element_count = 0;
-  double updates_saved = 1;  ///< so many times fewer element updates than elements times steps
-  double end_time = 0;       ///< s
-  double interval = 5;       ///< wall seconds between lines; 0: a line for every history sample
-  std::vector<std::string> contacts;
+  double updates_saved = 1;                       ///< so many times fewer element updates than elements times steps
+  double end_time = 0;                            ///< s
+  double interval = 5;                            ///< wall seconds between lines; 0: a line for every history sample
+  std::vector<std::string> contacts, algorithms;  ///< of each its name, and which algorithm it has
 };
 
 /// Prints how a run goes: a line now and then, and a summary at its end. Plain text, knows no model.

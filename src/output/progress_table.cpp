@@ -132,6 +132,7 @@ void ProgressTable::print_contacts() const {
     out_ << fmt::format("  contact {}, mean over the last fifth: normal {:.3f} kN, tangential {:.3f} kN",
                         plan_.contacts[i], 1e-3 * normal, 1e-3 * tangential);
     if (normal > 0) out_ << fmt::format(", traction coefficient {:.4f}", tangential / normal);
+    if (i < plan_.algorithms.size()) out_ << fmt::format(" ({})", plan_.algorithms[i]);
     out_ << '\n';
   }
 }

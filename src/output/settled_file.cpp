@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "kernels/elements/element_blocks.hpp"
+#include "model/contact/contact_law.hpp"
 #include "output/atomic_file.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
@@ -55,6 +56,7 @@ std::string SettledFiles::key(const AssembledScene& assembled) const {
   hash.add(version_);
   hash.add(fmt::format("{} elements of a block, {} in a pack", elements_of_block, lane_count<double>));
   hash.add(assembled.scene.static_text);
+  hash.add(chosen_algorithms(assembled.scene));
   hash.add(assembled.assembly.nodes);
   hash.add(assembled.assembly.elements);
   return hash.text();

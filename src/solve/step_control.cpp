@@ -9,6 +9,7 @@
 #include "model/elements/relative_coordinates.hpp"
 #include "model/host_copy.hpp"
 #include "model/output_times.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave {
@@ -29,8 +30,9 @@ StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, con
                          StepSizes& sizes)
     : scene_(scene), nodal_(nodal), contacts_(contacts), sizes_(sizes) {
   // Settled and set in motion, the bodies may be about to touch elsewhere than as they were placed.
-  if (sizes.global_estimate && !contacts.empty()) {
-    renew_global_step(scene, contacts, nodal.time, sizes);
+  const bool automatic = scene.solver.step_estimate == scene::StepEstimate::automatic;
+  if (sizes.global_estimate && (automatic ? has_contact_springs(contacts) : !contacts.empty())) {
+    find_step();
     plan();
     ++renewals_;
   }
@@ -47,15 +49,31 @@ bool StepControl::touched_unseen() const {
   return false;
 }
 
-bool StepControl::may_renew(long step) const {
+void StepControl::find_step() {
+  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
+    renew_automatic_step(scene_, contacts_, nodal_.time, nodal_.step, sizes_);
+  else
+    renew_global_step(scene_, contacts_, nodal_.time, sizes_);
+}
+
+bool StepControl::interval_over(long step) const {
   const int every = scene_.solver.renew_steps;
-  if (!sizes_.global_estimate || every == 0 || step == renewed_at_) return false;
-  return step - renewed_at_ >= every || step % steps_between_checks == 0;
+  return every > 0 && step - renewed_at_ >= every;
+}
+
+bool StepControl::may_renew(long step) const {
+  if (!sizes_.global_estimate || step == renewed_at_) return false;
+  if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
+    return can_change(scene_, contacts_) && (interval_over(step) || contact_checked_before(contacts_, step));
+  return scene_.solver.renew_steps > 0 && (interval_over(step) || step % steps_between_checks == 0);
 }
 
 bool StepControl::due() const {
-  if (!may_renew(nodal_.step)) return false;
-  return nodal_.step - renewed_at_ >= scene_.solver.renew_steps || touched_unseen();
+  const long step = nodal_.step;
+  if (!may_renew(step)) return false;
+  if (scene_.solver.step_estimate != scene::StepEstimate::automatic) return interval_over(step) || touched_unseen();
+  return may_touch_uncounted(contacts_, step) ||
+         (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
 }
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.
@@ -95,7 +113,7 @@ void StepControl::move_end() {
 bool StepControl::renew() {
   if (!due() || nodal_.step == sizes_.step_count) return false;
   if (nodal_.relative.begun) update_absolute_nodes(nodal_);
-  renew_global_step(scene_, contacts_, nodal_.time, sizes_);
+  find_step();
   ++renewals_;
   renewed_at_ = nodal_.step;
   const bool changed = plan();

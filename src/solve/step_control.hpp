@@ -53,6 +53,8 @@ class StepControl {
 
  private:
   bool due() const;
+  bool interval_over(long step) const;
+  void find_step();
   bool touched_unseen() const;
   bool plan();
 

@@ -114,7 +114,7 @@ class Said(unittest.TestCase):
         )
 
     def test_a_deep_overlap_is_reported_with_depth_place_and_mend(self):
-        for contact in ("", 'algorithm = "multiplier"', "symmetric = true"):
+        for contact in ("", 'algorithm = "penalty"', 'algorithm = "multiplier"', "symmetric = true"):
             with self.subTest(contact):
                 self.assert_all_say(
                     boxes(0.009, contact),

@@ -18,6 +18,7 @@ ProgressPlan plan() {
   result.end_time = 1e-4;
   result.interval = 5;
   result.contacts = {"tread"};
+  result.algorithms = {"multipliers, the default"};
   return result;
 }
 
@@ -91,7 +92,9 @@ TEST_CASE("the summary: means over the last fifth, balance errors, what was left
   CHECK_THAT(text, ContainsSubstring("wall time 1 h 02 min, 25.00 million"));
   CHECK_THAT(text, ContainsSubstring("1 at the end, 2 at most"));
   CHECK_THAT(text, ContainsSubstring("largest energy (4000 J): 0.05 %; of the largest elastic energy (125 J): 1.6 %"));
-  CHECK_THAT(text, ContainsSubstring("normal 100.000 kN, tangential 25.000 kN, traction coefficient 0.2500"));
+  CHECK_THAT(text,
+             ContainsSubstring("tread, mean over the last fifth: normal 100.000 kN, tangential 25.000 kN, traction "
+                               "coefficient 0.2500 (multipliers, the default)\n"));
   CHECK_THAT(text, ContainsSubstring("left out, because the scene does not need it\n    gravity\n    connectors\n"));
 }
 

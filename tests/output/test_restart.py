@@ -196,6 +196,7 @@ KINDS = {
         )
     ),
     "global_step": dict(
+        of_contact='algorithm = "penalty"',  # whose springs come and go
         more=(
             '[solver]\nstep_estimate = "global"\nrenew_steps = 97\n'
             "[output_windows.landing]\nstart = 2.03e-4\nend = 4.1e-4\ninterval = 6e-6\n"

@@ -60,7 +60,7 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
     scene.contacts[1].slave = "upper.x_max";
   }
   const End plain = end_with(scene, "0");
-  REQUIRE(plain.steps > 200);
+  REQUIRE(plain.steps > 150);
   for (const char* graphs : {"1", "4", "16"}) {
     INFO("graphs of " << graphs << " steps");
     const End recorded = end_with(scene, graphs);

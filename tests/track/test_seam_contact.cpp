@@ -30,6 +30,7 @@ scene::Scene cracked_bar(double traction) {
   faces.slave = "block.crack_before";
   faces.master = "block.crack_behind";
   faces.friction = 0.4;
+  faces.algorithm = scene::ContactAlgorithm::penalty;
   scene.contacts.push_back(faces);
   hold_lower_faces(scene, "block");
   add_traction(scene, "block.x_max", {traction, 0, 0});

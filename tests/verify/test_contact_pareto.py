@@ -131,7 +131,8 @@ class Pareto(unittest.TestCase):
     def test_mistakes_in_options_are_refused(self):
         for wrong, said in ((["--elements", "3"], "less than 4"), (["--only", "springs"], "is no method"),
                             (["--program", "no-such"], "there is no program"), (["--seconds", "nan"], "above 0"),
-                            (["--jobs", "0"], "less than 1"), (["--scenes", "carter"], "invalid choice")):
+                            (["--jobs", "0"], "less than 1"), (["--scenes", "carter"], "invalid choice"),
+                            (["--processor-time", "--threads", "2"], "needs --threads 1")):
             with self.subTest(wrong):
                 done = self.call(*wrong)
                 self.assertNotEqual(done.returncode, 0)

@@ -22,6 +22,7 @@ scene::Scene slit_scene(double end, double friction) {
   seam.slave = "block.seam_above";
   seam.master = "block.seam_below";
   seam.friction = friction;
+  seam.algorithm = scene::ContactAlgorithm::penalty;
   scene.contacts.push_back(seam);
   scene.time.step_scale = 0.6;
   return scene;

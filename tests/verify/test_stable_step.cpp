@@ -83,7 +83,7 @@ TEST_CASE("the step of one warped element: never above that of its own highest f
       INFO("seed " << seed << ", eigenvalue " << model.stable_step.eigenvalue << " s, global "
                    << model.stable_step.global << " s");
       // The global estimate of a lone element is exact: there are fewer motions than iterations.
-      GlobalStep exact = (*model.global_estimate)(0, model.stable_step.eigenvalue);
+      GlobalStep exact = (*model.global_estimate)({}, model.stable_step.eigenvalue);
       CHECK(model.stable_step.eigenvalue <= exact.step * (1 + 1e-6));
       // The coupling of stiffness and hourglass control in a warped element is bounded, not solved for.
       CHECK(model.stable_step.eigenvalue >= exact.step * 0.85);

@@ -8,13 +8,13 @@
 #include <set>
 
 #include "case/error.hpp"
-#include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
 #include "model/assembled_scene.hpp"
 #include "model/boundaries/held_directions.hpp"
 #include "model/build_steps.hpp"
 #include "model/checks/inside_bodies.hpp"
 #include "model/checks/round_part.hpp"
+#include "model/checks/stiff_surfaces.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/loads/load_model.hpp"
 
@@ -29,25 +29,6 @@ template <class Entry>
 }
 
 std::string along(const Vec3& d) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", d[0], d[1], d[2]); }
-
-/// How fast a prescribed motion moves a node, m/s, and how far its displacement does, m, in what it leaves free
-/// nothing.
-struct Prescribed {
-  Vec3 velocity, displacement;
-};
-
-Prescribed prescribed_at(const scene::PrescribedMotion& motion, const Vec3& centre, const Vec3& x) {
-  const Vec3 turning = cross(motion.angular_velocity, difference(x, centre));
-  const Vec3 velocity = {motion.velocity[0] + turning[0], motion.velocity[1] + turning[1],
-                         motion.velocity[2] + turning[2]};
-  Prescribed result{{0, 0, 0}, {0, 0, 0}};
-  for (int a = 0; a < 3; ++a)
-    for (int i = 0; motion.directions[a] && i < 3; ++i) {
-      result.velocity[i] += dot(velocity, motion.axes[a]) * motion.axes[a][i];
-      result.displacement[i] += dot(motion.displacement, motion.axes[a]) * motion.axes[a][i];
-    }
-  return result;
-}
 
 /// A prescribed motion that moves nodes which a constraint holds: one of both would win in silence.
 void refuse_moved_constraints(const AssembledScene& assembled) {
@@ -224,108 +205,17 @@ void refuse_held_hammers(const AssembledScene& assembled) {
   }
 }
 
-/// The entry that holds or drives a node.
-std::string holder_of(const AssembledScene& assembled, int node) {
-  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions) {
-    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      return fmt::format("[prescribed_motion.{}] (line {})", motion.name, motion.line);
-  }
-  for (const scene::Constraint& constraint : assembled.scene.constraints) {
-    const auto& nodes = find_node_set(assembled.scene, assembled.assembly, constraint, "target", constraint.target);
-    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-      return fmt::format("[constraints.{}] (line {})", constraint.name, constraint.line);
-  }
-  return "constraints";
-}
-
-/// m, no less than any node of that motion goes in the run.
-double travel_of(const AssembledScene& assembled, const scene::PrescribedMotion& motion) {
-  const auto& nodes = find_node_set(assembled.scene, assembled.assembly, motion, "target", motion.target);
-  const Vec3 centre = centre_of_rotation(assembled, motion, nodes);
-  double fastest = 0;
-  for (int n : nodes)
-    fastest = std::max(fastest, length(prescribed_at(motion, centre, assembled.assembly.nodes[n]).velocity));
-  const scene::Curve *curve = curve_of(assembled.scene, motion.curve),
-                     *displacement = curve_of(assembled.scene, motion.displacement_curve);
-  constexpr int instants = 1000;
-  double way = 0, most = 0;
-  for (int i = 0; i < instants; ++i) {
-    const double time = (i + 0.5) * assembled.scene.time.end / instants;
-    way += std::fabs(curve_value(curve, time)) * fastest * assembled.scene.time.end / instants;
-    most = std::max(most, std::fabs(curve_value(displacement, time)));
-  }
-  return way + most * length(motion.displacement);
-}
-
-using HeldNodes = std::map<int, HeldDirections>;
-
-Vec3 doubled_area(const Assembly& assembly, const std::vector<int>& nodes, const std::array<int, 4>& face) {
-  return railwave::doubled_area(assembly.nodes, {nodes[face[0]], nodes[face[1]], nodes[face[2]], nodes[face[3]]});
-}
-
-/// Slave nodes of a pair that no force along their normals moves.
-std::vector<int> stiff_slaves(const Assembly& assembly, const ContactPair& pair, const HeldNodes& held) {
-  std::vector<Vec3> normal(pair.slave_nodes.size(), Vec3{0, 0, 0});
-  for (const auto& face : pair.slave_facets)
-    for (int corner : face)
-      for (int i = 0; i < 3; ++i) normal[corner][i] += doubled_area(assembly, pair.slave_nodes, face)[i];
-  std::vector<int> stiff;
-  for (std::size_t s = 0; s < normal.size(); ++s)
-    if (length(normal[s]) > 0 && force_is_held(held, pair.slave_nodes[s], normal[s]))
-      stiff.push_back(pair.slave_nodes[s]);
-  return stiff;
-}
-
-/// Faces of a pair's master of which no corner moves under a force along the normal, as nodes of the model.
-std::vector<std::array<int, 4>> stiff_faces(const Assembly& assembly, const ContactPair& pair, const HeldNodes& held) {
-  std::vector<std::array<int, 4>> stiff;
-  for (std::array<int, 4> face : pair.master_segments) {
-    const Vec3 normal = doubled_area(assembly, pair.master_nodes, face);
-    for (int& n : face) n = pair.master_nodes[n];
-    if (std::all_of(face.begin(), face.end(), [&](int n) { return force_is_held(held, n, normal); }))
-      stiff.push_back(face);
-  }
-  return stiff;
-}
-
-/// Whether a node may come to a face that is so far from it, or lies on it.
-bool may_meet(const Assembly& assembly, int node, const std::array<int, 4>& face, double travel) {
-  const auto& x = assembly.nodes;
-  double away = std::numeric_limits<double>::infinity();
-  for (int second : {1, 2})
-    away = std::min(
-        away,
-        length(difference(nearest_on_triangle(x[face[0]], x[face[second]], x[face[second + 1]], x[node]), x[node])));
-  return away <= travel + 0.01 * length(difference(x[face[2]], x[face[0]]));
-}
-
 /// Multipliers find the force that lets surfaces move as far as they must: between two that no force moves there is
 /// none, and it grows without end. Springs just press as far as they are pressed in.
 void refuse_stiff_multipliers(const AssembledScene& assembled, const std::vector<ContactPair>& contacts) {
-  if (std::none_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
-    return;
-  const HeldNodes held = held_directions(assembled.scene, assembled.assembly);
-  double travel = 0;
-  for (const scene::PrescribedMotion& motion : assembled.scene.prescribed_motions)
-    travel += travel_of(assembled, motion);
   for (const ContactPair& pair : contacts) {
     if (pair.has_springs()) continue;
-    const auto slaves = stiff_slaves(assembled.assembly, pair, held);
-    const auto faces = stiff_faces(assembled.assembly, pair, held);
-    const bool wholly = slaves.size() == pair.slave_nodes.size() && faces.size() == pair.master_segments.size();
-    for (int n : slaves)
-      for (const auto& face : faces) {
-        if (!wholly && !may_meet(assembled.assembly, n, face, travel)) continue;
-        refuse(assembled.scene, "contacts", *pair.contact,
-               fmt::format("algorithm: multipliers press surfaces apart by moving them, but {} holds or drives '{}' "
-                           "along its normal at {} and {} '{}' at {}: no force moves either, "
-                           "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive "
-                           "one of the two bodies at another surface",
-                           holder_of(assembled, n), pair.contact->slave, place_text(assembled.assembly.nodes[n]),
-                           holder_of(assembled, face[0]), pair.contact->master.text(),
-                           place_text(assembled.assembly.nodes[face[0]])));
-      }
+    if (const auto meeting = stiff_meeting(assembled, pair))
+      refuse(assembled.scene, "contacts", *pair.contact,
+             fmt::format("algorithm: multipliers press surfaces apart by moving them, but {}: no force moves either, "
+                         "and the multipliers would grow without end; set algorithm = \"penalty\", or hold and drive "
+                         "one of the two bodies at another surface",
+                         *meeting));
   }
 }
 

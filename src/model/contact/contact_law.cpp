@@ -1,5 +1,7 @@
 #include "model/contact/contact_law.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "model/host_copy.hpp"
@@ -70,6 +72,20 @@ double largest_growth(const scene::Contact& contact) {
 
 std::string describe_contact(const scene::Contact& contact) {
   return contact.name + (contact.master.size() > 1 ? " on " + contact.master.text() : "");
+}
+
+std::string describe_algorithm(const scene::Contact& contact) {
+  const bool springs = contact.algorithm == scene::ContactAlgorithm::penalty;
+  const std::string name = springs ? "penalty springs" : "multipliers";
+  if (!contact.algorithm_reason) return name;
+  return name + (springs ? ", as " + *contact.algorithm_reason : ", the default");
+}
+
+std::string chosen_algorithms(const scene::Scene& scene) {
+  std::string text = "algorithms";
+  for (const scene::Contact& contact : scene.contacts)
+    if (contact.algorithm_reason) text += fmt::format(" {} {}", contact.name, static_cast<int>(contact.algorithm));
+  return text;
 }
 
 std::string describe_contact_law(const scene::Contact& contact) {

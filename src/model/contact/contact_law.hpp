@@ -77,6 +77,12 @@ double largest_growth(const scene::Contact& contact);
 /// A contact by its name; with those of its masters where there are several.
 std::string describe_contact(const scene::Contact& contact);
 
+/// "multipliers", "penalty springs", and why where the scene chose.
+std::string describe_algorithm(const scene::Contact& contact);
+
+/// Of keys of kept states: the algorithms that automatic ones became, which the case's text does not have.
+std::string chosen_algorithms(const scene::Scene& scene);
+
 /// Of a task: ", friction that falls with speed, damping".
 std::string describe_contact_law(const scene::Contact& contact);
 

@@ -162,18 +162,25 @@ ContactPair build_pair(const AssembledScene& assembled, const scene::Contact& co
   arrays.tangential_force = Array<double* [3]>("tangential force", arrays.slave_count);
   arrays.status = Array<int*>("status", arrays.slave_count);
   arrays.friction_energy = Array<double*>("friction energy", arrays.slave_count);
-  if (contact.algorithm == scene::ContactAlgorithm::multiplier)
-    pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
-                        Array<double* [3]>("way since stuck", arrays.slave_count),
-                        linked.mouth_corners.empty() ? nodes_of_multiplier : most_nodes_of_multiplier,
-                        Array<double*>("impact energy", arrays.slave_count)};
-  pair.law = make_contact_law(contact, arrays.slave_count);
+  set_algorithm(pair);
   pair.growth = largest_growth(contact);
   pair.missed = Array<int*>("missed", 1);
+  pair.uncounted = Array<int*>("uncounted", 1);
   return pair;
 }
 
 }  // namespace
+
+void set_algorithm(ContactPair& pair) {
+  const ContactArrays& arrays = pair.arrays;
+  pair.multipliers = {};
+  if (pair.contact->algorithm == scene::ContactAlgorithm::multiplier)
+    pair.multipliers = {Array<MultiplierRow*>("multipliers", arrays.slave_count),
+                        Array<double* [3]>("way since stuck", arrays.slave_count),
+                        arrays.mouth_corners.extent(0) == 0 ? nodes_of_multiplier : most_nodes_of_multiplier,
+                        Array<double*>("impact energy", arrays.slave_count)};
+  pair.law = make_contact_law(*pair.contact, arrays.slave_count);
+}
 
 void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts) {
   for (const scene::Contact& contact : assembled.scene.contacts)

@@ -11,8 +11,6 @@
 namespace railwave {
 namespace {
 
-/// Share of the local element size that counts as touching: penetrations and the sag of coarse surfaces are below it.
-constexpr double touching_share = 0.1;
 /// How much faster than at present two surfaces may close within the horizon.
 constexpr double closing_factor = 2;
 
@@ -131,7 +129,8 @@ ContactOnNodes contact_on_nodes(const AssembledScene& assembled, const std::vect
 }
 
 std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& mass, const NodeArrays& nodes,
-                                                    const ContactPair& pair, double horizon) {
+                                                    const ContactPair& pair, const ContactReach& within) {
+  const double horizon = within.horizon;
   const auto position = to_host(nodes.position), velocity = to_host(nodes.velocity);
   const auto slaves = rows_of(position, pair.slave_nodes), slave_velocities = rows_of(velocity, pair.slave_nodes);
   const auto masters = rows_of(position, pair.master_nodes), master_velocities = rows_of(velocity, pair.master_nodes);
@@ -139,6 +138,10 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
   const NearestPoint nearest(masters);
   double fastest_master = 0;
   for (const Vec3& v : master_velocities) fastest_master = std::fmax(fastest_master, std::sqrt(dot(v, v)));
+
+  std::vector<char> near(slaves.size(), 0);
+  if (within.near)
+    for (const WindowEntry& entry : to_vector(pair.window.entries)) near[entry.slave] = entry.near != 0;
 
   std::vector<ContactSpring> springs;
   const auto status = to_host(pair.arrays.status);
@@ -153,8 +156,8 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
     const double aside = std::sqrt(std::fmax(0.0, dot(away, away) - gap * gap));
     const double closing = closing_factor * horizon * std::sqrt(dot(relative, relative));
     const bool may_touch =
-        aside <= around.size[m] && gap <= touching_share * around.size[m] + closing && gap >= -around.size[m];
-    if (status(static_cast<int>(s)) == status_apart && !may_touch) continue;
+        aside <= around.size[m] && gap <= within.share * around.size[m] + closing && gap >= -around.size[m];
+    if (status(static_cast<int>(s)) == status_apart && !may_touch && !near[s]) continue;
     ContactSpring spring{
         static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);

@@ -17,11 +17,18 @@ struct ContactSpring {
   std::array<double, 4> share{};      ///< shape functions at the place, thesis eq. 2.24b
 };
 
-/// The springs of every slave node that touches now or may within `horizon` seconds at the bodies' present velocities.
-/// A pair far apart has none.
+/// Which slave nodes count as able to press.
+struct ContactReach {
+  double horizon = 0;  ///< s, within which they may come to touch at the bodies' present velocities
+  double share = 0.1;  ///< of the local element size: nodes as near as that touch; penetrations and the sag of coarse
+                       ///< surfaces are below it
+  bool near = false;   ///< also what the last check of the contact found near enough to touch before the next one
+};
+
+/// The springs of every slave node that touches now or may soon. A pair far apart has none.
 /// @param mass kg, by node
 std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& mass, const NodeArrays& nodes,
-                                                    const ContactPair& pair, double horizon);
+                                                    const ContactPair& pair, const ContactReach& within);
 
 /// What contact may put on each node at worst, by model node number; zero where no surface is.
 struct ContactOnNodes {

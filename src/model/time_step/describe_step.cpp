@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/beams/beams.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave {
@@ -37,7 +38,9 @@ bool shortened(const StableStep& stable) {
 
 std::string what_sets_step(const AssembledScene& assembled, const StableStep& stable) {
   if (assembled.scene.time.step > 0) return "time.step";
-  const bool heights = assembled.scene.solver.step_estimate == scene::StepEstimate::element;
+  const scene::StepEstimate choice = assembled.scene.solver.step_estimate;
+  const bool heights = choice == scene::StepEstimate::element ||
+                       (choice == scene::StepEstimate::automatic && stable.limit == stable.by_elements);
   const double elements = heights ? stable.elements : stable.eigenvalue,
                contact = heights ? stable.contact : stable.eigenvalue_contact;
   const auto least = [&](double step) { return step > 0 && step <= elements; };
@@ -61,7 +64,7 @@ std::vector<std::string> describe_stable_step(const AssembledScene& assembled, c
       line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue,
            near(assembled.assembly, stable.eigenvalue_element), stable, stable.eigenvalue_contact)};
   if (shortened(stable)) lines[0] += "; shortened to what they allow together at free surfaces and in contact";
-  if (choice == scene::StepEstimate::global)
+  if (stable.global > 0)
     lines.push_back(
         fmt::format(
             "stable by the whole scene's highest frequency: {:.4g} s{}; {:.3g} times the element heights' step",
@@ -71,11 +74,13 @@ std::vector<std::string> describe_stable_step(const AssembledScene& assembled, c
         (stable.limit < stable.global
              ? fmt::format("; {:.4g} s for contact springs that bodies strike undamped", stable.limit)
              : ""));
-  const char* names[] = {"element", "eigenvalue", "global"};
+  const char* names[] = {"automatic", "element", "eigenvalue", "global"};
   lines.push_back(assembled.scene.time.step > 0
                       ? fmt::format("set by time.step = {:.4g} s", assembled.scene.time.step)
                       : fmt::format("set by solver.step_estimate = {}, times time.step_scale = {:.4g}",
                                     names[static_cast<int>(choice)], assembled.scene.time.step_scale));
+  if (const std::string chosen = describe_choice(stable.choice); !chosen.empty())
+    lines.push_back("automatic: " + chosen);
   if (const std::string inertia = describe_beam_inertia(beams); !inertia.empty()) lines.push_back(inertia);
   return lines;
 }

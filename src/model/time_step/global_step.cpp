@@ -6,7 +6,6 @@
 
 #include "kernels/support/reductions.hpp"
 #include "kernels/ties/tie.hpp"
-#include "model/contact/contact_springs.hpp"
 #include "model/elements/hourglass_scale.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "model/time_step/tangent_springs.hpp"
@@ -88,7 +87,7 @@ GlobalEstimate::GlobalEstimate(const AssembledScene& assembled, const NodalState
   displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
 }
 
-void GlobalEstimate::set_springs(double horizon, GlobalStep& result) {
+void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result) {
   SpringCollector collector;
   collector.add_connectors(assembled_.scene, cells_);
   for (const ContactPair& pair : contacts_) {
@@ -96,7 +95,7 @@ void GlobalEstimate::set_springs(double horizon, GlobalStep& result) {
       result.seen.emplace_back(pair.slave_nodes.size(), 1);
       continue;
     }
-    const auto springs = possible_contact_springs(assembled_.mass, nodal_.nodes, pair, horizon);
+    const auto springs = possible_contact_springs(assembled_.mass, nodal_.nodes, pair, within);
     collector.add_contact(springs, pair.arrays.friction > 0);
     result.springs += static_cast<long>(springs.size());
     auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
@@ -137,7 +136,8 @@ void GlobalEstimate::apply(double inverse_time) {
                        ToWeighted{image_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
 }
 
-double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, double enough, GlobalStep& result) {
+double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, const Bounds& bounds,
+                                          GlobalStep& result) {
   const int nodes = static_cast<int>(assembled_.assembly.nodes.size());
   Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, nodal_.nodes.mass});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
@@ -161,8 +161,11 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
     if (exhausted || iterations % iterations_between_checks == 0 || iterations == most_iterations) {
       ritz = largest_ritz_value(diagonal, beside);
-      const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= enough;
-      if (exhausted || low_enough || ritz.residual <= accuracy * ritz.value || iterations == most_iterations) break;
+      const bool low_enough = iterations >= least_iterations && ritz.value + 3 * ritz.residual <= bounds.enough;
+      const bool too_high = ritz.value > bounds.most;
+      if (exhausted || low_enough || too_high || ritz.residual <= accuracy * ritz.value ||
+          iterations == most_iterations)
+        break;
     }
     Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{image_, 1 / beside.back()});
     const NodeVector spent = before_;
@@ -173,10 +176,16 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
   return ritz.value + ritz.residual;
 }
 
-GlobalStep GlobalEstimate::operator()(double horizon, double guess) {
+GlobalStep GlobalEstimate::operator()(const ContactReach& within, double guess) {
   GlobalStep result;
-  set_springs(horizon, result);
-  return solve(guess, false, std::move(result));
+  set_springs(within, result);
+  return solve(guess, Guess::near, std::move(result));
+}
+
+GlobalStep GlobalEstimate::at_least(const ContactReach& within, double least) {
+  GlobalStep result;
+  set_springs(within, result);
+  return solve(least, Guess::least, std::move(result));
 }
 
 GlobalStep GlobalEstimate::of_elements(double longest) {
@@ -185,11 +194,12 @@ GlobalStep GlobalEstimate::of_elements(double longest) {
   for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
     if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
   tangent_.set_springs(collector.on_device());
-  return solve(longest, true, {});
+  return solve(longest, Guess::most, {});
 }
 
-GlobalStep GlobalEstimate::solve(double guess, bool at_most_guess, GlobalStep result) {
+GlobalStep GlobalEstimate::solve(double guess, Guess is, GlobalStep result) {
   result.step = guess;
+  const bool at_most_guess = is == Guess::most;
   bool damped = false;
   double mass_rate = 0;  // counted as if all nodes had the largest
   for (const scene::Part& part : assembled_.scene.parts) {
@@ -204,9 +214,10 @@ GlobalStep GlobalEstimate::solve(double guess, bool at_most_guess, GlobalStep re
   for (const scene::Connector& connector : assembled_.scene.connectors)
     damped = damped || connector.damping != Vec3{0, 0, 0};
   for (const ContactPair& pair : contacts_) damped = damped || pair.contact->damping > 0;
-  const double enough = at_most_guess ? 4 / (guess * guess) : 0;
+  const double limit = 4 / (guess * guess), enough = at_most_guess ? limit : 0;
+  Bounds bounds{enough, is == Guess::least ? limit : std::numeric_limits<double>::infinity()};
   if (!damped) {
-    const double eigenvalue = largest_eigenvalue(0, tolerance, enough, result);
+    const double eigenvalue = largest_eigenvalue(0, tolerance, bounds, result);
     if (eigenvalue > enough) result.step = 2 / std::sqrt(eigenvalue);
     return result;
   }
@@ -217,11 +228,15 @@ GlobalStep GlobalEstimate::solve(double guess, bool at_most_guess, GlobalStep re
   double step = guess;
   for (int k = 0; k < most_passes; ++k) {
     const bool first = k == 0;
+    const double by_mass = mass_rate * 2 / step;
+    if (first) bounds = {enough - by_mass, bounds.most - by_mass};
     const double eigenvalue =
-        mass_rate * 2 / step + largest_eigenvalue(2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
-                                                  first ? enough - mass_rate * 2 / step : 0, result);
+        by_mass + largest_eigenvalue(2 / step, first && !at_most_guess ? 4 * tolerance : tolerance,
+                                     first ? bounds : Bounds{}, result);
     if (!(eigenvalue > 0) || (first && eigenvalue <= enough)) break;
     result.step = 2 / std::sqrt(eigenvalue);
+    // Of a longer step dashpots are weaker: the step sought lies on the same side of the guess.
+    if (first && is == Guess::least && result.step < guess) break;
     if (result.step >= step && result.step <= (1 + 0.5 * tolerance) * step) break;
     step = result.step >= step ? result.step : result.step - 0.6 * (step - result.step);
   }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/contact/contact_pair.hpp"
+#include "model/contact/contact_springs.hpp"
 #include "model/loads/connector_cells.hpp"
 #include "model/nodal_state.hpp"
 #include "model/time_step/tangent_operator.hpp"
@@ -46,9 +48,13 @@ class GlobalEstimate {
   GlobalEstimate(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ConnectorCell>& cells,
                  const std::vector<ContactPair>& contacts, const Ties& ties, const AbsorbingLayers& absorbing);
 
-  /// @param horizon s: contact springs that may press within that time count
+  /// @param within contact springs that count
   /// @param guess s: near the answer, if anything on the short side; the answer where everything is held
-  GlobalStep operator()(double horizon, double guess);
+  GlobalStep operator()(const ContactReach& within, double guess);
+
+  /// The same where a step below `least`, s, is of no use: as soon as that is certain, what has been found so far, also
+  /// below `least`, is the answer.
+  GlobalStep at_least(const ContactReach& within, double least);
 
   /// The longest step up to `longest` that is stable for the elements with everything that contact may put on them,
   /// wherever the bodies touch; without connectors and beams. A spring k between two nodes is at most 2 k from each to
@@ -59,11 +65,18 @@ class GlobalEstimate {
   friend void visit_arrays(const Named<Visitor>& visit, GlobalEstimate& estimate);
 
  private:
-  void set_springs(double horizon, GlobalStep& result);
-  GlobalStep solve(double guess, bool at_most_guess, GlobalStep result);
+  /// What the guess of the step is.
+  enum class Guess { near, most, least };
+
+  void set_springs(const ContactReach& within, GlobalStep& result);
+  GlobalStep solve(double guess, Guess is, GlobalStep result);
   void apply(double inverse_time);
-  /// @param enough a Ritz value with three times its residual below this will do; 0: none
-  double largest_eigenvalue(double inverse_time, double accuracy, double enough, GlobalStep& result);
+  /// Where the search of the largest eigenvalue may end early.
+  struct Bounds {
+    double enough = 0;  ///< a Ritz value with three times its residual below this will do; 0: none
+    double most = std::numeric_limits<double>::infinity();  ///< so will one beyond this
+  };
+  double largest_eigenvalue(double inverse_time, double accuracy, const Bounds& bounds, GlobalStep& result);
 
   const AssembledScene& assembled_;
   const NodalState& nodal_;

@@ -12,6 +12,7 @@
 #include "model/build_steps.hpp"
 #include "model/contact/contact_springs.hpp"
 #include "model/model.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "model/time_step/global_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -199,18 +200,6 @@ double stable_together(const Model& model, double by_elements, double by_eigenva
   return std::fmax(by_eigenvalues, global_estimate_of(model)->of_elements(by_elements).step);
 }
 
-/// Whether bodies begin apart, not settled on one another, and neither their hourglass control nor their contact takes
-/// what they vibrate with.
-bool strikes_undamped(const scene::Scene& scene, const std::vector<ContactPair>& contacts) {
-  if (scene.settle.active) return false;
-  const bool viscous = std::all_of(scene.parts.begin(), scene.parts.end(), [](const scene::Part& part) {
-    return part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0;
-  });
-  return !viscous && std::any_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) {
-    return pair.has_springs() && !(pair.contact->damping > 0);
-  });
-}
-
 void estimate_by_elements(Model& model) {
   StableStep& stable = model.stable_step;
   const EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
@@ -266,6 +255,16 @@ std::vector<double> safe_steps(const AssembledScene& assembled, const AbsorbingL
   return eigenvalue_steps(assembled, absorbing).step;
 }
 
+bool strikes_undamped(const scene::Scene& scene, const std::vector<ContactPair>& contacts) {
+  if (scene.settle.active) return false;
+  const bool viscous = std::all_of(scene.parts.begin(), scene.parts.end(), [](const scene::Part& part) {
+    return part.hourglass == scene::HourglassType::viscous && part.hourglass_coefficient > 0;
+  });
+  return !viscous && std::any_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) {
+    return pair.has_springs() && !(pair.contact->damping > 0);
+  });
+}
+
 double largest_initial_speed(const scene::Scene& scene) {
   double largest = 0;
   for (const scene::InitialMotion& motion : scene.initial_motions)
@@ -286,7 +285,7 @@ void renew_global_step(const scene::Scene& scene, const std::vector<ContactPair>
   const double horizon = renew_steps > 0 ? std::fmin(left, renew_steps * stable.by_elements) : left;
   // A scene of point masses on dashpots alone has no elements to begin from.
   const double first_guess = std::isfinite(stable.by_elements) ? stable.by_elements : scene.time.end;
-  GlobalStep found = (*sizes.global_estimate)(horizon, stable.global > 0 ? 0.99 * stable.global : first_guess);
+  GlobalStep found = (*sizes.global_estimate)({horizon}, stable.global > 0 ? 0.99 * stable.global : first_guess);
   // It knows beams by their mass only.
   if (stable.beam > 0) found.step = together(found.step, 2 / stable.beam);
   stable.global = stable.limit = found.step;
@@ -305,6 +304,8 @@ void build_stable_step(Model& model) {
   if (choice == scene::StepEstimate::global) {
     model.global_estimate = global_estimate_of(model);
     renew_global_step(model.scene, model.contacts, model.time, model);
+  } else if (choice == scene::StepEstimate::automatic) {
+    choose_step(model);
   }
   const scene::Time& time = model.scene.time;
   if (time.step > stable.limit)

@@ -31,6 +31,10 @@ std::vector<double> safe_steps(const AssembledScene& assembled, const AbsorbingL
 /// Speed of the fastest initial motion, turning left out, m/s: what bodies that hit at the beginning hit with.
 double largest_initial_speed(const scene::Scene& scene);
 
+/// Whether bodies begin apart, not settled on one another, and neither their hourglass control nor their contact takes
+/// what they vibrate with.
+bool strikes_undamped(const scene::Scene& scene, const std::vector<ContactPair>& contacts);
+
 /// Estimates the whole scene's stable step anew at the present instant. The case must have asked for the global
 /// estimate.
 /// @param time s, the present instant

@@ -9,6 +9,27 @@
 
 namespace railwave {
 
+/// What [solver] step_estimate = "automatic" came to (automatic_step.hpp).
+struct StepChoice {
+  enum class Reason {
+    not_asked,     ///< the case names an estimate
+    pays,          ///< the whole scene's step is taken
+    gains_little,  ///< it is hardly longer than the elements'
+    short_run,     ///< it takes longer to find than it can save
+    step_given,
+    subcycled,
+    flows,
+    strikes,
+    crack_mouths,
+    no_elements,
+    changes_often,  ///< it was taken until contact changed too often
+    no_longer_pays  ///< it was taken until contact made it hardly longer than the elements'
+  };
+  Reason reason = Reason::not_asked;
+  double gain = 0;         ///< the whole scene's step over the elements'; where that was not taken, at most that
+  double evaluations = 0;  ///< of the scene's forces: what finding it has cost so far
+};
+
 /// The stable step, s, by each estimate, and what sets it.
 struct StableStep {
   double elements = 0;     ///< min V / (A_max C_d), thesis eq. 2.14
@@ -28,6 +49,7 @@ struct StableStep {
   std::vector<std::vector<char>> seen;  ///< by contact pair and slave node: whether its spring was
 
   double limit = 0;  ///< by the estimate that the case chose
+  StepChoice choice;
 };
 
 class GlobalEstimate;

@@ -1,6 +1,7 @@
 #include "solve/checkpoint/run_state.hpp"
 
 #include "kernels/support/flush_denormals.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "solve/checkpoint/state_arrays.hpp"
 
 namespace railwave {
@@ -21,6 +22,7 @@ void archive(Archive& archive, const std::string& of, ContactPair& pair) {
   archive.value(of + "window_count", pair.window.count);
   archive.value(of + "next_look", pair.next_check);
   archive.value(of + "next_near_look", pair.next_near_check);
+  archive.value(of + "near_checked_at", pair.near_checked_at);
   archive.value(of + "layouts", pair.layouts);
   archive.value(of + "looks", pair.checks);
 }
@@ -39,6 +41,9 @@ void archive(Archive& archive_, StableStep& stable) {
   archive_.value("stable_global", stable.global);
   archive_.value("stable_limit", stable.limit);
   archive_.value("stable_springs", stable.springs);
+  archive_.value("step_choice", stable.choice.reason);
+  archive_.value("step_choice_gain", stable.choice.gain);
+  archive_.value("step_choice_evaluations", stable.choice.evaluations);
   for (std::size_t p = 0; p < stable.seen.size(); ++p)
     archive_.values(fmt::format("stable_seen_{}", p), stable.seen[p]);
 }
@@ -73,6 +78,7 @@ void save_model_state(Model& model, RunState& state) {
 void restore_model_state(Model& model, const RunState& state) {
   StateRestorer restorer(state);
   archive(restorer, model);
+  keep_choice(model);
   if (model.relative.begun) flush_denormals();
 }
 

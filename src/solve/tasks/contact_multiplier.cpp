@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "kernels/contact/contact_multiplier.hpp"
-#include "kernels/support/team.hpp"
 #include "model/contact/contact_law.hpp"
 #include "solve/tasks/contributions.hpp"
 #include "solve/tasks/element_forces.hpp"
@@ -59,21 +58,13 @@ AnyMultiplier multiplier_of(const NodalState& nodal, const ContactPair& pair, do
   return multiplier_with<FacetNormals>(nodal, pair, elapsed, settling, friction);
 }
 
-/// How many nodes can touch is known on the device only.
-template <class Phase, class Pair, int count>
-void launch(const char* name, const MultiplierPairs<Pair, count>& pairs) {
+template <class Phase, class Pairs>
+void launch(const char* name, const Pairs& pairs) {
+  // How many nodes can touch is known on the device only.
   int slaves = 0;
   for (const auto& pair : pairs.pairs) slaves += pair.window.count;
-  constexpr bool in_lanes = on_device && !std::is_same_v<Phase, Multiplier::Begin>;
-  if constexpr (in_lanes) {
-    constexpr int items = 8;
-    using Policy = Kokkos::TeamPolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<items * item_lanes>, AsArgument>;
-    Kokkos::parallel_for(name, Policy((slaves + items - 1) / items, items, item_lanes),
-                         MultiplierPairsInLanes<Pair, count>{pairs});
-  } else {
-    using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
-    Kokkos::parallel_for(name, Policy(0, slaves), pairs);
-  }
+  using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
+  Kokkos::parallel_for(name, Policy(0, slaves), pairs);
 }
 
 /// A phase of all pairs: two by two in one launch where they are of the same kind, as those of a joint are.
@@ -105,7 +96,8 @@ std::vector<AnyMultiplier> multipliers_of(const scene::Scene& scene, const Nodal
   std::vector<AnyMultiplier> pairs;
   for (const ContactPair& pair : contacts)
     if (!pair.has_springs())
-      pairs.push_back(multiplier_of(nodal, pair, elapsed, kind == StepKind::settling, has_friction(scene, pair, kind)));
+      pairs.push_back(
+          multiplier_of(nodal, pair, elapsed, kind == StepKind::settling, has_friction(scene, pair, kind)));
   return pairs;
 }
 
@@ -125,8 +117,9 @@ void find_multipliers(std::vector<AnyMultiplier> pairs, int sweeps) {
 
 }  // namespace
 
-MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
-                                 StepKind kind, const RelaxationUpdate* relaxation) {
+MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
+                                 std::vector<ContactPair>& contacts, StepKind kind,
+                                 const RelaxationUpdate* relaxation) {
   std::string names;
   int sweeps = 0;
   for (const ContactPair& pair : contacts) {
@@ -142,16 +135,16 @@ MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& no
               }};
   search.recordable = false;
   const Task begin{"location of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {
-                     const auto pairs = multipliers_of(scene, nodal, contacts, kind, instant.elapsed);
-                     run_phase<Multiplier::Begin>("multipliers_begin", pairs);
-                     run_phase<Multiplier::Push>("multipliers_push", pairs);
+                     run_phase<Multiplier::Begin>("multipliers_begin",
+                                                  multipliers_of(scene, nodal, contacts, kind, instant.elapsed));
                    }};
-  const Task find{"multipliers of" + names, "d",
-                  [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
-                    Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
-                                         PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
-                    find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
-                  }};
+  const Task find{
+      "multipliers of" + names, "d",
+      [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+        Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
+                             PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
+        find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
+      }};
   return {{search, begin}, {find}};
 }
 

@@ -256,10 +256,12 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_check) return;
   pair.next_near_check = nodal.step + steps;
+  pair.near_checked_at = nodal.step;
   Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
+  if (pair.counted.extent(0) != 0) Kokkos::deep_copy(ExecutionSpace(), pair.uncounted, 0);
   apart_parallel_for("near_nodes", pair.window.count,
                      FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
-                                   first || laid_out, pair.missed});
+                                   first || laid_out, pair.missed, pair.counted, pair.uncounted});
 }
 
 std::vector<std::string> late_contacts(const std::vector<ContactPair>& contacts) {

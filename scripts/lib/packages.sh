@@ -9,6 +9,8 @@ packages_to_draw=(python3 python3-h5py python3-matplotlib)
 # clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built
 # without.
 packages_to_test=(clang-format python3-paraview)
+# What hands sweeps over to many machines, here with controller and node on one, for its tests.
+packages_for_schedulers=(munge slurm-wlm snakemake)
 # libFuzzer and what reads its coverage.
 packages_to_fuzz=(
     clang cmake libclang-rt-dev libcli11-dev libeigen3-dev libfmt-dev libspdlog-dev libspectra-dev libtomlplusplus-dev

@@ -33,6 +33,7 @@ const std::vector<NumberOption>& number_options() {
       {"run", "--wall-time", "s", between(tiny, any), "3600"},
       {"sweep", "--jobs", "", between(1, 1000), "4", true},
       {"sweep", "--threads", "", between(1, 512), "2", true},
+      {"sweep", "--slurm", "", between(1, 10000), "4", true},
       {"sweep", "--retries", "", between(0, 1000), "2", true},
       {"modes", "--up-to", "Hz", between(tiny, any), "5000"},
       {"contact", "--from", "s", between(-any, any), "1e-3"},
@@ -94,7 +95,7 @@ struct FileOption {
 constexpr FileOption file_options[] = {
     {"case", "a case file", "cases/rolling.toml"},
     {"results", "a results file", "results.h5"},
-    {"study", "a study file", "studies/rolling_grid/study.toml"},
+    {"study", "a study file", "studies/rolling_grid/rolling_grid.toml"},
     {"--out", "a file", "mesh.h5"},
     {"--csv", "a file", "table.csv"},
     {"--hdf5", "a file", "more.h5"},

@@ -26,6 +26,8 @@ void add_sweep_command(CLI::App& app, sweep::SweepRequest& request, const std::f
   command->add_option("--members", request.members, "only these, such as 3,17-20");
   command->add_option("--job", request.job, "I/N: only every N-th member, from the I-th on, as one job of an array");
   command->add_flag("--collect", request.collect, "run nothing: tables and pictures of what is there");
+  command->add_option("--slurm", request.slurm, "submit it to Slurm as an array of so many jobs");
+  command->add_flag("--snakemake", request.snakemake, "write a Snakefile for it");
   command->add_flag("--dry-run", request.dry_run, "run and write nothing: which members there are, and which are done");
   command->add_flag("!--no-pictures", request.pictures, "draw no pictures");
   command->callback(run);

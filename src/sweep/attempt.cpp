@@ -59,6 +59,22 @@ void remove_results(const MemberFiles& files) {
   for (const std::string& path : {files.results(), files.folder + "/results.xdmf"}) fs::remove(path, ignored);
 }
 
+/// What processes that were killed left beside what they wrote: locks that lock nothing, files that had not got their
+/// names, checkpoints of a run that is complete. Nobody else writes here while the member is locked.
+void remove_leftovers(const MemberFiles& files) {
+  std::error_code ignored;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator entry(files.folder, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+    const std::string name = entry->path().filename().string();
+    const bool of_run = name.rfind("results.", 0) == 0;
+    const bool unfinished = name.find(".new") != std::string::npos;
+    if ((of_run && name.find(".lock") != std::string::npos) || (of_run && unfinished) ||
+        name.rfind("results.checkpoint.h5", 0) == 0 || (name.rfind("row.toml", 0) == 0 && unfinished))
+      leftovers.push_back(entry->path());
+  }
+  for (const fs::path& path : leftovers) fs::remove(path, ignored);
+}
+
 }  // namespace
 
 Attempt::Attempt(const Study& study, const Member& member, MemberLock lock, int threads)
@@ -142,6 +158,7 @@ Attempt::Result Attempt::write_final_row(Status status, const std::string& reaso
   row.reason = reason;
   row.figures_key = study_.figures.key();
   write_row(member_, row);
+  remove_leftovers(files_);
   note_attempt(member_, fmt::format("ended: {}: {}", status_names[static_cast<int>(status)], reason));
   return Result::row_written;
 }
@@ -185,6 +202,7 @@ Attempt::Result Attempt::figures_ended(const ChildEnd& end) {
   }
   reason_ = row->reason;
   if (row->status == Status::completed && !study_.keep_results) remove_results(files_);
+  remove_leftovers(files_);
   note_attempt(member_, fmt::format("ended: {}{}{}", status_names[static_cast<int>(row->status)],
                                     reason_.empty() ? "" : ": ", reason_));
   return Result::row_written;

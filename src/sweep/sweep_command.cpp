@@ -62,6 +62,10 @@ int report(const Study& study, const Tally& tally, std::ostream& out) {
 int sweep_command(const SweepRequest& request, const std::function<bool()>& stopped,
                   const std::function<void(const std::string& table)>& pictures, std::ostream& out) {
   const Study study = read_study(request.study);
+  if (request.slurm && (request.snakemake || request.members || request.job || request.collect))
+    throw InputError("--slurm hands the whole study over: leave out --snakemake, --members, --job and --collect");
+  if (request.slurm) return hand_over_to_slurm(study, *request.slurm, request.dry_run, out);
+  if (request.snakemake) return hand_over_to_snakemake(study, request.dry_run, out);
   const std::vector<const Member*> members = wanted_members(study, request);
   if (request.dry_run) {
     describe(study, members, out);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "sweep/study.hpp"
+
 namespace railwave::sweep {
 
 /// What `railwave sweep` is asked for.
@@ -27,5 +29,13 @@ struct SweepRequest {
 /// @return the exit code of docs/commands.md
 int sweep_command(const SweepRequest& request, const std::function<bool()>& stopped,
                   const std::function<void(const std::string& table)>& pictures, std::ostream& out);
+
+/// Writes the scripts of an array of jobs, and of one that writes the tables after them, and submits both to Slurm.
+/// Throws std::runtime_error where Slurm does not take them.
+/// @param dry_run prints them instead
+int hand_over_to_slurm(const Study& study, int jobs, bool dry_run, std::ostream& out);
+
+/// Writes a Snakefile with a rule for each member and one for the tables, and says how it is run.
+int hand_over_to_snakemake(const Study& study, bool dry_run, std::ostream& out);
 
 }  // namespace railwave::sweep

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
+#include <thread>
 
 #include <fmt/format.h>
 
@@ -185,10 +188,24 @@ void write_hdf5(const Study& study, const Contents& contents) {
   file.close();
 }
 
+MemberLock wait_for_lock(const std::string& path) {
+  for (;;) {
+    if (auto lock = MemberLock::take(path)) return std::move(*lock);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
 }  // namespace
 
 void write_tables(const Study& study) {
-  std::filesystem::create_directories(study.folder);
+  namespace fs = std::filesystem;
+  fs::create_directories(study.folder);
+  const MemberLock lock = wait_for_lock(study.folder + "/sweep.lock");
+  // One sweep at a time; what a killed one left has no name yet.
+  for (const auto& entry : fs::directory_iterator(study.folder))
+    if (const std::string name = entry.path().filename().string();
+        name.rfind("sweep.csv.new", 0) == 0 || name.rfind("sweep.h5.new", 0) == 0)
+      fs::remove(entry.path());
   const Contents contents = contents_of(study);
   write_whole_file(study.table_csv(), csv_of(study, contents), csv_kind());
   write_hdf5(study, contents);

@@ -23,6 +23,7 @@ POSITIVE = {
     "--rolling-velocity",
     "--jobs",
     "--threads",
+    "--slurm",
 }
 NUMERIC = POSITIVE | {
     "--retries",
@@ -55,7 +56,7 @@ WORDS = {
     "--job",
 }
 FLAGS = {"--restart", "--keep-state", "--overwrite", "--average", "--markdown", "--schema", "--help", "--version"}
-FLAGS |= {"--collect", "--dry-run", "--no-pictures"}
+FLAGS |= {"--collect", "--dry-run", "--no-pictures", "--snakemake"}
 
 
 def answer(*words, folder=None):

@@ -22,6 +22,10 @@ import studies
 from studies import PROGRAM, ROOT, leftovers, members, rows, sweep, write
 
 PATIENCE = 300  # s
+HEAT = """
+[figures]
+heat = "energy.friction"
+"""
 
 
 def arrays(path):
@@ -83,8 +87,8 @@ class Whole(SweepTest):
             subprocess.run(
                 [
                     PROGRAM, "run", self.folder / "case.toml", "--set", f"output.file={alone}", "--overwrite", "--set",
-                    f"contacts.between.friction={overrides[0]}", "--set", f"initial_motion.slide.velocity[0]={overrides[1]}",
-                    "--set", "settle.cache=false",
+                    f"contacts.between.friction={overrides[0]}", "--set",
+                    f"initial_motion.slide.velocity[0]={overrides[1]}", "--set", "settle.cache=false",
                 ],
                 check=True, capture_output=True,
             )
@@ -100,7 +104,7 @@ class Whole(SweepTest):
         self.assertEqual([times_run(member) for member in members(study)], [1] * 6)
 
         # Other figures are collected from the results that are there; a longer grid runs what is new.
-        write(self.folder, studies.GRID.replace("0.2, 0.4", "0.2, 0.3, 0.4") + "[figures]\nheat = \"energy.friction\"\n")
+        write(self.folder, studies.GRID.replace("0.2, 0.4", "0.2, 0.3, 0.4") + HEAT)
         more = sweep(study)
         self.assertEqual(more.returncode, 0, more.stdout + more.stderr)
         table = rows(study)
@@ -148,7 +152,7 @@ class Whole(SweepTest):
         self.assertFalse((self.folder / "out").exists())
 
     def test_pictures(self):
-        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.1, 0.2]\n[figures]\nheat = \"energy.friction\"\n")
+        study = write(self.folder, "[grid]\ncontacts.between.friction = [0.1, 0.2]\n" + HEAT)
         done = subprocess.run([PROGRAM, "sweep", study], capture_output=True, text=True, cwd=self.folder)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.folder / "out" / "sweep-heat.png").exists(), done.stdout + done.stderr)
@@ -223,7 +227,15 @@ class Fates(SweepTest):
             time.sleep(0.002)
         self.fail("no member has begun")
 
-    LONG = "[common]\ntime.end = 1.5e-3\noutput.field_interval = 1e-3\n[grid]\ncontacts.between.friction = [0.2]\n[figures]\nheat = \"energy.friction\"\n"
+    LONG = """
+[common]
+time.end = 1.5e-3
+output.field_interval = 1e-3
+[grid]
+contacts.between.friction = [0.2]
+[figures]
+heat = "energy.friction"
+"""
 
     def test_a_killed_member_is_tried_again(self):
         study = write(self.folder, self.LONG)

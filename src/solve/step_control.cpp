@@ -75,7 +75,6 @@ bool StepControl::due() const {
   return may_touch_uncounted(contacts_, step) ||
          (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
 }
-}
 
 /// Whole steps from the present instant to the end; whether they are others than planned before.
 bool StepControl::plan() {

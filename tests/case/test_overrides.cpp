@@ -11,9 +11,9 @@ using Catch::Matchers::ContainsSubstring;
 TEST_CASE("an override of one entry leaves the others of its list", "[case]") {
   const TemporaryCase file(small_case + "[gravity]\nacceleration = [1, 2, 3]\n");
   const auto scene = read_case(file.path(), {"gravity.acceleration[2]=-9.81", "gravity.acceleration[0]=0"});
-  CHECK(scene.gravity == Vec3{0, 2, -9.81});
+  CHECK(scene.gravity == scene::Vec3{0, 2, -9.81});
   CHECK(read_case(file.path(), {"gravity.acceleration=[4, 5, 6]", "gravity.acceleration[1]=7"}).gravity ==
-        Vec3{4, 7, 6});
+        scene::Vec3{4, 7, 6});
 }
 
 TEST_CASE("an override of an entry that the file does not have says so", "[case]") {

@@ -130,6 +130,12 @@ bool can_change(const scene::Scene& scene, const std::vector<ContactPair>& conta
                      [](const auto& material) { return material.yield_stress.has_value(); });
 }
 
+bool contact_checked_before(const std::vector<ContactPair>& contacts, long step) {
+  return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
+    return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1;
+  });
+}
+
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
     return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1 && to_host(pair.uncounted)(0) > 0;

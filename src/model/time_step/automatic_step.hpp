@@ -35,7 +35,10 @@ bool has_contact_springs(const std::vector<ContactPair>& contacts);
 /// Whether the whole scene's step can change: by contact springs, or by elements that flow.
 bool can_change(const scene::Scene& scene, const std::vector<ContactPair>& contacts);
 
-/// Whether the last check of a contact, in the step before, has found a node that may touch and was not counted.
+/// Whether a contact was checked in the step before.
+bool contact_checked_before(const std::vector<ContactPair>& contacts, long step);
+
+/// Whether that check has found a node that may touch and was not counted.
 bool may_touch_uncounted(const std::vector<ContactPair>& contacts, long step);
 
 /// For a state that was taken up: what that state's run had chosen, whatever this one would.

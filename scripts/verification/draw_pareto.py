@@ -61,7 +61,8 @@ def draw(panel, name, group):
     panel.axhline(target, color="grey", linewidth=0.8, linestyle=":", label="target for ten elements")
     panel.set_xscale("log")
     panel.set_yscale("log")
-    panel.set_xlabel("processor time, s" if group[0]["processor_s"] else "time of settling and steps, s", fontsize=style.SMALL)
+    panel.set_xlabel("processor time, s" if group[0]["processor_s"] else "time of settling and steps, s",
+                     fontsize=style.SMALL)
     panel.set_ylabel("largest error over its target" if name == "worst_error" else f"error of {SHORT[name]}, %",
                      fontsize=style.SMALL)
     panel.grid(alpha=0.3)

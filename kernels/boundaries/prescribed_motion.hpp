@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kernels/nodes/nodes.hpp"
-#include "kernels/support/step_value.hpp"
+#include "kernels/support/spaces.hpp"
 
 namespace railwave {
 

@@ -34,8 +34,8 @@ struct FreeMotion {
 
 inline constexpr double multiplicity_quantum = 1.0 / (1ull << 40);
 
-/// Phases of finding multipliers. Begin needs nothing but where the nodes are; PredictFreeNodes comes between it and the
-/// sweeps: Correct, and Finish as the last one.
+/// Phases of finding multipliers. Begin needs nothing but where the nodes are; PredictFreeNodes comes between it and
+/// the sweeps: Correct, and Finish as the last one.
 struct Multiplier {
   struct Begin {};
   struct Correct {};
@@ -57,9 +57,9 @@ struct Multiplier {
 /// 2 (1 - cos(omega dt)) < 1 - tau gain from, and hardly (docs/contact.md). Forces are summed in whole quanta: a run is
 /// bitwise repeatable.
 ///
-/// The last step's multipliers go to the external forces at once, so that what the nodes are predicted to do holds them.
-/// A sweep reads the changes that its predecessor has left and adds its own to what the one before that had left, so
-/// that nobody reads what others are adding to; the last adds them all to the external forces.
+/// The last step's multipliers go to the external forces at once, so that what the nodes are predicted to do holds
+/// them. A sweep reads the changes that its predecessor has left and adds its own to what the one before that had left,
+/// so that nobody reads what others are adding to; the last adds them all to the external forces.
 /// @tparam Normals along which they press: see kernels/contact/contact_normals.hpp
 template <bool Friction, class Normals = FacetNormals>
 struct ContactMultiplier {
@@ -132,8 +132,7 @@ struct ContactMultiplier {
       const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
       double share[MouthCorner::pieces];
       search.shares_of(mouth, share);
-      for (int piece = 0; piece < MouthCorner::pieces; ++piece)
-        add_node(r, mouth.node[piece], share[piece] * weight);
+      for (int piece = 0; piece < MouthCorner::pieces; ++piece) add_node(r, mouth.node[piece], share[piece] * weight);
     }
     r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
@@ -243,8 +242,8 @@ struct ContactMultiplier {
     const FreeNode& free = free_nodes.nodes(at);
     Vector3 force;
     for (int c = 0; c < 3; ++c)
-      force[c] = external.quantum *
-                 static_cast<double>(static_cast<long long>(free_nodes.change(at, (sweep - 1) & 1, c)));
+      force[c] =
+          external.quantum * static_cast<double>(static_cast<long long>(free_nodes.change(at, (sweep - 1) & 1, c)));
     return projected(constraints, free.constraint, free.compliance * force);
   }
 

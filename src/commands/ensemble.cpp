@@ -78,7 +78,7 @@ void build_member(Member& member) {
 }
 
 EnsembleEnd report_ends(const std::vector<std::unique_ptr<Member>>& members, const std::vector<RunOutcome>& outcomes,
-                   std::ostream& out) {
+                        std::ostream& out) {
   EnsembleEnd end;
   for (std::size_t m = 0; m < members.size(); ++m) {
     const RunOutcome& outcome = outcomes[m];

@@ -21,7 +21,7 @@ struct NodalState {
   Array<SharedNode*> shared_nodes;  ///< those that no block advances by itself
   int early_shared = 0;             ///< so many of them, the first, know neither multipliers nor prescribed motions
   ExternalForces external;
-  FreeNodeArrays free_nodes;  ///< of contacts by multipliers; empty without
+  FreeNodeArrays free_nodes;   ///< of contacts by multipliers; empty without
   Vector3 gravity{{0, 0, 0}};  ///< m/s2
   std::shared_ptr<ReductionSpace> reduction_space =
       std::make_shared<ReductionSpace>();  ///< of the account, the monitor, the static start

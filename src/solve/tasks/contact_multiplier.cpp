@@ -96,8 +96,7 @@ std::vector<AnyMultiplier> multipliers_of(const scene::Scene& scene, const Nodal
   std::vector<AnyMultiplier> pairs;
   for (const ContactPair& pair : contacts)
     if (!pair.has_springs())
-      pairs.push_back(
-          multiplier_of(nodal, pair, elapsed, kind == StepKind::settling, has_friction(scene, pair, kind)));
+      pairs.push_back(multiplier_of(nodal, pair, elapsed, kind == StepKind::settling, has_friction(scene, pair, kind)));
   return pairs;
 }
 
@@ -117,9 +116,8 @@ void find_multipliers(std::vector<AnyMultiplier> pairs, int sweeps) {
 
 }  // namespace
 
-MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal,
-                                 std::vector<ContactPair>& contacts, StepKind kind,
-                                 const RelaxationUpdate* relaxation) {
+MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& nodal, std::vector<ContactPair>& contacts,
+                                 StepKind kind, const RelaxationUpdate* relaxation) {
   std::string names;
   int sweeps = 0;
   for (const ContactPair& pair : contacts) {
@@ -138,13 +136,12 @@ MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& no
                      run_phase<Multiplier::Begin>("multipliers_begin",
                                                   multipliers_of(scene, nodal, contacts, kind, instant.elapsed));
                    }};
-  const Task find{
-      "multipliers of" + names, "d",
-      [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
-        Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
-                             PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
-        find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
-      }};
+  const Task find{"multipliers of" + names, "d",
+                  [&scene, &nodal, &contacts, kind, relaxation, sweeps](const Instant& instant) {
+                    Kokkos::parallel_for("multipliers_predict", SpreadRange(0, most_listed(nodal, contacts)),
+                                         PredictFreeNodes{nodal.free_nodes, free_motion(nodal, instant, relaxation)});
+                    find_multipliers(multipliers_of(scene, nodal, contacts, kind, instant.elapsed), sweeps);
+                  }};
   return {{search, begin}, {find}};
 }
 

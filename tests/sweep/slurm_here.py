@@ -8,7 +8,7 @@ import socket
 import subprocess
 import time
 
-PROGRAMS = ("sbatch", "squeue", "sinfo", "slurmctld", "slurmd")
+PROGRAMS = ("sbatch", "scancel", "squeue", "sinfo", "slurmctld", "slurmd")
 PATH = os.pathsep.join((os.environ.get("PATH", ""), "/usr/sbin", "/sbin"))
 PATIENCE = 120  # s, for the daemons to be ready
 
@@ -103,6 +103,9 @@ class Slurm:
         self._wait(lambda: self._says("squeue", "--noheader") == "", "jobs have not ended", patience)
 
     def stop(self):
+        if self._says("squeue", "--noheader"):  # a test failed: its jobs go too
+            self._says("scancel", "--me", "--signal=KILL", "--full")
+            self._says("scancel", "--me")
         for daemon in reversed(self.daemons):
             daemon.terminate()
         for daemon in reversed(self.daemons):

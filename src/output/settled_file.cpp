@@ -1,6 +1,10 @@
 #include "output/settled_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+
+#include <cerrno>
 
 #include <filesystem>
 #include <stdexcept>
@@ -8,6 +12,7 @@
 #include "kernels/elements/element_blocks.hpp"
 #include "model/contact/contact_law.hpp"
 #include "output/atomic_file.hpp"
+#include "output/disk.hpp"
 #include "output/hash.hpp"
 #include "output/hdf5/hdf5.hpp"
 
@@ -46,6 +51,16 @@ void write_state(const std::string& path, const std::string& key, const std::str
   for (const RunState::Values& one : state.arrays.values)
     root.write(one.name, one.bytes, {one.bytes.size()}, {}, hdf5::Check::by_seal);
   file.close(seal);
+}
+
+/// Runs of one case that settle side by side, as those of a sweep, keep the same file: each waits until another has
+/// written it whole. Where the file system has no locks there is none.
+disk::Descriptor locked_folder(const std::string& folder) {
+  disk::Descriptor descriptor(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.get() >= 0)
+    while (flock(descriptor.get(), LOCK_EX) != 0 && errno == EINTR) {
+    }
+  return descriptor;
 }
 
 }  // namespace
@@ -92,6 +107,7 @@ std::string SettledFiles::keep(const AssembledScene& assembled, const StaticStat
   try {
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     if (!folder.empty()) std::filesystem::create_directories(folder);
+    const disk::Descriptor one_at_a_time = locked_folder(folder.empty() ? "." : folder.string());
     write_state(name, key(assembled), version_, state);
   } catch (const std::exception& error) {
     return error.what();

@@ -59,30 +59,54 @@ def lines(parameters, drawn, completed):
     return [sorted(members, key=lambda m: drawn.values[m]) for members in groups.values()]
 
 
+def value_text(column, member):
+    value = column.values[member]
+    return f"{column.name.split('.')[-1]} {column.choices[int(value)] if column.choices else f'{value:.4g}'}"
+
+
+def draw_lines(axes, across, up, alike, others):
+    """Members that are alike but for one parameter, joined."""
+    colours = plt.get_cmap(style.SIZE_MAP)(np.linspace(0, 0.9, len(alike)))
+    for members, colour in zip(alike, colours):
+        label = ", ".join(value_text(other, members[0]) for other in others)
+        axes.plot(across[members], up[members], "o-", markersize=3, linewidth=1, color=colour, label=label)
+
+
+def draw_points(axes, across, up, completed, others):
+    """All members, coloured by the parameter that takes the fewest values."""
+    def values_of(column):
+        return np.unique(column.values[np.isfinite(column.values)])
+
+    by = min(others, key=lambda column: (len(values_of(column)) < 2, len(values_of(column))))
+    values = values_of(by)
+    if len(values) > MOST_LINES:
+        axes.plot(across[completed], up[completed], "o", markersize=3, color=style.CURVE, alpha=0.6)
+        return
+    for value, colour in zip(values, plt.get_cmap(style.SIZE_MAP)(np.linspace(0, 0.9, len(values)))):
+        members = np.flatnonzero(completed & (by.values == value))
+        if len(members):
+            label = value_text(by, members[0])
+            axes.plot(across[members], up[members], "o", markersize=3, color=colour, alpha=0.7, label=label)
+
+
 def draw_panel(axes, sweep, figure, parameter):
     across, across_label = parameter.drawn()
     up, up_label = figure.drawn()
     alike = lines(sweep.parameters, parameter, sweep.completed)
-    joined = len(alike) <= MOST_LINES
     others = [column for column in sweep.parameters if column is not parameter]
-    colours = plt.get_cmap(style.SIZE_MAP)(np.linspace(0, 0.9, max(len(alike), 1)))
-    for members, colour in zip(alike, colours):
-        label = ", ".join(
-            f"{other.name.split('.')[-1]} {other.choices[int(other.values[members[0]])]}"
-            if other.choices
-            else f"{other.name.split('.')[-1]} {other.values[members[0]]:.4g}"
-            for other in others
-        )
-        axes.plot(
-            across[members], up[members], "o-" if joined and len(members) > 1 else "o", markersize=3, linewidth=1,
-            color=colour if joined else style.CURVE, alpha=1 if joined else 0.6, label=label if joined else None,
-        )
+    if len(alike) <= MOST_LINES or not others:
+        draw_lines(axes, across, up, alike, others)
+    else:
+        draw_points(axes, across, up, sweep.completed, others)
     if parameter.choices:
         axes.set_xticks(range(len(parameter.choices)), parameter.choices)
+    else:
+        axes.ticklabel_format(useOffset=False)
+        axes.tick_params(axis="x", labelrotation=20)
     axes.set(xlabel=across_label, ylabel=up_label)
     axes.margins(MARGIN)
     axes.grid(alpha=0.3)
-    if joined and others and len(alike) > 1:
+    if others and axes.get_legend_handles_labels()[0]:
         axes.legend(fontsize=style.TINY)
 
 

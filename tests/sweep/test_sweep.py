@@ -157,6 +157,25 @@ class Whole(SweepTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertTrue((self.folder / "out" / "sweep-heat.png").exists(), done.stdout + done.stderr)
 
+    def test_pictures_of_many_members(self):
+        # More than twelve lines: points by colour; a text as parameter; a member that did not complete.
+        path = self.folder / "made-up.h5"
+        parts = np.indices((2, 5, 4)).reshape(3, -1).astype(float)
+        with h5py.File(path, "w") as file:
+            file.attrs.update({"format": "Railwave sweep", "title": "made up"})
+            file["status"] = np.where(np.arange(40) == 7, 1.0, 0.0)
+            for name, values in zip(("parts.a.hourglass", "b", "c"), parts):
+                file[f"parameters/{name}"] = values
+                file[f"parameters/{name}"].attrs["unit"] = "m"
+            file["parameters"].attrs["parts.a.hourglass"] = ["stiffness", "viscous"]
+            file["figures/force"] = np.where(np.arange(40) == 7, np.nan, parts[1] ** 2)
+            file["figures/force"].attrs["unit"] = "N"
+            file["figures/none"] = np.full(40, np.nan)
+            file["figures/none"].attrs["unit"] = "1"
+        done = subprocess.run([ROOT / "scripts" / "picture", "--sweep", path], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.split(), [str(self.folder / "made-up-force.png")])
+
     def test_natural_frequencies(self):
         bar = studies.STEEL + """
 [meshes.bar]

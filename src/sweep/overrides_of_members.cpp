@@ -1,6 +1,7 @@
 #include "sweep/overrides_of_members.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -60,7 +61,8 @@ std::vector<Node> points_of_range(const std::string& subject, const Node& range,
     Node point;
     point.type = Type::number;
     point.where = range.where;
-    point.number = std::stod(fmt::format("{:.12g}", value));  // 0.3, not 0.30000000000000004
+    const std::string text = fmt::format("{:.12g}", value);  // 0.3, not 0.30000000000000004
+    std::from_chars(text.data(), text.data() + text.size(), point.number);
     points.push_back(point);
   }
   return points;

@@ -52,6 +52,7 @@ WORDS = {
     "--direction",
     "--channel",
     "--trend",
+    "--member",
     "--members",
     "--job",
 }

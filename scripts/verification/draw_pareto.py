@@ -7,7 +7,6 @@ import matplotlib.pyplot as plt
 from pictures import style
 from pictures.output import check_places, put_figure
 
-from verification.pareto import time_of
 from verification.pareto_table import SHORT, TARGETS, errors, groups, order, spoken
 
 style.apply()
@@ -51,18 +50,18 @@ def draw(panel, name, group):
     factor = 1 if name == "worst_error" else 100
     for k, method in enumerate(dict.fromkeys(spoken(row) for row in sorted(group, key=order))):
         mine = [row for row in sorted(group, key=order) if spoken(row) == method]
-        panel.plot([time_of(row) for row in mine], [factor * size_of(row, name) for row in mine],
+        panel.plot([row["cost"] for row in mine], [factor * size_of(row, name) for row in mine],
                    "s-" if mine[0]["algorithm"] == "multiplier" else "o--" if mine[0]["growth"] == "1" else "o-",
                    color=plt.get_cmap(style.LIST)(k % 10), markersize=4, label=method)
     front = [row for row in group if SHORT[name] in row["front"].split()]
-    panel.plot([time_of(row) for row in front], [factor * size_of(row, name) for row in front], "o",
+    panel.plot([row["cost"] for row in front], [factor * size_of(row, name) for row in front], "o",
                markersize=9, fillstyle="none", color="black", label="front")
     target = 1 if name == "worst_error" else 100 * TARGETS[name][0]
     panel.axhline(target, color="grey", linewidth=0.8, linestyle=":", label="target for ten elements")
     panel.set_xscale("log")
     panel.set_yscale("log")
-    panel.set_xlabel("processor time, s" if group[0]["processor_s"] else "time of settling and steps, s",
-                     fontsize=style.SMALL)
+    seconds = "processor time, s" if group[0]["processor_s"] else "time of settling and steps, s"
+    panel.set_xlabel(seconds if group[0]["unit"] == "s" else group[0]["unit"], fontsize=style.SMALL)
     panel.set_ylabel("largest error over its target" if name == "worst_error" else f"error of {SHORT[name]}, %",
                      fontsize=style.SMALL)
     panel.grid(alpha=0.3)

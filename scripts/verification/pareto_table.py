@@ -13,7 +13,16 @@ TARGETS = {
 }
 SHORT = {"peak_pressure_error": "peak", "area_error": "area", "approach_error": "approach",
          "stick_share_error": "stick", "creepage_error": "creepage", "worst_error": "worst"}
-JOINED = [*COLUMNS, "worst_error", "worst_error_of_twenty", "front"]
+JOINED = [*COLUMNS, "cost", "unit", "worst_error", "worst_error_of_twenty", "front"]
+
+
+def work_of(row):
+    """Element evaluations, of settling and steps: what run time on a processor goes with, whatever the machine. By
+    multipliers or springs a step costs the same there within a few per cent (docs/contact.md)."""
+    return float(row["elements"]) * (float(row["settling_evaluations"]) + float(row["steps"]))
+
+
+UNITS = {time_of: "s", work_of: "element evaluations"}
 
 
 def errors(row):
@@ -31,7 +40,7 @@ def beaten(point, points):
     return any(q[0] <= point[0] and q[1] <= point[1] and q != point for q in points)
 
 
-def joined(paths):
+def joined(paths, cost=time_of):
     """Rows of all tables, done ones only, with worst errors and the figures whose front they are on: of runs of the
     same scene and device. Throws ValueError where nothing is there, or where two tables have the same run."""
     rows, seen = [], {}
@@ -51,13 +60,14 @@ def joined(paths):
         raise ValueError(f"no run is done in {', '.join(paths)}")
     for row in rows:
         row["worst_error"], row["worst_error_of_twenty"] = worst(row, 0), worst(row, 1)
+        row["cost"], row["unit"] = cost(row), UNITS[cost]
     for group in groups(rows).values():
         for row in group:
             mine = {"worst_error": row["worst_error"], **errors(row)}
             row["front"] = " ".join(
                 SHORT[name] for name, size in mine.items()
-                if not beaten((time_of(row), size), [
-                    (time_of(r), {"worst_error": r["worst_error"], **errors(r)}[name]) for r in group])
+                if not beaten((row["cost"], size), [
+                    (r["cost"], {"worst_error": r["worst_error"], **errors(r)}[name]) for r in group])
             )
     return rows
 
@@ -95,15 +105,23 @@ def write_joined(rows, path):
 def cheapest(rows, limit):
     """@param limit name of the worst error that must be at most 1"""
     good = [row for row in rows if row[limit] <= 1]
-    return min(good, key=time_of) if good else None
+    return min(good, key=lambda row: row["cost"]) if good else None
 
 
 def seconds(value):
     return f"{float(value):.3g} s"
 
 
+def title(group):
+    return "time" if group[0]["unit"] == "s" else group[0]["unit"]
+
+
 def remark(row):
     return "" if row["status"] == "done" else ", not settled"
+
+
+def spoken_cost(row):
+    return seconds(row["cost"]) if row["unit"] == "s" else f"{1e-6 * row['cost']:.3g} M"
 
 
 def summary(rows):
@@ -112,7 +130,7 @@ def summary(rows):
     for (scene, device), group in groups(rows).items():
         figures = [name for name in TARGETS if any(row[name] != "" for row in group)]
         lines += [f"{scene}, {device}:", "",
-                  f"| method | ten elements: {' / '.join(SHORT[name] for name in figures)} | time "
+                  f"| method | ten elements: {' / '.join(SHORT[name] for name in figures)} | {title(group)} "
                   "| cheapest within targets for ten | for twenty |", "|---|---|---|---|---|"]
         for name in dict.fromkeys(spoken(row) for row in sorted(group, key=order)):
             mine = [row for row in group if spoken(row) == name]
@@ -121,8 +139,8 @@ def summary(rows):
             lines.append(" | ".join([
                 f"| {name}",
                 " / ".join(f"{100 * float(ten[f]):+.1f}" for f in figures) + " %" if ten else "not run",
-                seconds(time_of(ten)) if ten else "",
-                *(f"{seconds(time_of(b))}, {b['elements_across']} elements" if b else "none" for b in best),
+                spoken_cost(ten) if ten else "",
+                *(f"{spoken_cost(b)}, {b['elements_across']} elements" if b else "none" for b in best),
             ]) + " |")
         lines.append("")
     return lines
@@ -133,12 +151,12 @@ def details(rows):
     for (scene, device), group in groups(rows).items():
         figures = [name for name in TARGETS if any(row[name] != "" for row in group)]
         lines += [f"All runs, {scene}, {device}:", "",
-                  "| method | elements across | time | of it settling | step | million element-steps/s | "
+                  f"| method | elements across | {title(group)} | settling | step | million element-steps/s | "
                   + " | ".join(SHORT[name] for name in figures) + " | worst over target | on the front of |",
                   "|" + "---|" * (8 + len(figures))]
         for row in sorted(group, key=order):
             lines.append(" | ".join([
-                f"| {spoken(row)}", row["elements_across"], seconds(time_of(row)) + remark(row),
+                f"| {spoken(row)}", row["elements_across"], spoken_cost(row) + remark(row),
                 seconds(row["settling_s"]),
                 f"{1e9 * float(row['step_s']):.0f} ns", f"{1e-6 * float(row['element_steps_per_s']):.3g}",
                 *(f"{100 * float(row[f]):+.1f} %" for f in figures), f"{row['worst_error']:.2f}", row["front"],

@@ -13,14 +13,15 @@ SOURCE = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
 SCRIPT = SOURCE / "scripts" / "contact_pareto"
 sys.path.insert(0, str(SOURCE / "scripts"))
 from verification.pareto import COLUMNS, Job, METHODS, Method, plan  # noqa: E402
-from verification.pareto_table import joined  # noqa: E402
+from verification.pareto_table import joined, work_of  # noqa: E402
 
 
 def row(method, elements, wall, peak, area, device="A", scene="hertz", approach=0.0):
     values = dict.fromkeys(COLUMNS, "")
     values.update(zip(COLUMNS, Job(scene, Method.named(method), elements).key))
     values.update(status="done", wall_s=wall, settling_s=wall, step_s=1e-7, element_steps_per_s=1e7,
-                  peak_pressure_error=peak, area_error=area, approach_error=approach, device=device)
+                  elements=1000, settling_evaluations=500, steps=int(1500 / wall), peak_pressure_error=peak,
+                  area_error=area, approach_error=approach, device=device)
     return values
 
 
@@ -79,6 +80,16 @@ class Pareto(unittest.TestCase):
         self.assertIn("worst", fronts["B", "penalty", "4"])  # another machine's is another front
         self.assertAlmostEqual(found[1]["worst_error"], 0.5)  # 2 of 4 %, 3 of 6 %
         self.assertAlmostEqual(found[1]["worst_error_of_twenty"], 1.0)
+
+    def test_element_evaluations_may_count_in_place_of_time(self):
+        table = self.table("a.csv", [row("multiplier", 4, 1.0, 0.05, 0.01), row("penalty-1", 4, 3.0, 0.06, 0.02)])
+        by_time, by_work = joined([table]), joined([table], work_of)
+        self.assertEqual([r["cost"] for r in by_time], [1.0, 3.0])
+        self.assertEqual([r["cost"] for r in by_work], [2e6, 1e6])
+        self.assertNotIn("peak", by_time[1]["front"].split())
+        self.assertIn("peak", by_work[1]["front"].split())  # fewer evaluations
+        done = self.call("--join", table, "--work")
+        self.assertIn("| penalty, f_SI 1 | 4 | 1 M |", done.stdout)
 
     def test_tables_are_joined_with_pictures(self):
         first = self.table("a.csv", [row("multiplier", n, n, 0.1 / n, 0.1 / n) for n in (4, 10, 20)])

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -134,7 +135,10 @@ FigureValue mode_frequency(const Figure& figure, const CsvRows& table) {
   const auto place = static_cast<std::size_t>(column - heading.begin());
   const auto row = static_cast<std::size_t>(figure.mode);
   double value = unknown;  // fewer modes below the highest frequency asked for
-  if (row < table.size() && place < table[row].cells.size()) value = std::stod(table[row].cells[place]);
+  if (row < table.size() && place < table[row].cells.size()) {
+    const std::string& cell = table[row].cells[place];
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  }
   return {figure.name, "Hz", value};
 }
 

@@ -126,7 +126,7 @@ class OptionMessages(unittest.TestCase):
         self.refused(["signal", "foo"], "there is no analysis 'foo'; there are: psd, ")
         self.refused(["signal", "psdd", "x.h5"], "did you mean 'psd'?")
         self.refused(["signal"], "a kind of analysis is missing; there are: psd")
-        self.refused([], "a command is missing; there are: run, check")
+        self.refused([], "a command is missing; there are: run, ensemble, check")
         self.refused(["--vresion"], "there is no option '--vresion'; did you mean '--version'?")
         self.refused(
             ["check", "x.toml", "--sett", "time.end=1"], "check: there is no option '--sett'; did you mean '--set'?"

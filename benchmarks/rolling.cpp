@@ -91,6 +91,8 @@ bool work(const Options& options, Records& records) {
   auto model = std::make_unique<Model>();
   const double building = seconds_of([&] {
     scene::Scene scene = rolling_scene(overrides);
+    // The runs that are timed one after another have all the same step.
+    scene.solver.step_estimate = scene::StepEstimate::element;
     if (!options.settle) {
       scene.settle.active = options.settle_steps > 0;
       scene.settle.method = scene::SettleMethod::relaxation;

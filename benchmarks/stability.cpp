@@ -7,6 +7,7 @@
 #include "benchmarks/stability/scenes.hpp"
 #include "benchmarks/stability/trial.hpp"
 #include "case/error.hpp"
+#include "model/time_step/automatic_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
 namespace railwave::bench {
@@ -27,7 +28,7 @@ const std::vector<Control> all_controls = {
 
 /// What the program would use with step_scale 1, s.
 struct Predicted {
-  double element, eigenvalue, global;
+  double element, eigenvalue, global, automatic = 0;
 };
 
 Predicted predicted_of(Model& model) {
@@ -40,6 +41,36 @@ Predicted predicted_of(Model& model) {
   const Predicted predicted{used(stable.by_elements), used(stable.by_eigenvalues), used(stable.global)};
   model.stable_step.limit = stable.limit;
   return predicted;
+}
+
+void set_positions(Model& model, const std::vector<double>& positions) {
+  if (positions.empty()) return;
+  const auto position = to_host(model.nodes.position);
+  for (int n = 0; n < model.nodes.count; ++n)
+    for (int i = 0; i < 3; ++i) position(n, i) = positions[3 * n + i];
+  Kokkos::deep_copy(model.nodes.position, position);
+}
+
+scene::Scene with_estimate(scene::Scene scene, scene::StepEstimate estimate) {
+  scene.solver.step_estimate = estimate;
+  return scene;
+}
+
+/// What the default takes in a run so long that any gain pays, s.
+/// @param positions m, of the calm state, in which the bodies are about to begin as if they had settled; empty:
+/// undeformed
+double automatic_step(const Setup& setup, const std::vector<double>& positions) {
+  scene::Scene scene = with_estimate(setup.scene, scene::StepEstimate::automatic);
+  scene.time.step_scale = 1;
+  scene.time.end = 1;
+  scene.settle.active = !positions.empty();
+  Model model;
+  build_model(scene, setup.assembly, model);
+  if (!positions.empty()) {
+    set_positions(model, positions);
+    if (model.global_estimate) renew_automatic_step(model.scene, model.contacts, 0, 0, model);
+  }
+  return largest_step(model.scene.time, model.stable_step);
 }
 
 /// What is known of a scene in double precision, with which those in others share it.
@@ -55,14 +86,6 @@ struct Named {
   double penalty_scale;
   std::string precision;
 };
-
-void set_positions(Model& model, const std::vector<double>& positions) {
-  if (positions.empty()) return;
-  const auto position = to_host(model.nodes.position);
-  for (int n = 0; n < model.nodes.count; ++n)
-    for (int i = 0; i < 3; ++i) position(n, i) = positions[3 * n + i];
-  Kokkos::deep_copy(model.nodes.position, position);
-}
 
 /// Finds the border, asks whether each prediction itself is calm, and writes it down.
 class Map {
@@ -82,17 +105,19 @@ class Map {
       return;
     }
     // Between the two the prediction itself is asked.
-    const double predictions[3] = {known.predicted.element, known.predicted.eigenvalue, known.predicted.global};
+    const double predictions[4] = {known.predicted.element, known.predicted.eigenvalue, known.predicted.global,
+                                   known.predicted.automatic};
     for (double step : predictions)
       if (step > border.calm && step < border.wild)
         (trial.blows_up(step, options_.steps) ? border.wild : border.calm) = step;
-    const double ratio[3] = {predictions[0] / border.calm, predictions[1] / border.calm, predictions[2] / border.calm};
+    const double ratio[4] = {predictions[0] / border.calm, predictions[1] / border.calm, predictions[2] / border.calm,
+                             predictions[3] / border.calm};
     fmt::print(
         "{:7} {:21} {:9} {:5.2f} f_SI {:5.2f} {:6}: {:5} elements, border {:9.4g} s, exact/border {:6.3f}; "
         "predicted/border: element {:5.3f} "
-        "eigenvalue {:5.3f} global {:5.3f}; in twice the steps {:6.4f}; {} runs\n",
+        "eigenvalue {:5.3f} global {:5.3f} automatic {:5.3f}; in twice the steps {:6.4f}; {} runs\n",
         named.kind, named.mesh, named.control.name(), named.control.coefficient, named.penalty_scale, named.precision,
-        model.element_count(), border.calm, known.exact / border.calm, ratio[0], ratio[1], ratio[2],
+        model.element_count(), border.calm, known.exact / border.calm, ratio[0], ratio[1], ratio[2], ratio[3],
         border.calm_in_twice / border.calm, trial.runs);
     std::fflush(stdout);
     records_.add()
@@ -109,6 +134,7 @@ class Map {
         .set("element", predictions[0])
         .set("eigenvalue", predictions[1])
         .set("global", predictions[2])
+        .set("automatic", predictions[3])
         .set("calm_in_twice", border.calm_in_twice)
         .set("contact", model.stable_step.contact)
         .set("runs", trial.runs);
@@ -133,11 +159,6 @@ class Map {
   int scenes_ = 0, restless_ = 0;
 };
 
-scene::Scene with_global_estimate(scene::Scene scene) {
-  scene.solver.step_estimate = scene::StepEstimate::global;
-  return scene;
-}
-
 const std::vector<std::string>& precisions(const Options& options, const Control& control) {
   static const std::vector<std::string> one{"double"}, all{"double", "mixed", "float"};
   const bool own = (control.type == scene::HourglassType::viscous && control.coefficient == 0.1) ||
@@ -157,8 +178,9 @@ void bodies(Map& map) {
         if (known.exact == 0) {
           const Setup plain = body(distortion, control, "double");
           Model model;
-          build_model(with_global_estimate(plain.scene), plain.assembly, model);
+          build_model(with_estimate(plain.scene, scene::StepEstimate::global), plain.assembly, model);
           known = {predicted_of(model), ExactLimit(model)(model.stable_step.global), {}};
+          known.predicted.automatic = automatic_step(plain, {});
         }
         try {
           Model model;
@@ -177,7 +199,7 @@ constexpr double slow = 0.01;
 Known known_pressed(const Pressing& pressing, const Control& control, double scale) {
   const Setup setup = pressed(pressing, control, scale, pressure, "double");
   Model model;
-  build_model(with_global_estimate(setup.scene), setup.assembly, model);
+  build_model(with_estimate(setup.scene, scene::StepEstimate::global), setup.assembly, model);
   // Newton's method settles with stiffness control, which is that of the run or is not.
   if (control.type == scene::HourglassType::stiffness) {
     model.scene.settle.tolerance = 1e-7;
@@ -198,6 +220,7 @@ Known known_pressed(const Pressing& pressing, const Control& control, double sca
                                  return all;
                                }())
                         .values;
+  known.predicted.automatic = automatic_step(setup, known.positions);
   return known;
 }
 
@@ -240,10 +263,21 @@ void rolling(Map& map) {
   // The springs that count are those of the wheel that is about to roll.
   set_initial_motion(model, model.nodes, model.beams);
   renew_global_step(model.scene, model.contacts, model.time, model);
+  Predicted predicted = predicted_of(model);
+  // The default's own run begins with the same motion, on the same ground.
+  Model own;
+  scene::Scene of_default = with_estimate(scene, scene::StepEstimate::automatic);
+  of_default.time.step_scale = 1;
+  of_default.time.end = 1;
+  build_model(of_default, own);
+  Kokkos::deep_copy(own.nodes.position, model.nodes.position);
+  Kokkos::deep_copy(own.nodes.velocity, model.nodes.velocity);
+  if (own.global_estimate) renew_automatic_step(own.scene, own.contacts, 0, 0, own);
+  predicted.automatic = largest_step(own.scene.time, own.stable_step);
   Kokkos::deep_copy(model.nodes.velocity, 0.0);
   fmt::print("rolling: settled {} by {} evaluations; {} contact springs counted\n", report.settled, report.steps,
              model.stable_step.springs);
-  map.add(named, model, {predicted_of(model), 0, {}});
+  map.add(named, model, {predicted, 0, {}});
 }
 
 bool work(const Options& options, Records& records) {

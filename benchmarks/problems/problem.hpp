@@ -39,6 +39,7 @@ inline void apply(const Method& method, scene::Scene& scene) {
   part.hourglass_coefficient = method.hourglass_coefficient > 0                  ? method.hourglass_coefficient
                                : part.hourglass == scene::HourglassType::viscous ? 0.1
                                                                                  : 0.05;
+  scene.solver.step_estimate = scene::StepEstimate::element;
   if (method.step_rule == "eigenvalue") scene.solver.step_estimate = scene::StepEstimate::eigenvalue;
   if (method.step_rule == "global") scene.solver.step_estimate = scene::StepEstimate::global;
   scene.time.step_scale = method.step_scale;

@@ -18,8 +18,8 @@ struct FindNearNodes {
   bool first;          ///< no earlier check counts: nodes that penetrate do so from the start, and keep their gap
   bool thorough;       ///< nodes far from all boxes are projected too
   Array<int*> missed;  ///< one value: nodes that came through the surface although the check before found them far
-  Array<const int*> counted;  ///< by slave: its spring is counted in the present step; empty: nobody asks
-  Array<int*> uncounted;      ///< one value: near nodes that are not
+  Array<const double*> counted;  ///< N/m by slave: spring that is counted in the present step; empty: nobody asks
+  Array<int*> uncounted;         ///< one value: near nodes whose spring is stiffer
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     const ContactArrays& contact = search.contact;
@@ -63,7 +63,9 @@ struct FindNearNodes {
     window.entries(i) = entry;
     if (entry.near == 0) return;
     window.near(Kokkos::atomic_fetch_add(&window.near_count(0), 1)) = i;
-    if (counted.extent(0) != 0 && counted(s) == 0) Kokkos::atomic_add(&uncounted(0), 1);
+    constexpr double rounding = 1e-9;
+    if (counted.extent(0) != 0 && contact.segment_stiffness(contact.tracked(s)) > (1 + rounding) * counted(s))
+      Kokkos::atomic_add(&uncounted(0), 1);
   }
 
   /// Distance that slave node and segment together can move until the next check, m.

@@ -47,9 +47,9 @@ struct Checkpoint {
 struct Solver {
   Precision precision =
       Precision::double_precision;  ///< mixed: elements in single, nodes in double; single: both in single
-  StepEstimate step_estimate = StepEstimate::element;  ///< what the stable step is taken from
-  bool subcycling = false;                             ///< coarse regions take larger steps than fine ones
-  int renew_steps = 20000;                             ///< steps between renewals of the global estimate; 0: never
+  StepEstimate step_estimate = StepEstimate::automatic;  ///< what the stable step is taken from
+  bool subcycling = false;                               ///< coarse regions take larger steps than fine ones
+  int renew_steps = 20000;                               ///< steps between renewals of the global estimate; 0: never
 
   bool elements_in_single() const { return precision != Precision::double_precision; }
 };

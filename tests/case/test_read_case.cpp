@@ -453,7 +453,7 @@ TEST_CASE("what a case does not say keeps scene.hpp's defaults", "[case]") {
   CHECK(scene.time.step_scale == 0.9);
   CHECK(scene.time.step == 0);
   CHECK(scene.solver.precision == scene::Precision::double_precision);
-  CHECK(scene.solver.step_estimate == scene::StepEstimate::element);
+  CHECK(scene.solver.step_estimate == scene::StepEstimate::automatic);
   CHECK_FALSE(scene.solver.subcycling);
   CHECK(scene.output.file == "results/case/case.h5");
   CHECK(scene.output.fields.empty());

@@ -48,12 +48,15 @@ struct Outcome {
 
 Outcome outcome_of(const Seed& seed, long limit = steps) {
   Model model;
+  // What is spoiled is the step of the elements, which no contact makes another one.
+  scene::Scene scene = seed.scene;
+  scene.solver.step_estimate = scene::StepEstimate::element;
   if (seed.mesh) {
-    Assembly assembly = assemble(seed.scene);
+    Assembly assembly = assemble(scene);
     seed.mesh(assembly);
-    build_model(seed.scene, assembly, model);
+    build_model(scene, assembly, model);
   } else {
-    build_model(seed.scene, model);
+    build_model(scene, model);
   }
   if (seed.spoil) seed.spoil(model);
   model.step_count = limit;

@@ -206,6 +206,15 @@ KINDS = {
 }
 
 
+# The default takes the whole scene's step while the upper block flies, and a shorter one as it comes down.
+KINDS["automatic_step"] = dict(
+    of_contact="damping = 0.05\npenalty_scale = 3",
+    instead={"velocity = [2, 1, -2]": "velocity = [0.001, 0, 0]", "[0, 30, 10]": "[0, 0, 0.1]",
+             "[0.005, 0.005, 0.03001]": "[0.005, 0.005, 0.042]", "[0, 0, -1e5]": "[0, 0, -5e3]"},
+    end=4e-3,
+)
+
+
 def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, instead=()):
     text = (
         BLOCKS.format(of_contact=of_contact, of_upper=of_upper, upper=upper, end=end, field_interval=field_interval)
@@ -286,6 +295,9 @@ def add_kind(name, options):
             self.assertIn("times fewer element updates", said)
         if name == "global_step":
             self.assertRegex(said, "steps between .* renewed [1-9]")
+        if name == "automatic_step":
+            self.assertRegex(said, "steps between .* renewed [1-9]")
+            chosen = re.search(r"step automatic: the whole scene's step, .* evaluations of forces spent on it", said)[0]
         whole = self.folder / "whole.h5"
         shutil.move(self.results, whole)
         shutil.move(self.results.with_suffix(".xdmf"), whole.with_suffix(".xdmf"))
@@ -294,6 +306,8 @@ def add_kind(name, options):
         said = self.run_to_end("--restart")
         self.assertIn("restart: goes on from results.checkpoint.h5: step ", said)
         self.assertNotIn(".h5: step 0,", said)
+        if name == "automatic_step":
+            self.assertIn(chosen, said)
         self.assert_same(whole, self.results)
         self.assertEqual(monitored(said), monitored(of_whole))
         self.assertGreater(len(monitored(said)), 5 if name == "monitored" else 0)

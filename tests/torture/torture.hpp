@@ -59,6 +59,7 @@ struct Ordeal : RunObserver {
 /// @param mass kg, of the body whose momentum is to be balanced; 0: none
 inline Ordeal endure(Model& model, long steps, double mass = 0) {
   model.step_count = steps;
+  model.scene.time.end = static_cast<double>(steps) * model.step_size;  // where contact makes the step another one
   model.output_times.history = static_cast<double>(std::max(1L, steps / 400)) * model.step_size;
   model.output_times.fields = 1e9 * model.step_size;
   Ordeal ordeal;

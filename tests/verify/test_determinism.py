@@ -185,6 +185,9 @@ DAMPED = (
     "contacts.touch.damping=0.05",
 )
 
+# For the whole scene's step to pay, so that the default takes it.
+LONG_ENOUGH = ("--set", "time.end=1e-3", "--set", "output.history_interval=1e-5")
+
 
 def main():
     if len(sys.argv) > 2 and sys.argv[1] == "--program":
@@ -198,6 +201,8 @@ def main():
         repeats("graded_rail.toml"),
         repeats("two_blocks.toml", "--set", "solver.precision=float"),
         repeats("two_blocks.toml", "--set", "contacts.touch.algorithm=multiplier"),
+        repeats("two_blocks.toml", *LONG_ENOUGH),
+        same_whatever_is_set("two_blocks.toml", *LONG_ENOUGH),
     ]
     for precision in ("double", "mixed"):
         of_precision = ("--set", f"solver.precision={precision}")

@@ -42,7 +42,7 @@ const scene::HourglassType both_kinds[] = {scene::HourglassType::viscous, scene:
 
 /// Two columns of 1 mm cubes on one another, moving along z only.
 /// @param penalty_scale for each of the segment's four nodes, which inside a surface would have a segment each
-scene::Scene columns(int length, double penalty_scale) {
+scene::Scene pressed_columns(int length, double penalty_scale) {
   TwoBlocks blocks;
   blocks.upper_size = blocks.lower_size = {1e-3, 1e-3, 1e-3 * length};
   blocks.upper_divisions = blocks.lower_divisions = {1, 1, length};
@@ -172,7 +172,7 @@ TEST_CASE("strong viscous hourglass control shortens the element estimate to wha
 TEST_CASE("contact at f_SI = 1 in a chain of 1 mm elements allows 0.88 of the elements' own step") {
   // The chain is one-dimensional: without hourglass motion, which viscous control damps.
   const auto chain = [](double hourglass) {
-    scene::Scene scene = columns(20, 0.25);
+    scene::Scene scene = pressed_columns(20, 0.25);
     for (scene::Part& part : scene.parts) part.hourglass_coefficient = hourglass;
     return scene;
   };
@@ -202,7 +202,7 @@ TEST_CASE("contact at f_SI = 1 in a chain of 1 mm elements allows 0.88 of the el
 
 TEST_CASE("pressed columns stay calm at 0.99 of the global step, not at 1.03") {
   for (double scale : {0.99, 1.03}) {
-    scene::Scene scene = columns(6, 1);
+    scene::Scene scene = pressed_columns(6, 1);
     scene.time.end = 1e-3;
     scene.gravity = {0, 0, -1e7};
     hold(scene, "lower.z_min", {true, true, true});

@@ -30,9 +30,10 @@ struct ContactPair {
   int partner = -1;           ///< the other half of a symmetric contact, -1: none
   std::vector<char> on_both;  ///< by slave: a node of the master too, at a seam's end, where it can't meet itself
   Array<int*> missed;         ///< one: see FindNearNodes
-  Array<int*> counted;    ///< by slave: its spring is counted in the step; empty where nobody asks (automatic_step.hpp)
-  Array<int*> uncounted;  ///< one: nodes that could touch at the last check, and were not counted
-  long near_checked_at = -1;                        ///< step of that check
+  Array<double*> counted;     ///< N/m by slave: its spring that is counted in the step, see FindNearNodes; empty where
+                              ///< nobody asks (automatic_step.hpp)
+  Array<int*> uncounted;      ///< one: nodes that can touch by the last check, and are not counted
+  long near_checked_at = -1;  ///< step of that check
   std::vector<int> slave_nodes, master_nodes;       ///< host copies, model node numbers
   std::vector<std::array<int, 4>> slave_facets;     ///< positions in slave_nodes
   std::vector<std::array<int, 4>> master_segments;  ///< positions in master_nodes

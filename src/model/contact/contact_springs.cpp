@@ -144,7 +144,7 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
     for (const WindowEntry& entry : to_vector(pair.window.entries)) near[entry.slave] = entry.near != 0;
 
   std::vector<ContactSpring> springs;
-  const auto status = to_host(pair.arrays.status);
+  const auto status = to_host(pair.arrays.status), tracked = to_host(pair.arrays.tracked);
   for (std::size_t s = 0; s < slaves.size(); ++s) {
     if (pair.on_both[s] != 0) continue;
     const Vec3& v = slave_velocities[s];
@@ -158,8 +158,12 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
     const bool may_touch =
         aside <= around.size[m] && gap <= within.share * around.size[m] + closing && gap >= -around.size[m];
     if (status(static_cast<int>(s)) == status_apart && !may_touch && !near[s]) continue;
+    double stiffness = around.stiffness[m];
+    // Of long segments that under the node need not have the nearest corner.
+    if (within.near && tracked(static_cast<int>(s)) >= 0)
+      stiffness = std::fmax(stiffness, pair.segment_stiffness[tracked(static_cast<int>(s))]);
     ContactSpring spring{
-        static_cast<int>(s), pair.slave_nodes[s], pair.growth * around.stiffness[m], 0, around.normal[m], {}, {}};
+        static_cast<int>(s), pair.slave_nodes[s], pair.growth * stiffness, 0, around.normal[m], {}, {}};
     place_on_segment(pair, masters, around.segments[m], m, away, spring);
     spring.damping = damping_of(mass, pair.contact->damping, spring);
     springs.push_back(spring);

@@ -54,10 +54,15 @@ bool flows(const Model& model) {
   });
 }
 
+/// By how many times the whole scene's step must be longer for the step that the case gives; 0: it gives none.
+double asked_gain(const scene::Scene& scene, const StableStep& stable) {
+  return scene.time.step / elements_limit(stable);
+}
+
 /// Why a scene's step is the elements' without any search; `pays` where nothing speaks against one.
 Reason obstacle(const Model& model) {
   const scene::Scene& scene = model.scene;
-  if (scene.time.step > 0) return Reason::step_given;
+  if (scene.time.step > 0 && scene.time.step <= model.stable_step.by_elements) return Reason::step_given;
   if (scene.solver.subcycling) return Reason::subcycled;
   if (!std::isfinite(model.stable_step.by_elements) || model.nodes.count == 0 || model.assembly.elements.empty())
     return Reason::no_elements;
@@ -69,13 +74,12 @@ Reason obstacle(const Model& model) {
   return Reason::pays;
 }
 
-void count_in(const std::vector<ContactPair>& contacts, const std::vector<std::vector<char>>& seen) {
+void count_in(const std::vector<ContactPair>& contacts, const std::vector<std::vector<double>>& counted) {
   for (std::size_t p = 0; p < contacts.size(); ++p) {
-    const Array<int*>& counted = contacts[p].counted;
-    if (counted.extent(0) == 0) continue;
-    const auto host = Kokkos::create_mirror_view(counted);
-    for (std::size_t s = 0; s < seen[p].size(); ++s) host(s) = seen[p][s];
-    Kokkos::deep_copy(counted, host);
+    if (contacts[p].counted.extent(0) == 0) continue;
+    const auto host = Kokkos::create_mirror_view(contacts[p].counted);
+    for (std::size_t s = 0; s < counted[p].size(); ++s) host(s) = counted[p][s];
+    Kokkos::deep_copy(contacts[p].counted, host);
   }
 }
 
@@ -98,7 +102,7 @@ bool take_if(double least, const scene::Scene& scene, const std::vector<ContactP
   stable.global = stable.limit = found.step;
   stable.springs = found.springs;
   stable.seen = std::move(found.seen);
-  count_in(contacts, stable.seen);
+  count_in(contacts, found.counted);
   return true;
 }
 
@@ -146,7 +150,9 @@ void choose_step(Model& model) {
   StableStep& stable = model.stable_step;
   stable.choice = {obstacle(model)};
   if (stable.choice.reason != Reason::pays) return;
-  const double least = least_gain(steps_by_elements(model.scene, stable), has_contact_springs(model.contacts));
+  const double asked = asked_gain(model.scene, stable);
+  const double least =
+      asked > 0 ? asked : least_gain(steps_by_elements(model.scene, stable), has_contact_springs(model.contacts));
   if (!std::isfinite(least)) {
     stable.choice.reason = Reason::short_run;
     return;
@@ -158,7 +164,7 @@ void choose_step(Model& model) {
     return;
   }
   for (ContactPair& pair : model.contacts)
-    if (pair.has_springs()) pair.counted = Array<int*>("counted", pair.slave_nodes.size());
+    if (pair.has_springs()) pair.counted = Array<double*>("counted", pair.slave_nodes.size());
 }
 
 bool may_search_again(const scene::Scene& scene, const StepSizes& sizes, double time, long step) {
@@ -174,7 +180,7 @@ void renew_automatic_step(const scene::Scene& scene, const std::vector<ContactPa
   // At the beginning bodies lie as they have settled, which the first search could not know.
   if (step > 0 && !may_search_again(scene, sizes, time, step))
     leave_it(Reason::changes_often, sizes);
-  else if (!take_if(still_a_gain, scene, contacts, time, sizes))
+  else if (!take_if(std::fmax(still_a_gain, asked_gain(scene, sizes.stable_step)), scene, contacts, time, sizes))
     leave_it(Reason::no_longer_pays, sizes);
 }
 

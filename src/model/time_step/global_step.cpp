@@ -93,13 +93,18 @@ void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result)
   for (const ContactPair& pair : contacts_) {
     if (!pair.has_springs()) {
       result.seen.emplace_back(pair.slave_nodes.size(), 1);
+      result.counted.emplace_back();
       continue;
     }
     const auto springs = possible_contact_springs(assembled_.mass, nodal_.nodes, pair, within);
     collector.add_contact(springs, pair.arrays.friction > 0);
     result.springs += static_cast<long>(springs.size());
     auto& seen = result.seen.emplace_back(pair.slave_nodes.size(), 0);
-    for (const ContactSpring& spring : springs) seen[spring.slave] = 1;
+    auto& counted = result.counted.emplace_back(pair.slave_nodes.size(), 0);
+    for (const ContactSpring& spring : springs) {
+      seen[spring.slave] = 1;
+      counted[spring.slave] = spring.stiffness / pair.growth;
+    }
   }
   tangent_.set_springs(collector.on_device());
 }

@@ -28,10 +28,11 @@ RitzValue largest_ritz_value(const std::vector<double>& diagonal, const std::vec
 
 /// The stable step of the assembled scene.
 struct GlobalStep {
-  double step = 0;                      ///< s
-  int applications = 0;                 ///< of the operator
-  long springs = 0;                     ///< contact springs counted in
-  std::vector<std::vector<char>> seen;  ///< by contact pair and slave: whether its spring was counted in
+  double step = 0;                           ///< s
+  int applications = 0;                      ///< of the operator
+  long springs = 0;                          ///< contact springs counted in
+  std::vector<std::vector<char>> seen;       ///< by contact pair and slave: whether its spring was counted in
+  std::vector<std::vector<double>> counted;  ///< N/m, the same: that spring at no penetration
 };
 
 /// Estimates the stable step from the highest frequency of everything together: elements, hourglass control, springs

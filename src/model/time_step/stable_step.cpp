@@ -309,12 +309,13 @@ void build_stable_step(Model& model) {
   }
   const scene::Time& time = model.scene.time;
   if (time.step > stable.limit)
-    throw InputError(fmt::format(
-        "{}: [time] step = {:.4g} s is longer than the stable step {:.4g} s of this mesh and its contacts; "
-        "leave it out to have the program choose{}",
-        model.scene.path, time.step, stable.limit,
-        choice == scene::StepEstimate::global ? ""
-                                              : ", or see whether [solver] step_estimate = \"global\" allows more"));
+    throw InputError(
+        fmt::format("{}: [time] step = {:.4g} s is longer than the stable step {:.4g} s of this mesh and its contacts; "
+                    "leave it out to have the program choose{}",
+                    model.scene.path, time.step, stable.limit,
+                    choice == scene::StepEstimate::global || stable.choice.reason == StepChoice::Reason::gains_little
+                        ? ""
+                        : ", or see whether [solver] step_estimate = \"global\" allows more"));
   // Nobody waits for so many; far below where they can't be counted.
   constexpr double most_steps = 1e15;
   const double largest = largest_step(time, stable);

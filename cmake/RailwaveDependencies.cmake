@@ -1,5 +1,5 @@
 # Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5,
-# railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
+# railwave::ranks (MPI and METIS, empty where they are not there), railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
 
 # What scripts/setup has put there.
 list(APPEND CMAKE_PREFIX_PATH "${CMAKE_SOURCE_DIR}/.deps/kokkos" "${CMAKE_SOURCE_DIR}/.deps/catch2/usr")
@@ -23,6 +23,24 @@ add_library(railwave_hdf5 INTERFACE)
 target_include_directories(railwave_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(railwave_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 add_library(railwave::hdf5 ALIAS railwave_hdf5)
+
+# Runs over several processes, where both are there.
+add_library(railwave_ranks INTERFACE)
+if(RAILWAVE_MPI)
+  find_package(MPI QUIET COMPONENTS C)
+  find_path(METIS_INCLUDE_DIR metis.h)
+  find_library(METIS_LIBRARY metis)
+  mark_as_advanced(METIS_INCLUDE_DIR METIS_LIBRARY)
+  if(MPI_C_FOUND AND METIS_INCLUDE_DIR AND METIS_LIBRARY)
+    target_compile_definitions(railwave_ranks INTERFACE RAILWAVE_MPI OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+    target_include_directories(railwave_ranks SYSTEM INTERFACE ${METIS_INCLUDE_DIR})
+    target_link_libraries(railwave_ranks INTERFACE MPI::MPI_C ${METIS_LIBRARY})
+    message(STATUS "MPI ${MPI_C_VERSION} and METIS: runs may go over several processes")
+  else()
+    message(STATUS "MPI or METIS was not found: a run is one process. scripts/setup --mpi installs both.")
+  endif()
+endif()
+add_library(railwave::ranks ALIAS railwave_ranks)
 
 include(RailwaveHeaderLibraries)
 

@@ -11,11 +11,13 @@
 #include "commands/check.hpp"
 #include "commands/command_line.hpp"
 #include "commands/ensemble.hpp"
+#include "commands/follow.hpp"
 #include "commands/process.hpp"
 #include "commands/standard_output.hpp"
 #include "commands/threads.hpp"
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
+#include "model/ranks/block_partition.hpp"
 #include "modes/modes_command.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/paraview_files.hpp"
@@ -48,6 +50,7 @@ struct Arguments {
   bool markdown = false, schema = false;
   bool restart = false, keep_state = false, overwrite = false;
   double wall_time = 0;  ///< s; 0: no limit
+  int ranks = 1;         ///< that a check is to speak of
 };
 
 /// Reads the case, finds the contact bands of its meshes, and prints what there is to say at once: what follows may
@@ -61,6 +64,7 @@ scene::Scene read_and_warn(const Arguments& arguments) {
 }
 
 int run_case(const Arguments& arguments) {
+  if (rank_of_process() > 0) return follow_run(arguments.case_file, arguments.overrides);
   const auto began = std::chrono::steady_clock::now();
   PatienceTimer patience;
   const scene::Scene scene = read_and_warn(arguments);
@@ -72,6 +76,7 @@ int run_case(const Arguments& arguments) {
             after_reading_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
       return *code;
   }
+  OtherRanks others;
   const HeldPlaces places(scene, files);
   const KokkosScope kokkos;
   Model model;
@@ -102,6 +107,8 @@ int run_case(const Arguments& arguments) {
     keeping.time_left = std::max(
         1e-9, arguments.wall_time - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   patience.stop();
+  others.begin();
+  keeping.transport = others.transport();
   const RunSummary summary = run(model, {&results, &progress}, &settled, keeping);
   report_next_steps(scene, summary.completed, std::cout);
   if (summary.completed) return done;
@@ -128,6 +135,11 @@ int check_case(const Arguments& arguments) {
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
   results.check_disk_space(model, model);
   describe_run(model, std::cout);
+  if (arguments.ranks > 1) {
+    std::cout << "On " << arguments.ranks << " ranks\n";
+    for (const std::string& line : describe_ranks(model, partition_blocks(model, arguments.ranks)))
+      std::cout << "  " << line << '\n';
+  }
   report_what_gets_lost(scene, std::cout);
   return done;
 }
@@ -248,6 +260,8 @@ int dispatch(int argc, char** argv) {
   add_ensemble_command(app, arguments.ensemble, [&] { code = run_members(arguments.ensemble); });
   CLI::App* check_command = app.add_subcommand("check", "check a case and describe its run");
   add_case(check_command);
+  check_command->add_option("--ranks", arguments.ranks,
+                            "also say how the case would be dealt out to so many processes of a run by mpirun");
   check_command->callback([&] { code = check_case(arguments); });
   CLI::App* mesh =
       app.add_subcommand("mesh", "write a case's model for ParaView: parts, sets, stable steps, connectors");
@@ -292,6 +306,8 @@ int dispatch(int argc, char** argv) {
   reference->add_flag("--schema", arguments.schema, "the schema");
   reference->callback([&] { code = print_reference(arguments); });
 
+  // Of processes that mpirun has started together the others have a part in runs alone.
+  if (rank_of_process() > 0 && (argc < 2 || std::string(argv[1]) != "run")) return done;
   add_option_checks(app);
   try {
     app.parse(argc, argv);

@@ -57,13 +57,14 @@ struct BlockDamping {
   double elapsed;                   ///< s since the forces in the rows; 0: there are none yet
   double share_before;              ///< of the rows' forces to book now: 1, or 0 where BookDamping has done it
   Array<PartialForce<S>*> partial;  ///< N
+  Array<const int*> listed = {};    ///< blocks to compute, one a team; empty: all
 
   static std::size_t scratch_size(const ElementBlocks& blocks) {
     return Staged::scratch_size(blocks.node_stride) + sizeof(S) * 3u * component_stride + 2 * scratch_alignment;
   }
 
   KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
-    const int p = team.league_rank();
+    const int p = listed.extent(0) > 0 ? listed(team.league_rank()) : team.league_rank();
     const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
     staged.bring(team, blocks, p, nodes.nodes);

@@ -22,6 +22,7 @@ struct ElementForce {
   double step;                      ///< s, for the dissipated hourglass energy
   Array<PartialForce<S>*> partial;  ///< N
   int first_partial;                ///< row of the blocks' first node
+  Array<const int*> listed = {};    ///< blocks to compute, one a team; empty: all
 
   using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
 
@@ -31,7 +32,9 @@ struct ElementForce {
            4 * scratch_alignment + (on_device ? sizeof(std::uint16_t) * (blocks.pack_stride + blocks.place_stride) : 0);
   }
 
-  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const { run(team, team.league_rank()); }
+  KOKKOS_INLINE_FUNCTION void operator()(const Team::member_type& team) const {
+    run(team, listed.extent(0) > 0 ? listed(team.league_rank()) : team.league_rank());
+  }
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {

@@ -4,6 +4,7 @@
 
 #include <iterator>
 
+#include "solve/ranks/row_exchange.hpp"
 #include "solve/tasks/contributions.hpp"
 
 namespace railwave {
@@ -41,8 +42,9 @@ void append(std::vector<Task>& tasks, std::vector<Task> more) {
 
 namespace {
 
-GoingAlong going_along(const Model& model, StepKind kind) {
+GoingAlong going_along(const Model& model, StepKind kind, const RowExchange* exchange) {
   GoingAlong along;
+  if (exchange != nullptr) return along;  // the first launch is of a few blocks only, which others wait for
   along.contact = contact_goes_along(model.elements, model.contacts, kind);
   // Ties, non-reflecting ends and prescribed motions must find the loads where they add to them.
   const bool added_to = model.ties.arrays.active() || model.ends.arrays.count > 0 || !model.prescribed.empty();
@@ -50,10 +52,10 @@ GoingAlong going_along(const Model& model, StepKind kind) {
   return along;
 }
 
-std::vector<Task> motion_tasks(Model& model, StepKind kind) {
+std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
   std::vector<Task> tasks = placed(prescribed_tasks(model, model.prescribed), Stage::motion, 0);
   if (model.beams) append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
-  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind)));
+  append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange)));
   if (model.ties.arrays.active())
     append(tasks, placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0));
   return tasks;
@@ -61,19 +63,29 @@ std::vector<Task> motion_tasks(Model& model, StepKind kind) {
 
 }  // namespace
 
-std::vector<Task> own_force_tasks(Model& model, StepKind kind) {
-  const GoingAlong along = going_along(model, kind);
+std::vector<Task> shared_element_tasks(Model& model, StepKind kind, RowExchange& exchange) {
+  const RankShare& share = exchange.share();
+  std::vector<Task> tasks = element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true});
+  tasks.push_back(exchange.send_task());
+  append(tasks, element_tasks(model, model, model.contacts, model, kind, {}, {&share.inner, false}));
+  tasks.push_back(exchange.receive_task());
+  return tasks;
+}
+
+std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exchange) {
+  const GoingAlong along = going_along(model, kind, exchange);
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
   append(tasks, placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0));
   append(tasks, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
-  append(tasks, element_tasks(model, model, model.contacts, model, kind, along));
+  append(tasks, exchange != nullptr ? shared_element_tasks(model, kind, *exchange)
+                                    : element_tasks(model, model, model.contacts, model, kind, along));
   return tasks;
 }
 
-std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation) {
-  std::vector<Task> tasks = own_force_tasks(model, kind);
+std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation, RowExchange* exchange) {
+  std::vector<Task> tasks = own_force_tasks(model, kind, exchange);
   const MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
   append(tasks, placed(multipliers.locate, Stage::own_forces, 1));
   append(tasks, tie_tasks(model, model.ties));
@@ -82,10 +94,14 @@ std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdat
   return tasks;
 }
 
-Plan make_plan(Model& model, StepKind kind) { return {force_tasks(model, kind), motion_tasks(model, kind)}; }
+Plan make_plan(Model& model, StepKind kind, RowExchange* exchange) {
+  return {force_tasks(model, kind, nullptr, exchange), motion_tasks(model, kind, exchange)};
+}
 
-StepPlans::StepPlans(Model& model)
-    : nodal_(model), advancing_(make_plan(model, StepKind::advancing)), sampled_(make_plan(model, StepKind::sampled)) {}
+StepPlans::StepPlans(Model& model, RowExchange* exchange)
+    : nodal_(model),
+      advancing_(make_plan(model, StepKind::advancing, exchange)),
+      sampled_(make_plan(model, StepKind::sampled, exchange)) {}
 
 void StepPlans::compute_forces(const Instant& instant, StepKind kind) {
   kind_ = kind;

@@ -8,6 +8,8 @@
 
 namespace railwave {
 
+class RowExchange;
+
 /// What a step does, in order. It is made once, when the model is built, and holds only what the scene needs.
 struct Plan {
   std::vector<Task> forces;  ///< of an instant
@@ -22,19 +24,24 @@ std::vector<std::string> describe_plan(const Plan& plan);
 
 /// Forces that follow from where the nodes are and how they move, not from other forces: loads, contact by springs,
 /// elements. Every way of evaluating forces begins with them.
-std::vector<Task> own_force_tasks(Model& model, StepKind kind);
+/// @param exchange of a model that other ranks share; null: all elements are computed here
+std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exchange = nullptr);
+
+/// Elements of a rank's blocks, their rows sent while the inner ones are computed, and those of others received.
+std::vector<Task> shared_element_tasks(Model& model, StepKind kind, RowExchange& exchange);
 
 /// All forces of an instant.
 /// @param relaxation see multiplier_tasks
-std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation = nullptr);
+std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation = nullptr,
+                              RowExchange* exchange = nullptr);
 
 /// The plan of an advancing or a sampled step. The model must outlive it.
-Plan make_plan(Model& model, StepKind kind);
+Plan make_plan(Model& model, StepKind kind, RowExchange* exchange = nullptr);
 
 /// Takes a model from instant to instant by its plans.
 class StepPlans {
  public:
-  explicit StepPlans(Model& model);
+  explicit StepPlans(Model& model, RowExchange* exchange = nullptr);
 
   /// Forces of the present instant: those of a sampled step stand until `advance`.
   void compute_forces(const Instant& instant, StepKind kind);

@@ -24,6 +24,9 @@ class StepControl {
   double time_of(long step) const { return begin_time_ + static_cast<double>(step - begin_step_) * sizes_.step_size; }
   long last_step() const { return sizes_.step_count; }
 
+  /// Whether the estimate is to be renewed now: then it looks at the whole model.
+  bool due() const;
+
   /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already.
   /// True: the step from this instant to the next is another one than the last.
   bool renew();
@@ -52,7 +55,6 @@ class StepControl {
   }
 
  private:
-  bool due() const;
   bool interval_over(long step) const;
   void find_step();
   bool touched_unseen() const;

@@ -83,6 +83,12 @@ struct GoingAlong {
   bool sets = false;     ///< and sets of nodes that move as one, connectors and torques
 };
 
+/// Which blocks of a model's groups are computed: a rank's share comes in two such lists.
+struct ListedBlocks {
+  const std::vector<Array<int*>>* of_group = nullptr;  ///< null: all
+  bool first = true;                                   ///< what is done once for all blocks is done with these
+};
+
 /// Before all else: nodes in single precision, and the double ones where these are read.
 Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
                             StepKind kind);
@@ -100,7 +106,7 @@ std::vector<Task> contact_tasks(const scene::Scene& scene, const NodalState& nod
 /// @param contacts, loads of which the elements take along what `along` says
 std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& elements,
                                 const std::vector<ContactPair>& contacts, const LoadModel& loads, StepKind kind,
-                                GoingAlong along);
+                                GoingAlong along, const ListedBlocks& listed = {});
 
 /// (d) Lagrange multipliers, of all pairs that have them at once: they may meet in a node.
 struct MultiplierTasks {

@@ -13,6 +13,7 @@
 #include "solve/monitor/monitor.hpp"
 #include "solve/output_schedule.hpp"
 #include "solve/plan.hpp"
+#include "solve/ranks/rank_team.hpp"
 #include "solve/run_summary.hpp"
 #include "solve/run_timing.hpp"
 #include "solve/statics/settle.hpp"
@@ -90,11 +91,13 @@ class TimeLoop {
         memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
                 std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
                 Monitor(model, model, model, model, model.contacts)},
-        plans_(model),
+        leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),
+        plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space) {
     if (keeping.from) restore();
     summary_.first_step = model.step;
     instant_.elapsed = memory_.elapsed;
+    if (leader_) leader_->begin();
     since_first_step_.restart();
   }
 
@@ -103,12 +106,15 @@ class TimeLoop {
     begin_step();
     checkpoint_if_due();
     plan_step();
-    if (take_recorded_steps()) return true;
+    if (leader_ ? take_shared_steps() : take_recorded_steps()) return true;
     recording_.finish();
+    if (leader_) leader_->sample(instant_);
     plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
     memory_.monitor.check_contact_ends();
+    if (leader_) leader_->gather();
     if (sampled_) monitor_and_output();
     if (ends()) return false;
+    if (leader_) leader_->move(instant_);
     plans_.advance(instant_);
     end_step();
     return true;
@@ -167,6 +173,7 @@ class TimeLoop {
 
   void checkpoint() {
     recording_.finish();
+    if (leader_) leader_->gather();
     const WallClock clock;
     RunState state;
     save_model_state(model_, state);
@@ -184,6 +191,7 @@ class TimeLoop {
   void plan_step() {
     const double size_before = model_.step_size;
     if (memory_.control.may_renew(model_.step)) recording_.finish();
+    if (leader_ && memory_.control.due()) leader_->gather();
     if (memory_.control.renew()) memory_.due.step_changed(size_before);
     instant_.step = model_.step_size;
     // A run that goes on with a model that has run before begins at a later step.
@@ -203,17 +211,40 @@ class TimeLoop {
     return !memory_.due.any(step) && !memory_.monitor.due(step) && !memory_.control.may_renew(step);
   }
 
-  /// As many steps at once as nobody looks at. Checks of contacts' ends come between forces and motion of a step.
-  bool take_recorded_steps() {
-    if (sampled_) return false;
+  /// How many steps from this one on, which is not sampled, nobody looks at. Checks of contacts' ends come between
+  /// forces and motion of a step.
+  long quiet_steps(long most) const {
     long steps = 0;
-    while (steps < recording_.most() && !memory_.monitor.contact_ends_due(model_.step + steps) &&
+    while (steps < most && !memory_.monitor.contact_ends_due(model_.step + steps) &&
            (steps == 0 || quiet(model_.step + steps)))
       ++steps;
+    return steps;
+  }
+
+  /// As many steps at once as a graph has.
+  bool take_recorded_steps() {
+    if (sampled_) return false;
+    long steps = quiet_steps(recording_.most());
     steps = recording_.advance(instant_, steps, [this](long step) { return memory_.control.time_of(step); });
     if (steps == 0) return false;
     plans_.advance_clock(instant_, steps);
     end_step();
+    return true;
+  }
+
+  /// As many steps as other ranks can take without being told more.
+  bool take_shared_steps() {
+    if (sampled_) return false;
+    constexpr long most = 64;
+    const long steps = std::max(1L, quiet_steps(most));
+    leader_->advance(instant_, steps);
+    for (long k = 0; k < steps; ++k) {
+      instant_.time = model_.time = memory_.control.time();
+      plans_.compute_forces(instant_, StepKind::advancing);
+      memory_.monitor.check_contact_ends();
+      plans_.advance(instant_);
+      end_step();
+    }
     return true;
   }
 
@@ -288,6 +319,7 @@ class TimeLoop {
   const bool in_equilibrium_;
   const bool prepared_;  ///< false: stopped while it settled
   LoopMemory memory_;
+  std::unique_ptr<RankLeader> leader_;  ///< of other ranks; null: there are none
   StepPlans plans_;
   StepRecording recording_;
   RunSummary summary_;

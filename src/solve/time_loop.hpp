@@ -11,6 +11,8 @@
 
 namespace railwave {
 
+class Transport;
+
 /// How a run is kept against its end, and from where it goes on.
 struct RunKeeping {
   Checkpoints* checkpoints = nullptr;  ///< where states are kept; null: nowhere
@@ -18,6 +20,7 @@ struct RunKeeping {
   bool at_end = false;                 ///< also at the end, from which a run with a later end can go on
   double time_left = 0;                ///< wall seconds after which it stops; 0: no such budget
   const RunState* from = nullptr;      ///< a state of this very run to go on from; null: from the start
+  Transport* transport = nullptr;      ///< to other ranks, which follow this one (solve/ranks); null: there are none
 };
 
 /// Runs a model from rest, or from its settled state, to the scene's end (thesis table 2.1) and tells the observers.

@@ -44,4 +44,13 @@ void launch_blocks(const ElementBlocks& blocks, const Functor& functor) {
   launch_teams(blocks.count, Functor::scratch_size(blocks), functor);
 }
 
+/// The same for some blocks only, which the functor has as `listed`. @param listed null: all
+template <class Functor>
+void launch_blocks(const ElementBlocks& blocks, const Array<int*>* listed, Functor functor) {
+  if (listed == nullptr) return launch_blocks(blocks, functor);
+  if (listed->extent(0) == 0) return;
+  functor.listed = *listed;
+  launch_teams(static_cast<int>(listed->extent(0)), Functor::scratch_size(blocks), functor);
+}
+
 }  // namespace railwave

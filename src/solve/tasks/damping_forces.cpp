@@ -10,19 +10,20 @@ struct LaunchBoundsOf<BlockDamping<S, Nodes>> {
   using type = Kokkos::LaunchBounds<elements_of_block, 1>;
 };
 
-void element_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant) {
+void element_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant,
+                     const Array<int*>* listed) {
   const double elapsed = static_cast<double>(1L << group.level) * instant.elapsed;
   const double before = group.level == 0 ? 1 : 0;
   if (!in_single)
-    launch_blocks(group.blocks,
+    launch_blocks(group.blocks, listed,
                   BlockDamping<double, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
                                                     elapsed, before, nodal.partial.in_double});
   else if (!nodal.relative.active())
-    launch_blocks(group.blocks,
+    launch_blocks(group.blocks, listed,
                   BlockDamping<float, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
                                                    elapsed, before, nodal.partial.in_single});
   else
-    launch_blocks(group.blocks, BlockDamping<float, RelativeAdvance>{
+    launch_blocks(group.blocks, listed, BlockDamping<float, RelativeAdvance>{
                                     group.damping, group.blocks, relative_advance(nodal, group.relative, instant.step),
                                     elapsed, before, nodal.partial.in_single});
 }

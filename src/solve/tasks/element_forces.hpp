@@ -14,6 +14,7 @@ struct ElementLaunch {
   StepKind kind;
   const ContactPair* contact = nullptr;  ///< whose springs are in the same launch
   const LoadModel* sets = nullptr;       ///< and these, that move as one, with their connectors and torques
+  const Array<int*>* listed = nullptr;   ///< of the group's blocks those to compute; null: all
 };
 
 /// Forces of a group's elements at an instant, to `nodal.partial`, or to the nodes themselves where blocks may move
@@ -29,7 +30,9 @@ void element_forces_of(const NodalState& nodal, const ElementGroup& group, const
 
 /// Damping forces of a damped group's elements at an instant, to their rows of `nodal.partial`.
 /// @param in_single whether the elements are computed in single precision
-void element_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant);
+/// @param listed of the group's blocks those to compute; null: all
+void element_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, const Instant& instant,
+                     const Array<int*>* listed);
 
 /// Of a group that is not evaluated at every step, one step after its evaluation: see BookDamping.
 void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, double elapsed);

@@ -54,10 +54,11 @@ Task force_task(const NodalState& nodal, const ElementGroup& group, bool in_sing
   return task;
 }
 
-std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& group, bool in_single) {
+std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& group, bool in_single, bool first,
+                                const Array<int*>* listed) {
   std::vector<Task> tasks;
   const long steps = 1L << group.level;
-  if (steps > 1)
+  if (steps > 1 && first)
     tasks.push_back({"account of damping of " + group.parts, "b",
                      [&nodal, &group, in_single](const Instant& instant) {
                        book_damping(nodal, group, in_single, instant.elapsed);
@@ -65,7 +66,9 @@ std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& gro
                      steps, 1});
   tasks.push_back(
       {"damping of " + group.parts, "b",
-       [&nodal, &group, in_single](const Instant& instant) { element_damping(nodal, group, in_single, instant); },
+       [&nodal, &group, in_single, listed](const Instant& instant) {
+         element_damping(nodal, group, in_single, instant, listed);
+       },
        steps});
   return tasks;
 }
@@ -74,17 +77,21 @@ std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& gro
 
 std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& elements,
                                 const std::vector<ContactPair>& contacts, const LoadModel& loads, StepKind kind,
-                                GoingAlong along) {
+                                GoingAlong along, const ListedBlocks& listed) {
   std::vector<Task> tasks;
   const bool settling = kind == StepKind::settling;
   constexpr int first_lane = 2;  // behind loads and contact
   const auto lane_of = [&](const ElementGroup& group) {
     return first_lane + static_cast<int>(&group - elements.elements.data());
   };
+  const auto listed_of = [&](const ElementGroup& group) {
+    return listed.of_group == nullptr ? nullptr : &(*listed.of_group)[&group - elements.elements.data()];
+  };
   for (const ElementGroup& group : elements.elements) {
     const long steps = settling ? 1 : 1L << group.level;
-    append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
-    ElementLaunch launch{kind, nullptr, nullptr};
+    if (listed.first)
+      append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
+    ElementLaunch launch{kind, nullptr, nullptr, listed_of(group)};
     if (&group == &elements.elements.front() && along.contact) launch.contact = &contacts.front();
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;
     Task task = force_task(nodal, group, elements.in_single, launch);
@@ -94,7 +101,8 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
   // Statics know no damping: while the scene settles its rows stay empty. No block moves nodes of damped elements.
   for (const ElementGroup& group : elements.elements)
     if (group.damping.active() && !settling)
-      append(tasks, placed(damping_tasks(nodal, group, elements.in_single), Stage::own_forces, lane_of(group)));
+      append(tasks, placed(damping_tasks(nodal, group, elements.in_single, listed.first, listed_of(group)),
+                           Stage::own_forces, lane_of(group)));
   return tasks;
 }
 

@@ -1,0 +1,75 @@
+#include "commands/follow.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <iostream>
+#include <stdexcept>
+
+#include "case/error.hpp"
+#include "case/read_case.hpp"
+#include "commands/threads.hpp"
+#include "mesh/contact_zone.hpp"
+#include "model/assembly.hpp"
+#include "model/model.hpp"
+#include "solve/ranks/rank_team.hpp"
+
+namespace railwave {
+namespace {
+
+constexpr int done = 0, failed = 1, wrong_input = 2;
+
+/// Whoever reads sees what rank 0 says; it says the same of the case.
+int build(const std::string& case_file, const std::vector<std::string>& overrides, Model& model) {
+  try {
+    scene::Scene scene = read_case(case_file, overrides, nullptr);
+    place_contact_zones(scene);
+    std::vector<std::string> notes;
+    build_model(scene, assemble(scene, notes), model);
+    return done;
+  } catch (const InputError&) {
+    return wrong_input;
+  } catch (const std::exception& error) {
+    std::cerr << "railwave: rank " << rank_of_process() << ": " << error.what() << std::endl;
+    return failed;
+  }
+}
+
+}  // namespace
+
+int rank_of_process() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"})
+    if (const char* text = std::getenv(name)) return std::max(0, std::atoi(text));
+  return 0;
+}
+
+int follow_run(const std::string& case_file, const std::vector<std::string>& overrides) {
+  // Rank 0 decides when a run that is to stop has come to a whole step.
+  for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2}) std::signal(one, SIG_IGN);
+  std::cout.rdbuf(nullptr);
+  const auto transport = transport_of_processes();
+  if (!transport) return failed;
+  const KokkosScope kokkos;
+  Model model;
+  const int built = build(case_file, overrides, model);
+  if (!transport->all_agree(built == done)) return built;
+  try {
+    follow_rank_0(model, *transport);
+  } catch (const std::exception& error) {
+    std::cerr << "railwave: rank " << transport->rank() << ": " << error.what() << std::endl;
+    transport->end_all();
+  }
+  return done;
+}
+
+OtherRanks::~OtherRanks() {
+  if (transport_ && !told_) transport_->all_agree(false);
+}
+
+void OtherRanks::begin() {
+  told_ = true;
+  if (transport_ && !transport_->all_agree(true))
+    throw std::runtime_error("another rank could not make the model; nothing was run");
+}
+
+}  // namespace railwave

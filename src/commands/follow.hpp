@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solve/ranks/transport.hpp"
+
+/// Runs of several processes, which mpirun starts. Rank 0 is the program as it is alone: it reads, writes, reports and
+/// decides; the others say nothing and compute what it tells them.
+namespace railwave {
+
+/// The number of this process among those that were started together, as whoever started them says; 0: alone, or the
+/// first.
+int rank_of_process();
+
+/// What another rank does in place of `railwave run`. @return its exit code: that of rank 0 is what counts
+int follow_run(const std::string& case_file, const std::vector<std::string>& overrides);
+
+/// Rank 0's word that it begins the run, or, where this ends before, that it does not.
+class OtherRanks {
+ public:
+  OtherRanks() : transport_(transport_of_processes()) {}
+  ~OtherRanks();
+  OtherRanks(const OtherRanks&) = delete;
+  OtherRanks& operator=(const OtherRanks&) = delete;
+
+  /// Throws std::runtime_error where another rank could not make the model.
+  void begin();
+  /// Null: there are none.
+  Transport* transport() const { return transport_.get(); }
+
+ private:
+  std::unique_ptr<Transport> transport_;
+  bool told_ = false;
+};
+
+}  // namespace railwave

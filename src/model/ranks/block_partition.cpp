@@ -1,0 +1,230 @@
+#include "model/ranks/block_partition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#ifdef RAILWAVE_MPI
+#include <metis.h>
+#endif
+
+#include "case/error.hpp"
+#include "model/beams/beams.hpp"
+#include "model/host_copy.hpp"
+#include "model/ranks/rank_share.hpp"
+
+namespace railwave {
+namespace {
+
+/// Search and law of a slave node cost about as much as so many elements.
+constexpr double elements_of_slave_node = 2;
+/// Weights of METIS are whole numbers: of an element that is evaluated at every step.
+constexpr int weight_of_element = 1 << (most_levels - 1);
+
+/// Nodes on which something other than elements acts, or whose place it must know: by node.
+std::vector<char> bound_nodes(const Model& model) {
+  std::vector<char> bound(model.nodes.count, 0);
+  const auto mark = [&](const auto& nodes) {
+    for (int n : nodes) bound[n] = 1;
+  };
+  const auto rows = to_vector(model.nodes.external_row);
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (rows[n] >= 0) bound[n] = 1;
+  for (const ContactPair& pair : model.contacts) {
+    mark(pair.slave_nodes);
+    mark(pair.master_nodes);
+  }
+  if (model.sets.count > 0) mark(to_vector(model.sets.nodes));
+  for (const PrescribedSet& set : model.prescribed) mark(to_vector(set.nodes));
+  for (const TiedPlace& tied : model.ties.places) {
+    bound[tied.slave] = 1;
+    for (int n : tied.face) bound[n] = 1;
+  }
+  mark(model.ends.nodes);
+  if (model.beams) mark(to_vector(model.beams->arrays.node));
+  return bound;
+}
+
+/// Blocks of all groups under one number, and how many nodes each has in common with others.
+struct BlockGraph {
+  std::vector<int> first;                               ///< of each group
+  std::vector<double> weight;                           ///< element evaluations a step
+  std::vector<long> elements;
+  std::vector<char> bound;                              ///< to rank 0
+  std::vector<std::vector<std::pair<int, int>>> edges;  ///< other block, nodes in common
+};
+
+BlockGraph graph_of(const Model& model) {
+  BlockGraph graph;
+  const std::vector<char> bound = bound_nodes(model);
+  std::vector<std::pair<int, int>> touches;  // node, block
+  int block = 0;
+  for (const ElementGroup& group : model.elements) {
+    graph.first.push_back(block);
+    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p, ++block) {
+      graph.elements.push_back(group.element_count[p]);
+      graph.weight.push_back(group.element_count[p] / static_cast<double>(1L << group.level));
+      graph.bound.push_back(0);
+      for (int l = 0; l < count[p]; ++l) {
+        const int n = node[p * group.blocks.node_stride + l] & ~advance_bit;
+        touches.emplace_back(n, block);
+        if (bound[n] != 0) graph.bound[block] = 1;
+      }
+    }
+  }
+  std::sort(touches.begin(), touches.end());
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t begin = 0, end = 0; begin < touches.size(); begin = end) {
+    while (end < touches.size() && touches[end].first == touches[begin].first) ++end;
+    for (std::size_t a = begin; a < end; ++a)
+      for (std::size_t b = begin; b < end; ++b)
+        if (a != b) pairs.emplace_back(touches[a].second, touches[b].second);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  graph.edges.resize(block);
+  for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end) {
+    while (end < pairs.size() && pairs[end] == pairs[begin]) ++end;
+    graph.edges[pairs[begin].first].emplace_back(pairs[begin].second, static_cast<int>(end - begin));
+  }
+  return graph;
+}
+
+double work_of_contact(const Model& model) {
+  double work = 0;
+  for (const ContactPair& pair : model.contacts)
+    work += elements_of_slave_node * static_cast<double>(pair.slave_nodes.size());
+  return work;
+}
+
+#ifdef RAILWAVE_MPI
+/// Parts of the blocks that rank 0 need not have. @param shares of their work, by part
+std::vector<idx_t> parts_of_free_blocks(const BlockGraph& graph, const std::vector<int>& free_blocks,
+                                        std::vector<real_t>& shares) {
+  std::vector<idx_t> vertex(graph.weight.size(), -1);
+  for (std::size_t v = 0; v < free_blocks.size(); ++v) vertex[free_blocks[v]] = static_cast<idx_t>(v);
+  std::vector<idx_t> first{0}, other, common, weight;
+  for (int b : free_blocks) {
+    weight.push_back(std::max<idx_t>(1, static_cast<idx_t>(graph.weight[b] * weight_of_element)));
+    for (const auto& [to, nodes] : graph.edges[b]) {
+      if (vertex[to] < 0) continue;
+      other.push_back(vertex[to]);
+      common.push_back(nodes);
+    }
+    first.push_back(static_cast<idx_t>(other.size()));
+  }
+  idx_t count = static_cast<idx_t>(free_blocks.size()), constraints = 1, parts = static_cast<idx_t>(shares.size()),
+        cut = 0;
+  std::vector<idx_t> part(free_blocks.size(), 0);
+  if (parts == 1) return part;
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  constexpr idx_t most_by_halving = 8;  // what METIS's manual advises
+  const auto divide = parts <= most_by_halving ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  if (divide(&count, &constraints, first.data(), other.data(), weight.data(), nullptr, common.data(), &parts,
+             shares.data(), nullptr, options, &cut, part.data()) != METIS_OK)
+    throw std::runtime_error(fmt::format("METIS could not deal {} blocks out to {} ranks", count, parts));
+  return part;
+}
+#endif
+
+/// Rank of each block. What rank 0 must have counts as part of its share.
+std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks) {
+  std::vector<int> rank(graph.weight.size(), 0), free_blocks;
+  double bound = of_contact, all = of_contact;
+  for (std::size_t b = 0; b < rank.size(); ++b) {
+    all += graph.weight[b];
+    if (graph.bound[b] != 0)
+      bound += graph.weight[b];
+    else
+      free_blocks.push_back(static_cast<int>(b));
+  }
+  if (ranks == 1 || free_blocks.empty()) return rank;
+  if (static_cast<int>(free_blocks.size()) < ranks) {
+    for (std::size_t v = 0; v < free_blocks.size(); ++v) rank[free_blocks[v]] = 1 + static_cast<int>(v) % (ranks - 1);
+    return rank;
+  }
+#ifdef RAILWAVE_MPI
+  // Below this share of a rank's work a part of its own for rank 0 is not worth another border.
+  constexpr double least_share = 0.05;
+  const double mean = all / ranks, left = mean - bound, free_work = all - bound;
+  const bool takes_part = left > least_share * mean;
+  const int parts = takes_part ? ranks : ranks - 1, first_part = takes_part ? 0 : 1;
+  std::vector<real_t> shares(parts, static_cast<real_t>((takes_part ? mean : free_work / parts) / free_work));
+  if (takes_part) shares[0] = static_cast<real_t>(left / free_work);
+  const std::vector<idx_t> part = parts_of_free_blocks(graph, free_blocks, shares);
+  for (std::size_t v = 0; v < free_blocks.size(); ++v) rank[free_blocks[v]] = first_part + static_cast<int>(part[v]);
+#endif
+  return rank;
+}
+
+}  // namespace
+
+bool knows_ranks() {
+#ifdef RAILWAVE_MPI
+  return true;
+#else
+  return false;
+#endif
+}
+
+double BlockPartition::imbalance() const {
+  const double all = std::accumulate(work.begin(), work.end(), 0.0);
+  return all > 0 ? *std::max_element(work.begin(), work.end()) * ranks / all : 1;
+}
+
+BlockPartition partition_blocks(const Model& model, int ranks) {
+  if (!knows_ranks())
+    throw InputError(
+        "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, "
+        "then build it anew");
+  if (model.relative.active())
+    throw InputError(fmt::format(
+        "{}: [solver] precision: nodes in single precision are for one rank only; \"mixed\" and \"double\" are not",
+        model.scene.path));
+  const BlockGraph graph = graph_of(model);
+  const double of_contact = work_of_contact(model);
+  const std::vector<int> rank = deal_out(graph, of_contact, ranks);
+  BlockPartition partition;
+  partition.ranks = ranks;
+  partition.work.assign(ranks, 0);
+  partition.elements.assign(ranks, 0);
+  partition.work[0] = of_contact;
+  for (std::size_t b = 0; b < rank.size(); ++b) {
+    partition.work[rank[b]] += graph.weight[b];
+    partition.elements[rank[b]] += graph.elements[b];
+    if (graph.bound[b] != 0) partition.bound_elements += graph.elements[b];
+  }
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    const auto begin = rank.begin() + graph.first[g];
+    partition.owner.emplace_back(begin, begin + model.elements[g].blocks.count);
+  }
+  return partition;
+}
+
+std::vector<std::string> describe_ranks(const Model& model, const BlockPartition& partition) {
+  std::vector<std::string> lines;
+  const RankLayout layout = lay_out_ranks(model, partition);
+  const double row = model.in_single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
+  for (int r = 0; r < partition.ranks; ++r) {
+    long rows = 0;
+    int neighbours = 0;
+    for (int other = 0; other < partition.ranks; ++other) {
+      rows += static_cast<long>(layout.sent[r][other].size());
+      neighbours += layout.sent[r][other].empty() ? 0 : 1;
+    }
+    lines.push_back(fmt::format("rank {}: {} elements, {} rows of forces ({:.4g} kB) a step to {} other{}", r,
+                                partition.elements[r], rows, 1e-3 * row * static_cast<double>(rows), neighbours,
+                                neighbours == 1 ? "" : "s"));
+  }
+  lines.push_back(fmt::format(
+      "rank 0 has all {} elements beside contact, ties, loads and ends; the largest share of work is {:.2f} times the "
+      "mean, so {} ranks are at most {:.2f} times as fast as one",
+      partition.bound_elements, partition.imbalance(), partition.ranks, partition.ranks / partition.imbalance()));
+  return lines;
+}
+
+}  // namespace railwave

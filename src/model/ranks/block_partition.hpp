@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace railwave {
+
+/// Which rank of a run over several processes computes each block of elements. Blocks are the same whatever the number
+/// of ranks, and so are the rows of partial forces that they leave, which is why results do not depend on it.
+///
+/// Rank 0 has every block with a node on which anything but elements acts: contact, ties, connectors, torques, beams,
+/// loads with rows of their own, prescribed motions, non-reflecting ends. The others are dealt out by METIS so that
+/// ranks have alike work and few nodes in common.
+struct BlockPartition {
+  int ranks = 1;
+  std::vector<std::vector<int>> owner;  ///< by group and block
+  std::vector<double> work;             ///< by rank: element evaluations a step, and what contact is worth in these
+  std::vector<long> elements;           ///< by rank
+  long bound_elements = 0;              ///< of the blocks that rank 0 must have
+
+  /// Largest work of a rank over the mean.
+  double imbalance() const;
+};
+
+/// Throws InputError where the program was built without MPI and METIS, and where a scene has what several ranks do not
+/// compute yet.
+BlockPartition partition_blocks(const Model& model, int ranks);
+
+/// Whether the program was built with what ranks need.
+bool knows_ranks();
+
+/// What a run over several ranks would be like, a line each.
+std::vector<std::string> describe_ranks(const Model& model, const BlockPartition& partition);
+
+}  // namespace railwave

@@ -1,0 +1,113 @@
+#include "model/ranks/rank_share.hpp"
+
+#include <algorithm>
+
+#include "model/host_copy.hpp"
+
+namespace railwave {
+namespace {
+
+/// Calls `one(node, rank, first row, second row)` for each node of each block; the second is of damping, -1: none.
+template <class Do>
+void each_node_of_blocks(const Model& model, const BlockPartition& partition, const Do& one) {
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    const ElementGroup& group = model.elements[g];
+    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p)
+      for (int l = 0; l < count[p]; ++l) {
+        const int k = p * group.blocks.node_stride + l;
+        one(node[k] & ~advance_bit, partition.owner[g][p], group.first_partial + k,
+            group.damping.active() ? group.damping.first_partial + k : -1);
+      }
+  }
+}
+
+/// Whether other ranks have a node too.
+bool is_outer(const RankLayout& layout, int node) {
+  int ranks = 0;
+  for (const auto& touches : layout.touches) ranks += touches[node] != 0 ? 1 : 0;
+  return ranks > 1;
+}
+
+/// Of the model's shared nodes, in their order, those that a rank moves.
+void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
+  const auto all = to_vector(model.shared_nodes);
+  const auto first = to_vector(model.nodes.first_partial);
+  std::vector<SharedNode> kept;
+  std::vector<int> kept_before(all.size() + 1, 0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const int n = all[i].node & ~special_bit;
+    const bool of_no_block = first[n + 1] == first[n];
+    if (layout.touches[rank][n] != 0 || (rank == 0 && of_no_block)) kept.push_back(all[i]);
+    kept_before[i + 1] = static_cast<int>(kept.size());
+  }
+  model.shared_nodes = to_device("shared nodes of this rank", kept);
+  model.early_shared = kept_before[model.early_shared];
+  for (int& end : model.subcycling.shared_end) end = kept_before[end];
+}
+
+}  // namespace
+
+RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
+  RankLayout layout;
+  layout.touches.assign(partition.ranks, std::vector<char>(model.nodes.count, 0));
+  layout.sent.assign(partition.ranks, std::vector<std::vector<int>>(partition.ranks));
+  each_node_of_blocks(model, partition, [&](int node, int rank, int, int) { layout.touches[rank][node] = 1; });
+  each_node_of_blocks(model, partition, [&](int node, int rank, int row, int damping_row) {
+    for (int other = 0; other < partition.ranks; ++other) {
+      if (other == rank || layout.touches[other][node] == 0) continue;
+      layout.sent[rank][other].push_back(row);
+      if (damping_row >= 0) layout.sent[rank][other].push_back(damping_row);
+    }
+  });
+  return layout;
+}
+
+ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank) {
+  ShareItems items;
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (layout.touches[rank][n] != 0) items.nodes.push_back(n);
+  for (const auto& owner : partition.owner) {
+    auto& blocks = items.blocks.emplace_back();
+    for (std::size_t p = 0; p < owner.size(); ++p)
+      if (owner[p] == rank) blocks.push_back(static_cast<int>(p));
+  }
+  return items;
+}
+
+RankShare take_share(Model& model, const BlockPartition& partition, const RankLayout& layout, int rank) {
+  RankShare share;
+  share.rank = rank;
+  share.ranks = partition.ranks;
+  std::vector<char> outer(model.nodes.count, 0);
+  for (int n = 0; n < model.nodes.count; ++n)
+    outer[n] = layout.touches[rank][n] != 0 && is_outer(layout, n) ? 1 : 0;
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    const ElementGroup& group = model.elements[g];
+    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    std::vector<int> lists[2];
+    for (int p = 0; p < group.blocks.count; ++p) {
+      if (partition.owner[g][p] != rank) continue;
+      bool any = false;
+      for (int l = 0; l < count[p]; ++l) any = any || outer[node[p * group.blocks.node_stride + l] & ~advance_bit] != 0;
+      lists[any ? 0 : 1].push_back(p);
+    }
+    share.outer.push_back(to_device("outer blocks", lists[0]));
+    share.inner.push_back(to_device("inner blocks", lists[1]));
+  }
+  std::vector<int> sent, received;
+  for (int other = 0; other < partition.ranks; ++other) {
+    const auto &to = layout.sent[rank][other], &from = layout.sent[other][rank];
+    if (to.empty() && from.empty()) continue;
+    share.neighbours.push_back({other, static_cast<int>(sent.size()), static_cast<int>(to.size()),
+                                 static_cast<int>(received.size()), static_cast<int>(from.size())});
+    sent.insert(sent.end(), to.begin(), to.end());
+    received.insert(received.end(), from.begin(), from.end());
+  }
+  share.sent = to_device("rows sent", sent);
+  share.received = to_device("rows received", received);
+  keep_shared_nodes(model, layout, rank);
+  return share;
+}
+
+}  // namespace railwave

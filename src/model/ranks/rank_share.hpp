@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "model/model.hpp"
+#include "model/ranks/block_partition.hpp"
+
+namespace railwave {
+
+/// What ranks have in common, on the host: rows of partial forces, model numbers.
+struct RankLayout {
+  std::vector<std::vector<std::vector<int>>> sent;  ///< by rank and other rank: rows that the other needs
+  std::vector<std::vector<char>> touches;           ///< by rank and node: a block of the rank has it
+};
+
+RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition);
+
+/// Places in the arrays of a model that a rank's blocks change, for their way to and from rank 0.
+struct ShareItems {
+  std::vector<int> nodes;                ///< of its blocks
+  std::vector<std::vector<int>> blocks;  ///< by group
+};
+
+ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank);
+
+/// What a rank computes of a model in steps of a run, in lists on the device. Every rank has the whole model's arrays,
+/// of which those of its own blocks and their nodes are true between outputs; on rank 0 all are at outputs.
+struct RankShare {
+  struct Neighbour {
+    int rank;
+    int first_sent, sent_count;          ///< in `sent`
+    int first_received, received_count;  ///< in `received`
+  };
+
+  int rank = 0, ranks = 1;
+  std::vector<Array<int*>> outer;  ///< by group: blocks with nodes of other ranks too, computed first, so that their
+                                   ///< rows are under way while the others are computed
+  std::vector<Array<int*>> inner;  ///< by group: all others
+  std::vector<Neighbour> neighbours;
+  Array<int*> sent, received;  ///< rows of the partial forces, neighbour by neighbour
+};
+
+/// A rank's share. The model's shared nodes are from then on those of its blocks, on rank 0 also those of no block.
+RankShare take_share(Model& model, const BlockPartition& partition, const RankLayout& layout, int rank);
+
+}  // namespace railwave

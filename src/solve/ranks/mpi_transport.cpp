@@ -1,0 +1,141 @@
+#include "solve/ranks/transport.hpp"
+
+#ifdef RAILWAVE_MPI
+#include <mpi.h>
+#endif
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <stdexcept>
+#include <vector>
+
+namespace railwave {
+
+#ifdef RAILWAVE_MPI
+namespace {
+
+/// s that a rank may take for its part of a step before the others give up. Only steps are waited for so: while rank 0
+/// settles the scene or writes, the others wait without end.
+constexpr double patience = 25;
+/// MPI counts bytes in an int.
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+constexpr int failed = 1;
+
+void check(int code, const char* what) {
+  if (code == MPI_SUCCESS) return;
+  char text[MPI_MAX_ERROR_STRING] = {};
+  int length = 0;
+  MPI_Error_string(code, text, &length);
+  throw std::runtime_error(fmt::format("MPI could not {}: {}", what, text));
+}
+
+class MpiTransport : public Transport {
+ public:
+  MpiTransport() {
+    MPI_Init(nullptr, nullptr);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &ranks_);
+  }
+  ~MpiTransport() override { MPI_Finalize(); }
+  MpiTransport(const MpiTransport&) = delete;
+  MpiTransport& operator=(const MpiTransport&) = delete;
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return ranks_; }
+
+  void broadcast(void* data, std::size_t bytes) override {
+    check(MPI_Bcast(data, static_cast<int>(bytes), MPI_BYTE, 0, MPI_COMM_WORLD), "tell all ranks");
+  }
+
+  void start_send(int to, const void* data, std::size_t bytes) override {
+    const auto* from = static_cast<const char*>(data);
+    for (std::size_t at = 0; at < bytes; at += most_bytes)
+      check(MPI_Isend(from + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, to, 0, MPI_COMM_WORLD,
+                      next(to)),
+            "send");
+  }
+
+  void start_receive(int from, void* data, std::size_t bytes) override {
+    auto* to = static_cast<char*>(data);
+    for (std::size_t at = 0; at < bytes; at += most_bytes)
+      check(MPI_Irecv(to + at, static_cast<int>(std::min(most_bytes, bytes - at)), MPI_BYTE, from, 0, MPI_COMM_WORLD,
+                      next(from)),
+            "receive");
+  }
+
+  void finish() override {
+    const auto began = std::chrono::steady_clock::now();
+    for (int done = 0; !requests_.empty();) {
+      check(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "wait");
+      if (done != 0) break;
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience) give_up();
+    }
+    requests_.clear();
+    others_.clear();
+  }
+
+  bool all_agree(bool yes) override {
+    int own = yes ? 1 : 0, all = 0;
+    check(MPI_Allreduce(&own, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "agree");
+    return all == 1;
+  }
+
+  [[noreturn]] void end_all() override {
+    MPI_Abort(MPI_COMM_WORLD, failed);
+    std::abort();
+  }
+
+ private:
+  MPI_Request* next(int other) {
+    others_.push_back(other);
+    requests_.push_back(MPI_REQUEST_NULL);
+    return &requests_.back();
+  }
+
+  [[noreturn]] void give_up() {
+    int silent = others_.front();
+    for (std::size_t k = 0; k < requests_.size(); ++k) {
+      int done = 0;
+      MPI_Test(&requests_[k], &done, MPI_STATUS_IGNORE);
+      if (done == 0) silent = others_[k];
+    }
+    std::cerr << fmt::format(
+                     "railwave: rank {} has not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is "
+                     "good: --restart goes on from it, on any number of ranks",
+                     silent, rank_, patience)
+              << std::endl;
+    end_all();
+  }
+
+  int rank_ = 0, ranks_ = 1;
+  std::vector<MPI_Request> requests_;
+  std::vector<int> others_;  ///< by request
+};
+
+/// How many processes whoever started this one has started with it, by the variables that launchers set.
+int started_together() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* text = std::getenv(name)) return std::atoi(text);
+  return 1;
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> transport_of_processes() {
+  if (started_together() < 2) return nullptr;
+  auto transport = std::make_unique<MpiTransport>();
+  if (transport->ranks() < 2) return nullptr;
+  return transport;
+}
+
+#else
+
+std::unique_ptr<Transport> transport_of_processes() { return nullptr; }
+
+#endif
+
+}  // namespace railwave

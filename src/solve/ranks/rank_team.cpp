@@ -1,0 +1,116 @@
+#include "solve/ranks/rank_team.hpp"
+
+namespace railwave {
+namespace {
+
+/// What another rank computes of a step: elements, and the motion of their nodes.
+Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
+  Plan plan;
+  append(plan.forces, shared_element_tasks(model, kind, exchange));
+  plan.motion = node_tasks(model, model.elements, model, kind, {});
+  return plan;
+}
+
+Instant instant_of(const RankOrder& order) {
+  Instant instant;
+  instant.time = order.time;
+  instant.step = order.size;
+  instant.elapsed = order.elapsed;
+  return instant;
+}
+
+}  // namespace
+
+RankLeader::RankLeader(Model& model, Transport& transport)
+    : model_(model),
+      transport_(transport),
+      carriage_(model, transport),
+      partition_(partition_blocks(model, transport.ranks())) {
+  const RankLayout layout = lay_out_ranks(model, partition_);
+  for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition_, layout, r));
+  exchange_ = std::make_unique<RowExchange>(model, take_share(model, partition_, layout, 0), transport);
+}
+
+RankLeader::~RankLeader() {
+  try {
+    tell(RankOrder::end, {});
+  } catch (const std::exception&) {
+    // Who has gone needs not be told.
+  }
+}
+
+void RankLeader::tell(RankOrder::Kind kind, const Instant& instant, long steps) {
+  RankOrder order;
+  order.kind = kind;
+  order.steps = steps;
+  order.step = model_.step;
+  order.size = instant.step;
+  order.elapsed = instant.elapsed;
+  order.time = instant.time;
+  order.velocity_lag = model_.velocity_lag;
+  transport_.broadcast(&order, sizeof order);
+}
+
+void RankLeader::begin() {
+  tell(RankOrder::take_state, {});
+  for (int r = 1; r < transport_.ranks(); ++r) carriage_.send(r, items_[r]);
+}
+
+void RankLeader::advance(const Instant& instant, long steps) { tell(RankOrder::advance, instant, steps); }
+
+void RankLeader::sample(const Instant& instant) { tell(RankOrder::sample, instant); }
+
+void RankLeader::move(const Instant& instant) { tell(RankOrder::move, instant); }
+
+void RankLeader::gather() {
+  tell(RankOrder::gather, {});
+  for (int r = 1; r < transport_.ranks(); ++r) carriage_.receive(r, items_[r]);
+}
+
+void follow_rank_0(Model& model, Transport& transport) {
+  const BlockPartition partition = partition_blocks(model, transport.ranks());
+  const RankLayout layout = lay_out_ranks(model, partition);
+  const ShareItems items = items_of(model, partition, layout, transport.rank());
+  RowExchange exchange(model, take_share(model, partition, layout, transport.rank()), transport);
+  StateCarriage carriage(model, transport);
+  const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
+             sampled = follower_plan(model, StepKind::sampled, exchange);
+  const auto move = [&](const Plan& plan, const Instant& instant) {
+    run_tasks(plan.motion, instant, model.step);
+    model.step += 1;
+    model.velocity_lag = 0.5 * instant.step;
+  };
+  for (;;) {
+    RankOrder order;
+    transport.broadcast(&order, sizeof order);
+    Instant instant = instant_of(order);
+    switch (order.kind) {
+      case RankOrder::take_state:
+        carriage.receive(0, items);
+        model.step = order.step;
+        model.velocity_lag = order.velocity_lag;
+        break;
+      case RankOrder::advance:
+        for (long k = 0; k < order.steps; ++k) {
+          run_tasks(advancing.forces, instant, model.step);
+          move(advancing, instant);
+          instant.time += order.size;
+          instant.elapsed = order.size;
+        }
+        break;
+      case RankOrder::sample:
+        run_tasks(sampled.forces, instant, model.step);
+        break;
+      case RankOrder::gather:
+        carriage.send(0, items);
+        break;
+      case RankOrder::move:
+        move(sampled, instant);
+        break;
+      case RankOrder::end:
+        return;
+    }
+  }
+}
+
+}  // namespace railwave

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+
+#include "solve/plan.hpp"
+#include "solve/ranks/row_exchange.hpp"
+#include "solve/ranks/state_carriage.hpp"
+
+/// A run over several ranks. Rank 0 has the time loop, contact, loads, outputs and all that looks at the whole model;
+/// it tells the others what to do next, and they compute the elements of their blocks.
+namespace railwave {
+
+/// What rank 0 tells the others.
+struct RankOrder {
+  enum Kind : int {
+    take_state,  ///< the scene as it begins, or as it was taken up
+    advance,     ///< so many steps
+    sample,      ///< the forces of an instant, as for outputs
+    gather,      ///< the state of the blocks
+    move,        ///< the nodes, after a sample
+    end
+  };
+  Kind kind = end;
+  long steps = 0;     ///< to advance
+  long step = 0;      ///< the present one
+  double size = 0;    ///< s, of the step
+  double elapsed = 0;  ///< s, since the instant before
+  double time = 0;     ///< s, at the present instant
+  double velocity_lag = 0;  ///< s, see NodalState
+};
+
+/// Rank 0's side.
+class RankLeader {
+ public:
+  /// The model is as built; it may settle and be set in motion afterwards.
+  RankLeader(Model& model, Transport& transport);
+  /// The others end too.
+  ~RankLeader();
+  RankLeader(const RankLeader&) = delete;
+  RankLeader& operator=(const RankLeader&) = delete;
+
+  /// Deals the model out as it stands: from now on its arrays are whole only after gather().
+  void begin();
+
+  RowExchange& exchange() { return *exchange_; }
+
+  /// The others take so many steps.
+  void advance(const Instant& instant, long steps);
+  /// The others compute the forces of an instant that is sampled; and move the nodes on.
+  void sample(const Instant& instant);
+  void move(const Instant& instant);
+  /// Makes the model's arrays whole.
+  void gather();
+
+ private:
+  void tell(RankOrder::Kind kind, const Instant& instant, long steps = 0);
+
+  Model& model_;
+  Transport& transport_;
+  StateCarriage carriage_;
+  BlockPartition partition_;
+  std::vector<ShareItems> items_;  ///< by rank
+  std::unique_ptr<RowExchange> exchange_;
+};
+
+/// The side of another rank: does what it is told, until rank 0 has come to an end.
+void follow_rank_0(Model& model, Transport& transport);
+
+}  // namespace railwave

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "model/ranks/rank_share.hpp"
+#include "solve/ranks/transport.hpp"
+#include "solve/tasks.hpp"
+
+namespace railwave {
+
+/// Brings to each rank the rows of partial forces that others' blocks leave for its nodes. All ranks that have a node
+/// add its rows in the same order, so that it goes the same way on each.
+class RowExchange {
+ public:
+  RowExchange(const NodalState& nodal, RankShare share, Transport& transport);
+  ~RowExchange();
+
+  const RankShare& share() const { return share_; }
+  Transport& transport() const { return transport_; }
+
+  /// To come after the outer blocks' forces: the rows are on their way from then on.
+  Task send_task();
+  /// Before anything that needs all forces.
+  Task receive_task();
+
+ private:
+  struct Buffers;
+
+  const NodalState& nodal_;
+  RankShare share_;
+  Transport& transport_;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+}  // namespace railwave

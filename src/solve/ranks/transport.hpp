@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+namespace railwave {
+
+/// How ranks, processes of one run, reach each other. Messages between two of them arrive in the order in which they
+/// were started. Bytes lie in the host's memory.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+  virtual int rank() const = 0;
+  virtual int ranks() const = 0;
+
+  /// From rank 0 to all. Others wait as long as rank 0 takes.
+  virtual void broadcast(void* data, std::size_t bytes) = 0;
+
+  virtual void start_send(int to, const void* data, std::size_t bytes) = 0;
+  virtual void start_receive(int from, void* data, std::size_t bytes) = 0;
+  /// Waits for all that was started. Ends all ranks with a message where one of them does not answer in time.
+  virtual void finish() = 0;
+
+  /// Whether all ranks say yes; each waits for all others.
+  virtual bool all_agree(bool yes) = 0;
+
+  /// After an error that others must not wait for.
+  [[noreturn]] virtual void end_all() = 0;
+};
+
+/// That of the processes which mpirun has started; null where this one is alone, or the program was built without MPI.
+/// MPI is begun then, and ended with the transport.
+std::unique_ptr<Transport> transport_of_processes();
+
+}  // namespace railwave

@@ -71,6 +71,26 @@ struct ElementCheck {
   }
 };
 
+/// Largest difference of velocity over distance between neighbouring corners of an element, 1/s, squared: of what turns
+/// its angular velocity, of what travels nothing.
+struct EdgeRate {
+  static constexpr int values = 1;
+  ElementShapes shapes;
+  Array<const double*[3]> position, velocity;
+
+  KOKKOS_INLINE_FUNCTION void operator()(int e, double* value) const {
+    value[0] = 0;
+    for (int k = 0; k < 12; ++k) {
+      // Around the lower and the upper face, and up between them.
+      const int N = k % 8, M = k >= 8 ? N + 4 : N % 4 == 3 ? N - 3 : N + 1;
+      const int a = shapes.corners(e, N), b = shapes.corners(e, M);
+      const Vector3 moving = row(velocity, a) - row(velocity, b), apart = row(position, a) - row(position, b);
+      const double length = dot(apart, apart);
+      if (length > 0) value[0] = std::fmax(value[0], dot(moving, moving) / length);
+    }
+  }
+};
+
 /// A node's speed, m/s, and its acceleration, m/s2, which tells from what travels fast what is pushed too hard.
 struct NodeCheck {
   static constexpr int values = 2;

@@ -12,6 +12,7 @@
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
 #include "model/model.hpp"
+#include "model/ranks/block_partition.hpp"
 #include "solve/ranks/rank_team.hpp"
 
 namespace railwave {
@@ -26,6 +27,7 @@ int build(const std::string& case_file, const std::vector<std::string>& override
     place_contact_zones(scene);
     std::vector<std::string> notes;
     build_model(scene, assemble(scene, notes), model);
+    refuse_on_ranks(model);
     return done;
   } catch (const InputError&) {
     return wrong_input;

@@ -161,8 +161,6 @@ std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks)
   return rank;
 }
 
-}  // namespace
-
 bool knows_ranks() {
 #ifdef RAILWAVE_MPI
   return true;
@@ -171,12 +169,14 @@ bool knows_ranks() {
 #endif
 }
 
+}  // namespace
+
 double BlockPartition::imbalance() const {
   const double all = std::accumulate(work.begin(), work.end(), 0.0);
   return all > 0 ? *std::max_element(work.begin(), work.end()) * ranks / all : 1;
 }
 
-BlockPartition partition_blocks(const Model& model, int ranks) {
+void refuse_on_ranks(const Model& model) {
   if (!knows_ranks())
     throw InputError(
         "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, "
@@ -185,6 +185,10 @@ BlockPartition partition_blocks(const Model& model, int ranks) {
     throw InputError(fmt::format(
         "{}: [solver] precision: nodes in single precision are for one rank only; \"mixed\" and \"double\" are not",
         model.scene.path));
+}
+
+BlockPartition partition_blocks(const Model& model, int ranks) {
+  refuse_on_ranks(model);
   const BlockGraph graph = graph_of(model);
   const double of_contact = work_of_contact(model);
   const std::vector<int> rank = deal_out(graph, of_contact, ranks);

@@ -26,10 +26,10 @@ struct BlockPartition {
 
 /// Throws InputError where the program was built without MPI and METIS, and where a scene has what several ranks do not
 /// compute yet.
-BlockPartition partition_blocks(const Model& model, int ranks);
+void refuse_on_ranks(const Model& model);
 
-/// Whether the program was built with what ranks need.
-bool knows_ranks();
+/// Throws what refuse_on_ranks() throws.
+BlockPartition partition_blocks(const Model& model, int ranks);
 
 /// What a run over several ranks would be like, a line each.
 std::vector<std::string> describe_ranks(const Model& model, const BlockPartition& partition);

@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "mesh/hexahedron.hpp"
-#include "model/host_copy.hpp"
 #include "solve/monitor/account.hpp"
 
 namespace railwave {
 namespace {
 
-/// Between regular checks: a 64th of the run, but within these bounds; powers of two, whole cycles of any levels.
-constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_of_run = 64;
+/// Between regular checks: a 32nd of the run, but within these bounds; powers of two, whole cycles of any levels.
+constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_of_run = 32;
 /// At the energies alone, at least: a broken account must not waste more than a twentieth of a run.
 constexpr long energy_checks_of_run = 24;
 constexpr long steps_when_odd = 32;
@@ -55,25 +54,6 @@ Fault seen_at(const HistorySample& sample, FaultKind kind, bool fatal, double va
   fault.value = value;
   fault.limit = limit;
   return fault;
-}
-
-/// Largest difference of velocity over distance between neighbouring corners of an element, 1/s: of what turns its
-/// angular velocity, of what travels nothing.
-double largest_rate(const NodeArrays& nodes, const Assembly& assembly) {
-  const auto x = to_host(nodes.position), v = to_host(nodes.velocity);
-  double largest = 0;
-  for (const auto& element : assembly.elements)
-    for (int k = 0; k < 12; ++k) {
-      // Around the lower and the upper face, and up between them.
-      const int N = k % 8, a = element[N], b = element[k >= 8 ? N + 4 : N % 4 == 3 ? N - 3 : N + 1];
-      double moving = 0, apart = 0;
-      for (int i = 0; i < 3; ++i) {
-        moving += (v(a, i) - v(b, i)) * (v(a, i) - v(b, i));
-        apart += (x(a, i) - x(b, i)) * (x(a, i) - x(b, i));
-      }
-      if (apart > 0) largest = std::max(largest, moving / apart);
-    }
-  return std::sqrt(largest);
 }
 
 /// J, elastic, of what rounding strains elements in single precision by.
@@ -167,7 +147,7 @@ std::vector<Fault> Monitor::check(const HistorySample& sample) {
   }
   if (!begun_) {
     given_at_start_ = magnitude(sample.energy);
-    rate_at_start_ = largest_rate(nodal_.nodes, assembled_.assembly);
+    rate_at_start_ = arrays_->largest_rate(nodal_);
   }
   if (finite(sample)) weigh_energies(sample);
   const bool whole_asked = whole_due(sample.step);

@@ -76,4 +76,13 @@ MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vecto
   return found;
 }
 
+double MonitorArrays::largest_rate(const NodalState& nodal) const {
+  double squared = 0;
+  Reductions reductions(*nodal.reduction_space);
+  reductions.largest(EdgeRate{shapes_, nodal.nodes.position, nodal.nodes.velocity}, shapes_.count,
+                     [&squared](const Largest<1>& of) { squared = of.value[0]; });
+  reductions.fetch();
+  return std::sqrt(squared);
+}
+
 }  // namespace railwave

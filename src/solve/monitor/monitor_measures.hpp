@@ -32,6 +32,9 @@ class MonitorArrays {
   MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts);
   MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const;
 
+  /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s.
+  double largest_rate(const NodalState& nodal) const;
+
   /// Smallest Jacobian at a corner over the mean of its element, undeformed; element.
   Extreme worst_shape() const { return worst_shape_; }
 

@@ -18,9 +18,16 @@ namespace railwave {
 #ifdef RAILWAVE_MPI
 namespace {
 
-/// s that a rank may take for its part of a step before the others give up. Only steps are waited for so: while rank 0
-/// settles the scene or writes, the others wait without end.
-constexpr double patience = 25;
+/// s that a rank may take for its part of a step before the others give up, unless RAILWAVE_RANK_PATIENCE says
+/// otherwise. Only steps are waited for so: while rank 0 settles the scene or writes, the others wait without end.
+constexpr double usual_patience = 25;
+
+double patience_of_user() {
+  const char* const text = std::getenv("RAILWAVE_RANK_PATIENCE");
+  const double seconds = text != nullptr ? std::atof(text) : 0;
+  return seconds > 0 ? seconds : usual_patience;
+}
+
 /// MPI counts bytes in an int.
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 constexpr int failed = 1;
@@ -72,7 +79,7 @@ class MpiTransport : public Transport {
     for (int done = 0; !requests_.empty();) {
       check(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "wait");
       if (done != 0) break;
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience) give_up();
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience_) give_up();
     }
     requests_.clear();
     others_.clear();
@@ -106,11 +113,12 @@ class MpiTransport : public Transport {
     std::cerr << fmt::format(
                      "railwave: rank {} has not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is "
                      "good: --restart goes on from it, on any number of ranks",
-                     silent, rank_, patience)
+                     silent, rank_, patience_)
               << std::endl;
     end_all();
   }
 
+  const double patience_ = patience_of_user();
   int rank_ = 0, ranks_ = 1;
   std::vector<MPI_Request> requests_;
   std::vector<int> others_;  ///< by request

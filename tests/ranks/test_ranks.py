@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""A run over several ranks ends with the results of one process, bit for bit; so does one that is stopped and taken up
+on another number of ranks. What ranks do not compute yet is refused, and a rank that is lost ends all with a message."""
+
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+try:
+    import h5py
+except ImportError:
+    sys.exit(77)
+
+sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "tests" / "output"))
+from blocks_case import KINDS, case  # noqa: E402
+
+PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+# So many elements that each rank has blocks of its own, and some have no node that contact knows.
+FINER = {"divisions = [6, 5, 3]": "divisions = [14, 12, 9]", "divisions = [5, 5, 4]": "divisions = [12, 12, 9]",
+         "divisions = [2, 2, 2]": "divisions = [4, 7, 8]"}
+OF_ONE_RANK = ("float", "float_multiplier")
+PATIENCE = 300
+MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
+ENVIRONMENT = dict(os.environ, OMP_WAIT_POLICY="passive", OMP_NUM_THREADS="1")
+if os.geteuid() == 0:
+    ENVIRONMENT.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+
+def scene(name, share=0.15, **more):
+    """@param share of the time that the kind of scene takes: runs on several ranks of few processors wait for each
+    other at every step"""
+    options = {**KINDS[name], **more}
+    instead = dict(options.get("instead", {}))
+    finer = {old: new for old, new in FINER.items() if old not in instead and old in case(**options)}
+    if name == "subcycling":
+        finer = {}
+    options.update(instead={**instead, **finer}, end=share * options.get("end", 1.2e-3))
+    return case(**options)
+
+
+def arrays(path):
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory(prefix="railwave-")
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.results, self.checkpoint = self.folder / "results.h5", self.folder / "results.checkpoint.h5"
+
+    def write(self, text):
+        (self.folder / "case.toml").write_text(text)
+
+    def start(self, ranks, *options, **environment):
+        command = [str(PROGRAM), "run", "case.toml", *options]
+        if ranks > 1:
+            command = [*MPIRUN, "-n", str(ranks), *command]
+        return subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                env={**ENVIRONMENT, **environment})
+
+    def run_to_end(self, ranks, *options, code=0, **environment):
+        run = self.start(ranks, *options, **environment)
+        said, _ = run.communicate(timeout=PATIENCE)
+        self.assertEqual(run.returncode, code, said)
+        return said
+
+    def kept(self, name):
+        """The results, put away."""
+        place = self.folder / name
+        shutil.move(self.results, place)
+        return place
+
+    def assert_same(self, one, other):
+        first, second = arrays(one), arrays(other)
+        self.assertEqual(sorted(first), sorted(second))
+        different = [
+            name for name in first
+            if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()
+        ]
+        self.assertEqual(different, [])
+
+    def others(self, run):
+        """The processes of a run, ranks in order; mpirun's children."""
+        children = pathlib.Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+        found = {}
+        for child in map(int, children):
+            words = pathlib.Path(f"/proc/{child}/environ").read_bytes().split(b"\0")
+            for word in words:
+                if word.startswith(b"OMPI_COMM_WORLD_RANK="):
+                    found[int(word.partition(b"=")[2])] = child
+        return [found[rank] for rank in sorted(found)]
+
+    def when_it_runs(self, run):
+        while not self.checkpoint.exists() and run.poll() is None:
+            time.sleep(0.005)
+        self.assertIsNone(run.poll())
+
+
+class SameResults(Ranks):
+    """Made below: one test for each kind of scene."""
+
+
+def add_kind(name):
+    def test(self):
+        self.write(scene(name, 0.4) if name == "windows" else scene(name))  # of which one opens late
+        self.run_to_end(1)
+        alone = self.kept("alone.h5")
+        for ranks in (2, 3):
+            said = self.run_to_end(ranks)
+            # One process speaks for all.
+            self.assertEqual(said.count("results: "), 1, said)
+            self.assert_same(alone, self.kept(f"{ranks}.h5"))
+    setattr(SameResults, "test_" + name, test)
+
+
+for name_ in KINDS:
+    if name_ not in OF_ONE_RANK:
+        add_kind(name_)
+
+
+class Restarts(Ranks):
+    def test_stopped_on_four_ranks_and_taken_up_on_others(self):
+        self.write(scene("penalty", 0.4))
+        self.run_to_end(1)
+        alone = self.kept("alone.h5")
+        for ranks in (1, 3):
+            run = self.start(4, "--set", "checkpoint.interval=0.02", "--overwrite")
+            self.when_it_runs(run)
+            run.send_signal(signal.SIGUSR1)  # which mpirun passes on to all ranks
+            said, _ = run.communicate(timeout=PATIENCE)
+            self.assertIn("interrupted at step", said)
+            self.assertTrue(self.checkpoint.exists())
+            said = self.run_to_end(ranks, "--restart")
+            self.assertIn("restart: goes on from results.checkpoint.h5: step ", said)
+            self.assert_same(alone, self.kept(f"from-4-on-{ranks}.h5"))
+
+
+class Refusals(Ranks):
+    def test_nodes_in_single_precision(self):
+        self.write(scene("float"))
+        said = self.run_to_end(2, code=2)
+        self.assertIn("nodes in single precision are for one rank only", said)
+
+    def test_a_mistake_in_the_case_is_said_once(self):
+        self.write(scene("penalty").replace("friction = 0.3", 'friction = "much"'))
+        said = self.run_to_end(3, code=2)
+        self.assertEqual(said.count("railwave: case.toml"), 1, said)
+        self.assertFalse(self.results.exists())
+
+    def test_check_says_how_a_case_is_dealt_out(self):
+        self.write(scene("penalty"))
+        done = subprocess.run([PROGRAM, "check", "case.toml", "--ranks", "3"], cwd=self.folder, text=True,
+                              capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        elements = [int(one) for one in re.findall(r"^  rank \d: (\d+) elements", done.stdout, re.MULTILINE)]
+        self.assertEqual(len(elements), 3)
+        self.assertEqual(sum(elements), int(re.search(r"in all: (\d+) elements", done.stdout)[1]))
+
+
+class LostRanks(Ranks):
+    def lose(self, rank, number):
+        self.write(scene("penalty", field_interval=1e-5))
+        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="3")
+        self.when_it_runs(run)
+        began = time.monotonic()
+        os.kill(self.others(run)[rank], number)
+        said, _ = run.communicate(timeout=PATIENCE)
+        self.assertLess(time.monotonic() - began, 30)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertTrue(self.checkpoint.exists())
+        end = time.monotonic()
+        self.assertIn("restart: goes on from", self.run_to_end(2, "--restart", "--set", "time.end=1",
+                                                               "--wall-time", "2", code=4))
+        self.assertLess(time.monotonic() - end, 120)
+        return said
+
+    def test_a_killed_rank_ends_all(self):
+        self.assertRegex(self.lose(1, signal.SIGKILL), r"rank 1 .*(signal 9|Killed)")
+
+    def test_a_rank_that_stalls_ends_all(self):
+        self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP))
+
+
+if __name__ == "__main__":
+    knows = subprocess.run([PROGRAM, "check", "nothing.toml", "--ranks", "2"], capture_output=True, text=True)
+    if shutil.which("mpirun") is None or "built without MPI" in knows.stderr:
+        sys.exit(77)
+    started = subprocess.run([*MPIRUN, "-n", "2", "true"], capture_output=True, text=True, env=ENVIRONMENT)
+    if started.returncode != 0:
+        print(f"mpirun starts nothing on this machine: {started.stderr}")
+        sys.exit(77)
+    unittest.main()

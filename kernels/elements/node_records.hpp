@@ -151,7 +151,8 @@ struct NodeRecords {
   /// Moves node n, at place l of the block.
   void advance(const NodeAdvance& nodes, int n, int l) const {
     const double *r = record + values * l, *f = sum + 4 * l;
-    double *x = &nodes.nodes.position(n, 0), *v = &nodes.nodes.velocity(n, 0);
+    [[maybe_unused]] double* x = &nodes.nodes.position(n, 0);
+    double* v = &nodes.nodes.velocity(n, 0);
     const double* before = WithVelocity ? r + 6 : v;
     const double inverse_mass = 1.0 / r[mass_place];
 #if defined(__FMA__)

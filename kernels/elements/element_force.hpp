@@ -1,10 +1,36 @@
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/elements/element_blocks.hpp"
 #include "kernels/elements/hourglass.hpp"
+#include "kernels/elements/node_records.hpp"
 #include "kernels/materials/elastic.hpp"
 
 namespace railwave {
+
+/// What an element kernel asks of a batch's corners, and where it puts their forces, in scratch memory by component.
+template <class S, class Staged>
+struct StagedBatch {
+  using T = Pack<S>;
+
+  const Staged& staged;
+  const BatchCorners<S>& corners;
+  S* force;  ///< N, with their sign turned; of the batch's first lane
+
+  KOKKOS_FORCEINLINE_FUNCTION void position(int i, T (&m)[7]) const {
+    staged.modes(staged.position + i * staged.stride, corners, m);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void displacement(int i, T (&m)[7]) const {
+    staged.modes(staged.displacement + i * staged.stride, corners, m);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void velocity(int i, T (&m)[7]) const {
+    staged.modes(staged.velocity + i * staged.stride, corners, m);
+  }
+  KOKKOS_FORCEINLINE_FUNCTION void put_force(int i, const T (&f)[8]) const {
+    for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * elements_of_block, f[N]);
+  }
+};
 
 /// Step 1 of the thesis's table 2.1, (b) and (c), for one block: internal and hourglass forces of its elements, summed
 /// at its nodes: f_i^N = - B_j^N (sigma_ij - sum_M q_iM xm_jM / V) - sum_M q_iM Gamma_M^N. The sums go to `partial`,
@@ -26,8 +52,20 @@ struct ElementForce {
 
   using Staged = StagedNodes<S, Hourglass::needs_velocity, Advance, Nodes>;
 
+  /// Whether a block's nodes lie in records.
+#ifdef RAILWAVE_SIMD_LANES
+  static constexpr bool in_records = std::is_same_v<S, double>;
+#else
+  static constexpr bool in_records = false;
+#endif
+
   /// Scratch memory of a team, bytes.
   static std::size_t scratch_size(const ElementBlocks& blocks) {
+#ifdef RAILWAVE_SIMD_LANES
+    if constexpr (in_records)
+      return NodeRecords<Hourglass::needs_velocity>::scratch_size(blocks.node_stride) + sizeof(S) * elements_of_block +
+             scratch_alignment;
+#endif
     return Staged::scratch_size(blocks.node_stride) + sizeof(S) * (3u * component_stride + elements_of_block) +
            4 * scratch_alignment + (on_device ? sizeof(std::uint16_t) * (blocks.pack_stride + blocks.place_stride) : 0);
   }
@@ -38,6 +76,14 @@ struct ElementForce {
 
   template <class Member>
   KOKKOS_INLINE_FUNCTION void run(const Member& team, const int p) const {
+    if constexpr (in_records)
+      run_records(team, p);
+    else
+      run_staged(team, p);
+  }
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void run_staged(const Member& team, const int p) const {
     const Staged staged(team, blocks.node_stride);
     S* force = scratch_values<S>(team, 3u * component_stride);
     S* power = scratch_values<S>(team, elements_of_block);
@@ -51,22 +97,71 @@ struct ElementForce {
       const T scale = hourglass_scales(p, e);
       staged.bring(team, blocks, p, nodes.nodes);
       team.team_barrier();
-      if (e < elements) batch_force(p, e, corners, scale, constants, staged, force, power);
+      if (e < elements) batch_force(p, e, StagedBatch<S, Staged>{staged, corners, force + e}, scale, constants, power);
       team.team_barrier();
     } else {
       staged.bring(team, blocks, p, nodes.nodes);
       for (int i = 0; i < 3; ++i) force[i * component_stride + zero_place] = 0;
-      for (int b = 0; b * lane_count<S> < elements; ++b)
-        batch_force(p, b, corners_of_batch(p, b), hourglass_scales(p, b), constants, staged, force, power);
+      for (int b = 0; b * lane_count<S> < elements; ++b) {
+        const BatchCorners<S> corners = corners_of_batch(p, b);
+        batch_force(p, b, StagedBatch<S, Staged>{staged, corners, force + b * lane_count<S>}, hourglass_scales(p, b),
+                    constants, power);
+      }
     }
     sum_corners(team, p, lists, staged, force);
+    add_power(team, p, elements, power);
+  }
+
+#ifdef RAILWAVE_SIMD_LANES
+  template <class Member>
+  void run_records(const Member& team, const int p) const {
+    using Records = NodeRecords<Hourglass::needs_velocity>;
+    constexpr int group = Records::group, parts = group / lane_count<S>;
+    constexpr int prefetched = (nodes_of_block * group + elements_of_block - 1) / elements_of_block;
+    const Records records(team, blocks.node_stride);
+    S* power = scratch_values<S>(team, elements_of_block);
+    const int elements = blocks.element_count(p), count = blocks.node_count(p);
+    const auto constants = material.template of_block<S>(blocks.material(p), Staged::turn(blocks, p, nodes.nodes));
+    const int* number = blocks.node.data() + static_cast<long>(p) * blocks.node_stride;
+    const int next_count = p + 1 < blocks.count ? blocks.node_count(p + 1) : 0;
+    const std::uint8_t* corners = blocks.corner.data() + static_cast<long>(p) * elements_of_block * 8;
+    records.bring(nodes.nodes, number, count);
+    for (int first = 0, fetched = 0; first < elements; first += group, fetched += prefetched) {
+      Records::prefetch_nodes(nodes.nodes, number + blocks.node_stride, fetched,
+                              fetched + prefetched < next_count ? fetched + prefetched : next_count);
+      typename Records::Batch batch[parts];
+      for (int k = 0; k < parts; ++k) batch[k].load(records, corners + (first + k * lane_count<S>)*8);
+      for (int k = 0; k < parts; ++k) {
+        const int b = first / lane_count<S> + k;
+        batch_force(p, b, batch[k], hourglass_scales(p, b), constants, power);
+      }
+      records.subtract(batch, corners + first * 8, elements - first);
+    }
+    for (int l = 0; l < count; ++l) {
+      if (Advance && number[l] < 0) {
+        records.advance(nodes, number[l] & ~advance_bit, l);
+        continue;
+      }
+      const double* f = records.sum + 4 * l;
+      partial(first_partial + p * blocks.node_stride + l) = {{f[0], f[1], f[2], f[3]}};
+    }
+    add_power(team, p, elements, power);
+  }
+#endif
+
+  template <class Member>
+  KOKKOS_INLINE_FUNCTION void add_power(const Member& team, const int p, const int elements, const S* power) const {
     if constexpr (!Hourglass::stores)
       Kokkos::parallel_for(Kokkos::TeamThreadRange(team, power_sums), [&](const int k) {
         constexpr int share = elements_of_block / power_sums;
         double sum = 0;
         for (int s = k * share; s < (k + 1) * share && s < elements; ++s) sum += static_cast<double>(power[s]);
-        // Nobody else adds here; an atomic addition need not wait for what was there before.
-        Kokkos::atomic_add(&blocks.hourglass_energy(p * power_sums + k), step * sum);
+        double& energy = blocks.hourglass_energy(p * power_sums + k);
+        // Nobody else adds here; on a GPU an atomic addition need not wait for what was there before.
+        if constexpr (on_device)
+          Kokkos::atomic_add(&energy, step * sum);
+        else
+          energy += step * sum;
       });
   }
 
@@ -98,20 +193,19 @@ struct ElementForce {
     return {copy, copy + blocks.pack_stride};
   }
 
-  /// @param force corner forces with their sign turned, N
-  /// @param power dissipated by hourglass control, W
-  template <class Constants>
-  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, const BatchCorners<S>& corners, const T& scale,
-                                          const Constants& constants, const Staged& staged, S* force,
-                                          S* power_of_slot) const {
+  /// @param batch its corners: StagedBatch or NodeRecords::Batch
+  /// @param power_of_slot dissipated by hourglass control, W
+  template <class Batch, class Constants>
+  KOKKOS_INLINE_FUNCTION void batch_force(const int p, const int b, Batch&& batch, const T& scale,
+                                          const Constants& constants, S* power_of_slot) const {
     T x[3][7], B[3][6], H[3][3], cauchy[6];
-    for (int i = 0; i < 3; ++i) staged.modes(staged.position + i * staged.stride, corners, x[i]);
+    for (int i = 0; i < 3; ++i) batch.position(i, x[i]);
     mean_gradient<S>(x, B);
     const T inverse_volume = S(1) / along(x[0], B[0]);
     [[maybe_unused]] T w[3][4];
     for (int i = 0; i < 3; ++i) {
       T u[7];
-      staged.modes(staged.displacement + i * staged.stride, corners, u);
+      batch.displacement(i, u);
       for (int j = 0; j < 3; ++j) H[i][j] = along(u, B[j]) * inverse_volume;
       if constexpr (Hourglass::stores)
         for (int M = 0; M < 4; ++M) w[i][M] = hourglass_content(u, H[i], x, M);
@@ -135,7 +229,7 @@ struct ElementForce {
         for (int M = 0; M < 4; ++M) q[M] = scale * (H[0][i] * w[0][M] + H[1][i] * w[1][M] + H[2][i] * w[2][M]);
       } else {
         T v[7], L[3];
-        staged.modes(staged.velocity + i * staged.stride, corners, v);
+        batch.velocity(i, v);
         for (int j = 0; j < 3; ++j) L[j] = along(v, B[j]) * inverse_volume;
         for (int M = 0; M < 4; ++M) {
           const T speed = hourglass_content(v, L, x, M);
@@ -151,7 +245,7 @@ struct ElementForce {
       for (int M = 0; M < 3; ++M) m[3 + M] += q[M];
       m[6] = q[3];
       corners_of(m, f);
-      for (int N = 0; N < 8; ++N) store(force + i * component_stride + N * elements_of_block + b * lane_count<S>, f[N]);
+      batch.put_force(i, f);
     }
     if constexpr (!Hourglass::stores) store(power_of_slot + b * lane_count<S>, power);
   }

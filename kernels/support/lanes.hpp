@@ -64,6 +64,10 @@ KOKKOS_FORCEINLINE_FUNCTION void store(S* p, const Pack<S>& value) {
 }
 
 #ifdef RAILWAVE_SIMD_LANES
+/// Asks memory for what will be read. Whatever calls it must be inlined by force as well, because g++ 12 takes a
+/// function that only prefetches for one without effect and leaves its calls out.
+KOKKOS_FORCEINLINE_FUNCTION void prefetch(const void* place) { __builtin_prefetch(place); }
+
 /// Places in an array, one for each lane, and the values there: the processor's own gather is a good deal faster than
 /// lane by lane. (The forms with a mask, because g++ 12 warns of the others.)
 template <class S, class Index>

@@ -22,10 +22,14 @@ inline constexpr int threads_of_sum = on_device ? 32 : 1;
 
 inline constexpr std::size_t scratch_alignment = 16;
 
-/// The team's scratch memory for `count` values, aligned for loads of 16 bytes.
+/// Bytes that a host's processor brings from memory at once.
+inline constexpr std::size_t cache_line = 64;
+
+/// The team's scratch memory for `count` values, aligned for loads of 16 bytes unless told otherwise.
 template <class S, class Member>
-KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count) {
-  return static_cast<S*>(team.team_scratch(0).get_shmem_aligned(count * sizeof(S), scratch_alignment));
+KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count,
+                                         std::size_t alignment = scratch_alignment) {
+  return static_cast<S*>(team.team_scratch(0).get_shmem_aligned(count * sizeof(S), alignment));
 }
 
 /// 16 bytes, copied at once.

@@ -24,6 +24,7 @@ POSITIVE = {
     "--jobs",
     "--threads",
     "--slurm",
+    "--ranks",
 }
 NUMERIC = POSITIVE | {
     "--retries",

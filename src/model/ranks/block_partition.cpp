@@ -49,8 +49,8 @@ std::vector<char> bound_nodes(const Model& model) {
 
 /// Blocks of all groups under one number, and how many nodes each has in common with others.
 struct BlockGraph {
-  std::vector<int> first;                               ///< of each group
-  std::vector<double> weight;                           ///< element evaluations a step
+  std::vector<int> first;      ///< of each group
+  std::vector<double> weight;  ///< element evaluations a step
   std::vector<long> elements;
   std::vector<char> bound;                              ///< to rank 0
   std::vector<std::vector<std::pair<int, int>>> edges;  ///< other block, nodes in common

@@ -80,8 +80,7 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   share.rank = rank;
   share.ranks = partition.ranks;
   std::vector<char> outer(model.nodes.count, 0);
-  for (int n = 0; n < model.nodes.count; ++n)
-    outer[n] = layout.touches[rank][n] != 0 && is_outer(layout, n) ? 1 : 0;
+  for (int n = 0; n < model.nodes.count; ++n) outer[n] = layout.touches[rank][n] != 0 && is_outer(layout, n) ? 1 : 0;
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
     const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
@@ -100,7 +99,7 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
     const auto &to = layout.sent[rank][other], &from = layout.sent[other][rank];
     if (to.empty() && from.empty()) continue;
     share.neighbours.push_back({other, static_cast<int>(sent.size()), static_cast<int>(to.size()),
-                                 static_cast<int>(received.size()), static_cast<int>(from.size())});
+                                static_cast<int>(received.size()), static_cast<int>(from.size())});
     sent.insert(sent.end(), to.begin(), to.end());
     received.insert(received.end(), from.begin(), from.end());
   }

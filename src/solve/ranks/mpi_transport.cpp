@@ -13,6 +13,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "case/error.hpp"
+#include "case/number_text.hpp"
+
 namespace railwave {
 
 #ifdef RAILWAVE_MPI
@@ -24,8 +27,14 @@ constexpr double usual_patience = 25;
 
 double patience_of_user() {
   const char* const text = std::getenv("RAILWAVE_RANK_PATIENCE");
-  const double seconds = text != nullptr ? std::atof(text) : 0;
-  return seconds > 0 ? seconds : usual_patience;
+  if (text == nullptr || *text == 0) return usual_patience;
+  const auto seconds = parse_real(text);
+  if (!seconds || !(*seconds > 0))
+    throw InputError(fmt::format(
+        "the environment variable RAILWAVE_RANK_PATIENCE is '{}': a time in s above 0 is wanted, such as 60; unset it "
+        "for {:.0f} s",
+        text, usual_patience));
+  return *seconds;
 }
 
 /// MPI counts bytes in an int.

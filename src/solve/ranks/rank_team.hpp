@@ -4,11 +4,24 @@
 
 #include "solve/plan.hpp"
 #include "solve/ranks/row_exchange.hpp"
-#include "solve/ranks/state_carriage.hpp"
 
 /// A run over several ranks. Rank 0 has the time loop, contact, loads, outputs and all that looks at the whole model;
 /// it tells the others what to do next, and they compute the elements of their blocks.
 namespace railwave {
+
+/// Brings what a rank's blocks change between that rank and rank 0: places and velocities of their nodes, the forces
+/// that stand in their rows, histories of materials, energies dissipated.
+class StateCarriage {
+ public:
+  StateCarriage(Model& model, Transport& transport) : model_(model), transport_(transport) {}
+
+  void send(int to, const ShareItems& items);
+  void receive(int from, const ShareItems& items);
+
+ private:
+  Model& model_;
+  Transport& transport_;
+};
 
 /// What rank 0 tells the others.
 struct RankOrder {
@@ -21,11 +34,11 @@ struct RankOrder {
     end
   };
   Kind kind = end;
-  long steps = 0;     ///< to advance
-  long step = 0;      ///< the present one
-  double size = 0;    ///< s, of the step
-  double elapsed = 0;  ///< s, since the instant before
-  double time = 0;     ///< s, at the present instant
+  long steps = 0;           ///< to advance
+  long step = 0;            ///< the present one
+  double size = 0;          ///< s, of the step
+  double elapsed = 0;       ///< s, since the instant before
+  double time = 0;          ///< s, at the present instant
   double velocity_lag = 0;  ///< s, see NodalState
 };
 

@@ -11,8 +11,7 @@ struct RowBuffer {
   typename Array<PartialForce<S>*>::HostMirror host;
 
   explicit RowBuffer(std::size_t rows)
-      : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)),
-        host(Kokkos::create_mirror_view(device)) {}
+      : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)), host(Kokkos::create_mirror_view(device)) {}
 };
 
 struct RowExchange::Buffers {

@@ -1,7 +1,6 @@
-#include "solve/ranks/state_carriage.hpp"
-
 #include "kernels/support/packed_rows.hpp"
 #include "model/host_copy.hpp"
+#include "solve/ranks/rank_team.hpp"
 
 namespace railwave {
 namespace {

@@ -23,9 +23,10 @@ void element_damping(const NodalState& nodal, const ElementGroup& group, bool in
                   BlockDamping<float, NodeAdvance>{group.damping, group.blocks, node_advance(nodal, instant.step),
                                                    elapsed, before, nodal.partial.in_single});
   else
-    launch_blocks(group.blocks, listed, BlockDamping<float, RelativeAdvance>{
-                                    group.damping, group.blocks, relative_advance(nodal, group.relative, instant.step),
-                                    elapsed, before, nodal.partial.in_single});
+    launch_blocks(group.blocks, listed,
+                  BlockDamping<float, RelativeAdvance>{group.damping, group.blocks,
+                                                       relative_advance(nodal, group.relative, instant.step), elapsed,
+                                                       before, nodal.partial.in_single});
 }
 
 void book_damping(const NodalState& nodal, const ElementGroup& group, bool in_single, double elapsed) {

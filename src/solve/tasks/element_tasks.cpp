@@ -64,12 +64,11 @@ std::vector<Task> damping_tasks(const NodalState& nodal, const ElementGroup& gro
                        book_damping(nodal, group, in_single, instant.elapsed);
                      },
                      steps, 1});
-  tasks.push_back(
-      {"damping of " + group.parts, "b",
-       [&nodal, &group, in_single, listed](const Instant& instant) {
-         element_damping(nodal, group, in_single, instant, listed);
-       },
-       steps});
+  tasks.push_back({"damping of " + group.parts, "b",
+                   [&nodal, &group, in_single, listed](const Instant& instant) {
+                     element_damping(nodal, group, in_single, instant, listed);
+                   },
+                   steps});
   return tasks;
 }
 
@@ -89,8 +88,7 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
   };
   for (const ElementGroup& group : elements.elements) {
     const long steps = settling ? 1 : 1L << group.level;
-    if (listed.first)
-      append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
+    if (listed.first) append(tasks, placed(frame_tasks(nodal, group, kind, steps), Stage::own_forces, lane_of(group)));
     ElementLaunch launch{kind, nullptr, nullptr, listed_of(group)};
     if (&group == &elements.elements.front() && along.contact) launch.contact = &contacts.front();
     if (&group == &elements.elements.front() && along.sets) launch.sets = &loads;

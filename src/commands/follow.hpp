@@ -6,7 +6,7 @@
 #include "solve/ranks/transport.hpp"
 
 /// Runs of several processes, which mpirun starts. Rank 0 is the program as it is alone: it reads, writes, reports and
-/// decides; the others say nothing and compute what it tells them.
+/// decides; the others say nothing and compute what it asks for.
 namespace railwave {
 
 /// The number of this process among those that were started together, as whoever started them says; 0: alone, or the

@@ -1,5 +1,7 @@
 """Two blocks of which one falls onto the other, with all that a case may have: kinds of scenes whose runs are to be the
-same to the last bit however they are interrupted or dealt out."""
+same to the last bit however they are interrupted or dealt out; and the comparison of their results."""
+
+import h5py
 
 BLOCKS = """
 [materials.steel]
@@ -203,3 +205,24 @@ def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_i
         assert old in text
         text = text.replace(old, instead[old])
     return text
+
+
+def arrays(path):
+    """Of a results file, by name."""
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def different_arrays(one, other):
+    """Names of arrays of two results files that differ in any bit, or that one of them lacks."""
+    first, second = arrays(one), arrays(other)
+    return sorted(
+        name
+        for name in first.keys() | second.keys()
+        if name not in first
+        or name not in second
+        or first[name].shape != second[name].shape
+        or first[name].tobytes() != second[name].tobytes()
+    )

@@ -20,15 +20,9 @@ try:
 except ImportError:
     sys.exit(77)
 
-from blocks_case import KINDS, case
+from blocks_case import KINDS, arrays, case, different_arrays
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
-
-def arrays(path):
-    found = {}
-    with h5py.File(path, "r") as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 def monitored(said):
@@ -70,14 +64,7 @@ class Folder(unittest.TestCase):
         return said
 
     def assert_same(self, one, other):
-        first, second = arrays(one), arrays(other)
-        self.assertEqual(sorted(first), sorted(second))
-        different = [
-            name
-            for name in first
-            if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()
-        ]
-        self.assertEqual(different, [])
+        self.assertEqual(different_arrays(one, other), [])
         self.assertEqual(one.with_suffix(".xdmf").read_text(), other.with_suffix(".xdmf").read_text())
 
 

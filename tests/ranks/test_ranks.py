@@ -14,13 +14,11 @@ import tempfile
 import time
 import unittest
 
+sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "tests" / "output"))
 try:
-    import h5py
+    from blocks_case import KINDS, case, different_arrays
 except ImportError:
     sys.exit(77)
-
-sys.path.insert(0, str(pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "tests" / "output"))
-from blocks_case import KINDS, case  # noqa: E402
 
 PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 # So many elements that each rank has blocks of its own, and some have no node that contact knows.
@@ -44,13 +42,6 @@ def scene(name, share=0.15, **more):
         finer = {}
     options.update(instead={**instead, **finer}, end=share * options.get("end", 1.2e-3))
     return case(**options)
-
-
-def arrays(path):
-    found = {}
-    with h5py.File(path, "r") as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 class Ranks(unittest.TestCase):
@@ -83,13 +74,7 @@ class Ranks(unittest.TestCase):
         return place
 
     def assert_same(self, one, other):
-        first, second = arrays(one), arrays(other)
-        self.assertEqual(sorted(first), sorted(second))
-        different = [
-            name for name in first
-            if first[name].shape != second[name].shape or first[name].tobytes() != second[name].tobytes()
-        ]
-        self.assertEqual(different, [])
+        self.assertEqual(different_arrays(one, other), [])
 
     def others(self, run):
         """The processes of a run, ranks in order; mpirun's children."""

@@ -24,7 +24,7 @@ Instant instant_of(const RankOrder& order) {
 RankLeader::RankLeader(Model& model, Transport& transport)
     : model_(model),
       transport_(transport),
-      carriage_(model, transport),
+      state_transfer_(model, transport),
       partition_(partition_blocks(model, transport.ranks())) {
   const RankLayout layout = lay_out_ranks(model, partition_);
   for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition_, layout, r));
@@ -33,13 +33,13 @@ RankLeader::RankLeader(Model& model, Transport& transport)
 
 RankLeader::~RankLeader() {
   try {
-    tell(RankOrder::end, {});
+    give_order(RankOrder::end, {});
   } catch (const std::exception&) {
-    // Who has gone needs not be told.
+    // A rank that has ended needs no order.
   }
 }
 
-void RankLeader::tell(RankOrder::Kind kind, const Instant& instant, long steps) {
+void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long steps) {
   RankOrder order;
   order.kind = kind;
   order.steps = steps;
@@ -52,19 +52,19 @@ void RankLeader::tell(RankOrder::Kind kind, const Instant& instant, long steps) 
 }
 
 void RankLeader::begin() {
-  tell(RankOrder::take_state, {});
-  for (int r = 1; r < transport_.ranks(); ++r) carriage_.send(r, items_[r]);
+  give_order(RankOrder::take_state, {});
+  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r]);
 }
 
-void RankLeader::advance(const Instant& instant, long steps) { tell(RankOrder::advance, instant, steps); }
+void RankLeader::advance(const Instant& instant, long steps) { give_order(RankOrder::advance, instant, steps); }
 
-void RankLeader::sample(const Instant& instant) { tell(RankOrder::sample, instant); }
+void RankLeader::sample(const Instant& instant) { give_order(RankOrder::sample, instant); }
 
-void RankLeader::move(const Instant& instant) { tell(RankOrder::move, instant); }
+void RankLeader::move(const Instant& instant) { give_order(RankOrder::move, instant); }
 
 void RankLeader::gather() {
-  tell(RankOrder::gather, {});
-  for (int r = 1; r < transport_.ranks(); ++r) carriage_.receive(r, items_[r]);
+  give_order(RankOrder::gather, {});
+  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.receive(r, items_[r]);
 }
 
 void follow_rank_0(Model& model, Transport& transport) {
@@ -72,7 +72,7 @@ void follow_rank_0(Model& model, Transport& transport) {
   const RankLayout layout = lay_out_ranks(model, partition);
   const ShareItems items = items_of(model, partition, layout, transport.rank());
   RowExchange exchange(model, take_share(model, partition, layout, transport.rank()), transport);
-  StateCarriage carriage(model, transport);
+  StateTransfer state_transfer(model, transport);
   const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
              sampled = follower_plan(model, StepKind::sampled, exchange);
   const auto move = [&](const Plan& plan, const Instant& instant) {
@@ -86,7 +86,7 @@ void follow_rank_0(Model& model, Transport& transport) {
     Instant instant = instant_of(order);
     switch (order.kind) {
       case RankOrder::take_state:
-        carriage.receive(0, items);
+        state_transfer.receive(0, items);
         model.step = order.step;
         model.velocity_lag = order.velocity_lag;
         break;
@@ -102,7 +102,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         run_tasks(sampled.forces, instant, model.step);
         break;
       case RankOrder::gather:
-        carriage.send(0, items);
+        state_transfer.send(0, items);
         break;
       case RankOrder::move:
         move(sampled, instant);

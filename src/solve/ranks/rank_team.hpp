@@ -6,14 +6,14 @@
 #include "solve/ranks/row_exchange.hpp"
 
 /// A run over several ranks. Rank 0 has the time loop, contact, loads, outputs and all that looks at the whole model;
-/// it tells the others what to do next, and they compute the elements of their blocks.
+/// it gives the others orders, by which they compute the elements of their blocks.
 namespace railwave {
 
 /// Brings what a rank's blocks change between that rank and rank 0: places and velocities of their nodes, the forces
 /// that stand in their rows, histories of materials, energies dissipated.
-class StateCarriage {
+class StateTransfer {
  public:
-  StateCarriage(Model& model, Transport& transport) : model_(model), transport_(transport) {}
+  StateTransfer(Model& model, Transport& transport) : model_(model), transport_(transport) {}
 
   void send(int to, const ShareItems& items);
   void receive(int from, const ShareItems& items);
@@ -23,7 +23,7 @@ class StateCarriage {
   Transport& transport_;
 };
 
-/// What rank 0 tells the others.
+/// What rank 0 has the others do.
 struct RankOrder {
   enum Kind : int {
     take_state,  ///< the scene as it begins, or as it was taken up
@@ -66,17 +66,17 @@ class RankLeader {
   void gather();
 
  private:
-  void tell(RankOrder::Kind kind, const Instant& instant, long steps = 0);
+  void give_order(RankOrder::Kind kind, const Instant& instant, long steps = 0);
 
   Model& model_;
   Transport& transport_;
-  StateCarriage carriage_;
+  StateTransfer state_transfer_;
   BlockPartition partition_;
   std::vector<ShareItems> items_;  ///< by rank
   std::unique_ptr<RowExchange> exchange_;
 };
 
-/// The side of another rank: does what it is told, until rank 0 has come to an end.
+/// The side of another rank: follows the orders, until rank 0 has come to an end.
 void follow_rank_0(Model& model, Transport& transport);
 
 }  // namespace railwave

@@ -18,28 +18,28 @@ std::vector<int> rows_of(const ElementGroup& group, const std::vector<int>& bloc
 }
 
 template <bool Sending>
-class Carrier {
+class Transfer {
  public:
-  Carrier(Transport& transport, int other) : transport_(transport), other_(other) {}
+  Transfer(Transport& transport, int other) : transport_(transport), other_(other) {}
 
   /// @param width values at each place
   template <class T>
   void values(const Array<T*>& array, const std::vector<int>& places, int width) const {
     if (array.extent(0) == 0 || places.empty()) return;
     const auto packed = unset_array<T*>("packed", places.size() * width);
-    carry(packed, packed.extent(0), PackedValues<T, Sending>{array, to_device("places", places), width, packed});
+    transfer_all(packed, packed.extent(0), PackedValues<T, Sending>{array, to_device("places", places), width, packed});
   }
 
   template <class T, int N>
   void rows(const Array<T* [N]>& array, const std::vector<int>& places) const {
     if (array.extent(0) == 0 || places.empty()) return;
     const auto packed = unset_array<T*>("packed", places.size() * N);
-    carry(packed, places.size(), PackedRows<T, N, Sending>{array, to_device("places", places), packed});
+    transfer_all(packed, places.size(), PackedRows<T, N, Sending>{array, to_device("places", places), packed});
   }
 
  private:
   template <class T, class Kernel>
-  void carry(const Array<T*>& packed, std::size_t calls, const Kernel& kernel) const {
+  void transfer_all(const Array<T*>& packed, std::size_t calls, const Kernel& kernel) const {
     const auto host = Kokkos::create_mirror_view(packed);
     const Range range(0, static_cast<int>(calls));
     const std::size_t bytes = sizeof(T) * packed.extent(0);
@@ -62,28 +62,30 @@ class Carrier {
 };
 
 template <bool Sending>
-void carry(Model& model, const ShareItems& items, const Carrier<Sending>& carrier) {
-  carrier.template rows<double, 3>(model.nodes.position, items.nodes);
-  carrier.template rows<double, 3>(model.nodes.velocity, items.nodes);
+void transfer_all(Model& model, const ShareItems& items, const Transfer<Sending>& transfer) {
+  transfer.template rows<double, 3>(model.nodes.position, items.nodes);
+  transfer.template rows<double, 3>(model.nodes.velocity, items.nodes);
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& group = model.elements[g];
     const std::vector<int>& blocks = items.blocks[g];
-    carrier.template rows<double, BlockFrame::values>(group.blocks.frame, blocks);
-    carrier.values(group.blocks.hourglass_energy, blocks, power_sums);
-    carrier.values(group.material.history, blocks, elements_of_block * group.material.history_values);
-    carrier.values(group.damping.energy, blocks, 1);
+    transfer.template rows<double, BlockFrame::values>(group.blocks.frame, blocks);
+    transfer.values(group.blocks.hourglass_energy, blocks, power_sums);
+    transfer.values(group.material.history, blocks, elements_of_block * group.material.history_values);
+    transfer.values(group.damping.energy, blocks, 1);
     const std::vector<int> rows = rows_of(group, blocks);
-    carrier.values(model.partial.in_double, rows, 1);
-    carrier.values(model.partial.in_single, rows, 1);
+    transfer.values(model.partial.in_double, rows, 1);
+    transfer.values(model.partial.in_single, rows, 1);
   }
 }
 
 }  // namespace
 
-void StateCarriage::send(int to, const ShareItems& items) { carry(model_, items, Carrier<true>(transport_, to)); }
+void StateTransfer::send(int to, const ShareItems& items) {
+  transfer_all(model_, items, Transfer<true>(transport_, to));
+}
 
-void StateCarriage::receive(int from, const ShareItems& items) {
-  carry(model_, items, Carrier<false>(transport_, from));
+void StateTransfer::receive(int from, const ShareItems& items) {
+  transfer_all(model_, items, Transfer<false>(transport_, from));
 }
 
 }  // namespace railwave

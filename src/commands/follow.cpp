@@ -65,13 +65,19 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
 }
 
 OtherRanks::~OtherRanks() {
-  if (transport_ && !told_) transport_->all_agree(false);
+  if (!transport_) return;
+  if (told_)
+    end_followers(*transport_);
+  else
+    transport_->all_agree(false);
 }
 
 void OtherRanks::begin() {
   told_ = true;
-  if (transport_ && !transport_->all_agree(true))
+  if (transport_ && !transport_->all_agree(true)) {
+    transport_->followers_have_ended = true;
     throw std::runtime_error("another rank could not make the model; nothing was run");
+  }
 }
 
 }  // namespace railwave

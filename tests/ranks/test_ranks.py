@@ -144,6 +144,11 @@ class Refusals(Ranks):
         self.assertEqual(said.count("railwave: case.toml"), 1, said)
         self.assertFalse(self.results.exists())
 
+    def test_what_is_found_as_the_run_begins(self):
+        self.write(scene("penalty").replace('parts = ["upper"]', 'parts = ["lower"]'))
+        said = self.run_to_end(2, code=2)
+        self.assertIn("railwave: case.toml", said)
+
     def test_check_says_how_a_case_is_dealt_out(self):
         self.write(scene("penalty"))
         done = subprocess.run([PROGRAM, "check", "case.toml", "--ranks", "3"], cwd=self.folder, text=True,

@@ -11,6 +11,19 @@ Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   return plan;
 }
 
+/// The same on all ranks, whatever their processors make of METIS.
+BlockPartition common_partition(const Model& model, Transport& transport) {
+  BlockPartition partition;
+  if (transport.rank() == 0) {
+    partition = partition_blocks(model, transport.ranks());
+  } else {
+    partition.ranks = transport.ranks();
+    for (const ElementGroup& group : model.elements) partition.owner.emplace_back(group.blocks.count, 0);
+  }
+  for (std::vector<int>& owner : partition.owner) transport.broadcast(owner.data(), sizeof(int) * owner.size());
+  return partition;
+}
+
 Instant instant_of(const RankOrder& order) {
   Instant instant;
   instant.time = order.time;
@@ -22,18 +35,17 @@ Instant instant_of(const RankOrder& order) {
 }  // namespace
 
 RankLeader::RankLeader(Model& model, Transport& transport)
-    : model_(model),
-      transport_(transport),
-      state_transfer_(model, transport),
-      partition_(partition_blocks(model, transport.ranks())) {
-  const RankLayout layout = lay_out_ranks(model, partition_);
-  for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition_, layout, r));
-  exchange_ = std::make_unique<RowExchange>(model, take_share(model, partition_, layout, 0), transport);
+    : model_(model), transport_(transport), state_transfer_(model, transport) {
+  give_order(RankOrder::deal_out, {});
+  const BlockPartition partition = common_partition(model, transport);
+  const RankLayout layout = lay_out_ranks(model, partition);
+  for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition, layout, r));
+  exchange_ = std::make_unique<RowExchange>(model, take_share(model, partition, layout, 0), transport);
 }
 
 RankLeader::~RankLeader() {
   try {
-    give_order(RankOrder::end, {});
+    end_followers(transport_);
   } catch (const std::exception&) {
     // A rank that has ended needs no order.
   }
@@ -67,8 +79,18 @@ void RankLeader::gather() {
   for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.receive(r, items_[r]);
 }
 
+void end_followers(Transport& transport) {
+  if (transport.followers_have_ended) return;
+  transport.followers_have_ended = true;
+  RankOrder order;
+  transport.broadcast(&order, sizeof order);
+}
+
 void follow_rank_0(Model& model, Transport& transport) {
-  const BlockPartition partition = partition_blocks(model, transport.ranks());
+  RankOrder first;
+  transport.broadcast(&first, sizeof first);
+  if (first.kind == RankOrder::end) return;
+  const BlockPartition partition = common_partition(model, transport);
   const RankLayout layout = lay_out_ranks(model, partition);
   const ShareItems items = items_of(model, partition, layout, transport.rank());
   RowExchange exchange(model, take_share(model, partition, layout, transport.rank()), transport);
@@ -107,6 +129,7 @@ void follow_rank_0(Model& model, Transport& transport) {
       case RankOrder::move:
         move(sampled, instant);
         break;
+      case RankOrder::deal_out:
       case RankOrder::end:
         return;
     }

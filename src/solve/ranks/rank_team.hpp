@@ -26,6 +26,7 @@ class StateTransfer {
 /// What rank 0 has the others do.
 struct RankOrder {
   enum Kind : int {
+    deal_out,    ///< which rank has which blocks
     take_state,  ///< the scene as it begins, or as it was taken up
     advance,     ///< so many steps
     sample,      ///< the forces of an instant, as for outputs
@@ -71,10 +72,12 @@ class RankLeader {
   Model& model_;
   Transport& transport_;
   StateTransfer state_transfer_;
-  BlockPartition partition_;
   std::vector<ShareItems> items_;  ///< by rank
   std::unique_ptr<RowExchange> exchange_;
 };
+
+/// The last order of rank 0, if it has not been given yet: the others wait for orders until then.
+void end_followers(Transport& transport);
 
 /// The side of another rank: follows the orders, until rank 0 has come to an end.
 void follow_rank_0(Model& model, Transport& transport);

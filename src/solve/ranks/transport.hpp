@@ -26,6 +26,8 @@ class Transport {
 
   /// After an error that others must not wait for.
   [[noreturn]] virtual void end_all() = 0;
+
+  bool followers_have_ended = false;  ///< see end_followers() in rank_team.hpp
 };
 
 /// That of the processes which mpirun has started; null where this one is alone, or the program was built without MPI.

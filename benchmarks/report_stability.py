@@ -40,7 +40,8 @@ class Scene:
             "automatic",
             "calm_in_twice",
         ):
-            setattr(self, name, float(row[name]))
+            if name in row:  # results of programs before that estimate have no such column
+                setattr(self, name, float(row[name]))
         self.elements = int(row["elements"])
 
     def ratio(self, estimate):
@@ -137,8 +138,8 @@ def picture(scenes, path):
 def tables(results, scenes):
     text = [
         "; ".join(f"`{one.facts['command']}`, {one.facts['date']}" for one in results) + f": {len(scenes)} scenes.\n",
-        "| scene | scenes | element | eigenvalue | global | automatic | exact |",
-        "|---|---|---|---|---|---|---|",
+        f"| scene | scenes | {' | '.join(ESTIMATES)} | exact |",
+        "|---|---|" + "---|" * (len(ESTIMATES) + 1),
     ]
     for (kind, mesh), members in groups(scenes).items():
         exact = [s.exact / s.calm for s in members if s.exact > 0]
@@ -180,6 +181,9 @@ def main():
     arguments = parser.parse_args()
     results = [Results(path) for path in arguments.results]
     scenes = [Scene(row) for one in results for row in one.rows]
+    for estimate in list(ESTIMATES):
+        if not all(hasattr(scene, estimate) for scene in scenes):
+            del ESTIMATES[estimate]
     picture(scenes, os.path.join(arguments.docs, "pictures", "stability.png"))
     page = os.path.join(arguments.docs, "stability.md")
     with open(page, encoding="utf-8") as file:

@@ -9,8 +9,8 @@ packages_to_draw=(python3 python3-h5py python3-matplotlib)
 # clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built
 # without.
 packages_to_test=(clang-format python3-paraview)
-# Runs over several processes: MPI; METIS, which deals elements out to them; ssh, without which mpirun does not start even
-# on one machine.
+# Runs over several processes: MPI; METIS, which deals elements out to them; ssh, without which mpirun starts nothing,
+# not even on one machine.
 packages_for_ranks=(libmetis-dev libopenmpi-dev openmpi-bin openssh-client)
 # What hands sweeps over to many machines, here with controller and node on one, for its tests.
 packages_for_schedulers=(munge slurm-wlm snakemake)

@@ -162,7 +162,7 @@ class Refusals(Ranks):
 class LostRanks(Ranks):
     def lose(self, rank, number):
         self.write(scene("penalty", field_interval=1e-5))
-        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="3")
+        run = self.start(3, "--set", "checkpoint.interval=0.02", "--set", "time.end=1", RAILWAVE_RANK_PATIENCE="8")
         self.when_it_runs(run)
         began = time.monotonic()
         os.kill(self.others(run)[rank], number)

@@ -25,7 +25,7 @@ inline constexpr std::size_t scratch_alignment = 16;
 /// Bytes that a host's processor brings from memory at once.
 inline constexpr std::size_t cache_line = 64;
 
-/// The team's scratch memory for `count` values, aligned for loads of 16 bytes unless told otherwise.
+/// The team's scratch memory for `count` values, aligned for loads of 16 bytes unless `alignment` says otherwise.
 template <class S, class Member>
 KOKKOS_INLINE_FUNCTION S* scratch_values(const Member& team, std::size_t count,
                                          std::size_t alignment = scratch_alignment) {

@@ -1,8 +1,6 @@
 #include "commands/follow.hpp"
 
-#include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 
@@ -38,12 +36,6 @@ int build(const std::string& case_file, const std::vector<std::string>& override
 }
 
 }  // namespace
-
-int rank_of_process() {
-  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MV2_COMM_WORLD_RANK", "SLURM_PROCID"})
-    if (const char* text = std::getenv(name)) return std::max(0, std::atoi(text));
-  return 0;
-}
 
 int follow_run(const std::string& case_file, const std::vector<std::string>& overrides) {
   // Rank 0 decides when a run that is to stop has come to a whole step.

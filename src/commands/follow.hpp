@@ -9,10 +9,6 @@
 /// decides; the others say nothing and compute what it asks for.
 namespace railwave {
 
-/// The number of this process among those that were started together, as whoever started them says; 0: alone, or the
-/// first.
-int rank_of_process();
-
 /// What another rank does in place of `railwave run`. @return its exit code: that of rank 0 is what counts
 int follow_run(const std::string& case_file, const std::vector<std::string>& overrides);
 

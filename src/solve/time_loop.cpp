@@ -232,7 +232,7 @@ class TimeLoop {
     return true;
   }
 
-  /// As many steps as other ranks can take without being told more.
+  /// As many steps as other ranks can take without another order.
   bool take_shared_steps() {
     if (sampled_) return false;
     constexpr long most = 64;

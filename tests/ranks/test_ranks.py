@@ -159,6 +159,12 @@ class Refusals(Ranks):
         self.assertEqual(sum(elements), int(re.search(r"in all: (\d+) elements", done.stdout)[1]))
 
 
+class OfOthers(Ranks):
+    def test_a_task_of_a_scheduler_is_a_run_of_its_own(self):
+        self.write(scene("penalty", 0.02))
+        self.assertIn("results: ", self.run_to_end(1, SLURM_PROCID="3", SLURM_STEP_NUM_TASKS="4"))
+
+
 class LostRanks(Ranks):
     def lose(self, rank, number):
         self.write(scene("penalty", field_interval=1e-5))

@@ -133,14 +133,19 @@ class MpiTransport : public Transport {
   std::vector<int> others_;  ///< by request
 };
 
-/// How many processes whoever started this one has started with it, by the variables that launchers set.
-int started_together() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE", "SLURM_STEP_NUM_TASKS"})
-    if (const char* text = std::getenv(name)) return std::atoi(text);
-  return 1;
+/// What launchers of MPI (Open MPI, MPICH) have set; 0: nothing.
+int launched(const char* of_open_mpi, const char* of_mpich) {
+  for (const char* name : {of_open_mpi, of_mpich})
+    if (const char* text = std::getenv(name)) return std::max(0, std::atoi(text));
+  return 0;
 }
 
+/// Other processes that start several programs, such as a scheduler's, leave each of them a run of its own.
+int started_together() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"); }
+
 }  // namespace
+
+int rank_of_process() { return started_together() < 2 ? 0 : launched("OMPI_COMM_WORLD_RANK", "PMI_RANK"); }
 
 std::unique_ptr<Transport> transport_of_processes() {
   if (started_together() < 2) return nullptr;
@@ -150,6 +155,8 @@ std::unique_ptr<Transport> transport_of_processes() {
 }
 
 #else
+
+int rank_of_process() { return 0; }
 
 std::unique_ptr<Transport> transport_of_processes() { return nullptr; }
 

@@ -30,6 +30,10 @@ class Transport {
   bool followers_have_ended = false;  ///< see end_followers() in rank_team.hpp
 };
 
+/// The number of this process among those that a launcher of MPI has started together, before MPI is begun; 0: alone,
+/// the first, or the program was built without MPI.
+int rank_of_process();
+
 /// That of the processes which mpirun has started; null where this one is alone, or the program was built without MPI.
 /// MPI is begun then, and ended with the transport.
 std::unique_ptr<Transport> transport_of_processes();

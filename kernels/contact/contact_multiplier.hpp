@@ -86,11 +86,29 @@ struct ContactMultiplier {
     if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
   }
 
+  /// What every multiplier has of its row's nodes, in registers: memory is asked for all at once, and not for one after
+  /// the other between writes that might have changed it. Where a row has more, they follow in memory.
+  struct RowNodes {
+    int count, row[nodes_of_multiplier];
+    double weight[nodes_of_multiplier];
+  };
+
+  KOKKOS_INLINE_FUNCTION static RowNodes nodes_of(const MultiplierRow& r) {
+    RowNodes nodes;
+    nodes.count = r.count;
+    for (int k = 0; k < nodes_of_multiplier; ++k) {
+      nodes.row[k] = r.row[k];
+      nodes.weight[k] = r.weight[k];
+    }
+    return nodes;
+  }
+
   /// Locate, project; the last step's force is where the iteration starts.
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const Vector3 slave = row(search.position, near.node);
+    const Vector3 pressed = row(contact.normal_force, s), rubbed = row(contact.tangential_force, s);
     const int status = contact.status(s), tracked = contact.tracked(s);
     const bool touched = status != status_apart;
     const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
@@ -98,60 +116,51 @@ struct ContactMultiplier {
     if (!touched) first_touch.judge(search, s, near.node, tracked, now);
     now = Normals::turned(search, slave, now);
     FirstTouch::count_from_entry(contact, s, now);
-    MultiplierRow& r = multipliers.rows(s);
     if constexpr (Normals::curved)
-      if (touched) book_work(s, near.node, tracked, place, row(contact.normal_force, s));
-    r.normal = now.normal;
-    r.gap = now.gap;
-    r.closing = touched || now.gap < 0 ? taken_back * now.gap : now.gap;
+      if (touched) book_work(s, near.node, tracked, place, pressed);
     if (now.segment >= 0) {
       contact.tracked(s) = now.segment;
       contact.place(s, 0) = now.place.xi;
       contact.place(s, 1) = now.place.eta;
     }
+    MultiplierRow& r = multipliers.rows(s);
     const Segment segment = contact.surface(now.segment);
-    r.active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
-    r.moved =
-        touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, r.active != 0)
+    const bool active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
+    const Vector3 moved =
+        touched ? first_touch.last.template slid<Normals>(search, near.node, slave, tracked, place, now, active)
                 : Vector3{{0, 0, 0}};
-    r.force = r.begun = r.change = Vector3{{0, 0, 0}};
-    r.pressing = 0;
+    r.normal = now.normal;
+    r.gap = now.gap;
+    r.closing = touched || now.gap < 0 ? taken_back * now.gap : now.gap;
+    r.moved = moved;
+    r.active = active ? 1 : 0;
+    r.change = Vector3{{0, 0, 0}};
     r.slips = 1;
     if constexpr (Friction)
-      r.friction = friction(s, touched && r.active != 0, status == status_slips ? r.moved : Vector3{{0, 0, 0}});
-    if (r.active == 0) return;
-
-    r.count = 0;
-    add_node(r, near.node, 1);
-    for (int k = 0; k < 4; ++k) {
-      const double weight = -segment_shape(k, now.place.xi, now.place.eta);
-      if (segment.node[k] >= 0) {
-        add_node(r, segment.node[k], weight);
-        continue;
-      }
-      const MouthCorner mouth = contact.mouth_corners(-1 - segment.node[k]);
-      double share[MouthCorner::pieces];
-      search.shares_of(mouth, share);
-      for (int piece = 0; piece < MouthCorner::pieces; ++piece) add_node(r, mouth.node[piece], share[piece] * weight);
+      r.friction = friction(s, touched && active, status == status_slips ? moved : Vector3{{0, 0, 0}});
+    if (!active) {
+      r.force = r.begun = Vector3{{0, 0, 0}};
+      r.pressing = 0;
+      return;
     }
+    const RowNodes nodes = list_nodes(r, near.node, segment, now.place);
     r.free = Vector3{{0, 0, 0}};
     if constexpr (Friction) {
       // Towards where the node stuck, should it have crept from there.
-      Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + r.moved : Vector3{{0, 0, 0}};
+      Vector3 way = status == status_sticks ? row(multipliers.way_since_stuck, s) + moved : Vector3{{0, 0, 0}};
       way = way - dot(way, now.normal) * now.normal;
       for (int k = 0; k < 3; ++k) multipliers.way_since_stuck(s, k) = way[k];
       r.free = taken_back * way;
     }
-    r.pressing = norm(row(contact.normal_force, s));
-    if (!touched) return;
-    r.force = r.pressing * now.normal;
-    if constexpr (Friction) {
-      Vector3 tangential = row(contact.tangential_force, s);
-      tangential = tangential - dot(tangential, now.normal) * now.normal;
-      r.force = r.force + tangential;
+    const double pressing = norm(pressed);
+    Vector3 force{{0, 0, 0}};
+    if (touched) {
+      force = pressing * now.normal;
+      if constexpr (Friction) force = force + (rubbed - dot(rubbed, now.normal) * now.normal);
     }
-    r.begun = r.force;
-    scatter(r, r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
+    r.pressing = pressing;
+    r.force = r.begun = force;
+    if (touched) scatter(r, nodes, force, [&](int at, int axis) { return &external.contact(at, axis); });
   }
 
   /// The coefficient that bounds the force to be found, by how the node has slid up to now. What one that sticks creeps
@@ -169,72 +178,137 @@ struct ContactMultiplier {
     return state[FallingFriction::now];
   }
 
-  /// Who first pushes a node lists it.
-  KOKKOS_INLINE_FUNCTION void add_node(MultiplierRow& r, int node, double weight) const {
-    const int at = external_row(node);
-    r.row[r.count] = at;
-    r.weight[r.count] = weight;
-    ++r.count;
-    const auto share = static_cast<std::uint64_t>(std::fabs(weight) / multiplicity_quantum) + 1;
-    if (Kokkos::atomic_fetch_add(&free_nodes.multiplicity(at), share) != 0) return;
-    free_nodes.nodes(at).node = node;
-    free_nodes.listed(Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), 1)) = at;
+  /// Writes a multiplier's nodes into its row: the slave's, one of each corner of the segment, then what corners at
+  /// mouths have besides.
+  KOKKOS_INLINE_FUNCTION RowNodes list_nodes(MultiplierRow& r, int slave, const Segment& segment,
+                                             const SegmentPlace& place) const {
+    RowNodes nodes;
+    nodes.count = nodes_of_multiplier;
+    int node[nodes_of_multiplier];
+    node[0] = slave;
+    nodes.weight[0] = 1;
+    for (int k = 0; k < 4; ++k) {
+      node[k + 1] = segment.node[k];
+      nodes.weight[k + 1] = -segment_shape(k, place.xi, place.eta);
+      if (segment.node[k] >= 0) continue;
+      const MouthCorner mouth = search.contact.mouth_corners(-1 - segment.node[k]);
+      double share[MouthCorner::pieces];
+      search.shares_of(mouth, share);
+      for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
+        const int beside[1] = {mouth.node[piece]}, at = external_row(mouth.node[piece]);
+        const double weight = share[piece] * nodes.weight[k + 1];
+        r.row[nodes.count] = at;
+        r.weight[nodes.count] = weight;
+        ++nodes.count;
+        count_and_list(beside, &at, &weight);
+      }
+      node[k + 1] = mouth.node[0];
+      nodes.weight[k + 1] *= share[0];
+    }
+    for (int k = 0; k < nodes_of_multiplier; ++k) nodes.row[k] = external_row(node[k]);
+    count_and_list(node, nodes.row, nodes.weight);
+    r.count = nodes.count;
+    for (int k = 0; k < nodes_of_multiplier; ++k) {
+      r.row[k] = nodes.row[k];
+      r.weight[k] = nodes.weight[k];
+    }
+    return nodes;
   }
 
-  /// Hands a force on the slave to its nodes. Equal and opposite to the last bit: the last corner takes what the others
+  /// Counts a multiplier at a node. @return whether it is the first to push it in this step
+  KOKKOS_INLINE_FUNCTION bool count_at(int at, double weight) const {
+    const auto share = static_cast<std::uint64_t>(std::fabs(weight) / multiplicity_quantum) + 1;
+    return Kokkos::atomic_fetch_add(&free_nodes.multiplicity(at), share) == 0;
+  }
+
+  /// Who first pushes nodes lists them.
+  template <int count>
+  KOKKOS_INLINE_FUNCTION void count_and_list(const int (&node)[count], const int* at, const double* weight) const {
+    bool first[count];
+    int firsts = 0;
+    for (int k = 0; k < count; ++k) first[k] = count_at(at[k], weight[k]);
+    for (int k = 0; k < count; ++k) firsts += first[k] ? 1 : 0;
+    if (firsts == 0) return;
+    int place = Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), firsts);
+    for (int k = 0; k < count; ++k) {
+      if (!first[k]) continue;
+      free_nodes.nodes(at[k]).node = node[k];
+      free_nodes.listed(place++) = at[k];
+    }
+  }
+
+  /// Hands a force on the slave to its nodes. Equal and opposite to the last bit: the last node takes what the others
   /// leave.
   /// @param place of a row's sum, by axis
   template <class Place>
-  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r, const Vector3& force, const Place& place) const {
+  KOKKOS_INLINE_FUNCTION void scatter(const MultiplierRow& r, const RowNodes& nodes, const Vector3& force,
+                                      const Place& place) const {
     const Vector3 quanta = external.in_quanta(force);
     const FixedForce whole = external.fixed(quanta);
     FixedForce left = whole;
-    for (int c = 0; c < 3; ++c) Kokkos::atomic_add(place(r.row[0], c), static_cast<std::uint64_t>(whole.quanta[c]));
-    for (int k = 1; k < r.count; ++k) {
-      const FixedForce share = k + 1 < r.count ? external.fixed(-r.weight[k] * quanta) : left;
+    const auto give = [&](int k, int at, double weight) {
+      const FixedForce share = k + 1 < nodes.count ? external.fixed(-weight * quanta) : left;
       for (int c = 0; c < 3; ++c) {
         left.quanta[c] -= share.quanta[c];
-        Kokkos::atomic_add(place(r.row[k], c), static_cast<std::uint64_t>(-share.quanta[c]));
+        Kokkos::atomic_add(place(at, c), static_cast<std::uint64_t>(-share.quanta[c]));
       }
-    }
+    };
+    for (int c = 0; c < 3; ++c) Kokkos::atomic_add(place(nodes.row[0], c), static_cast<std::uint64_t>(whole.quanta[c]));
+    for (int k = 1; k < nodes_of_multiplier; ++k) give(k, nodes.row[k], nodes.weight[k]);
+    for (int k = nodes_of_multiplier; k < nodes.count; ++k) give(k, r.row[k], r.weight[k]);
   }
+
+  /// What a sweep makes of a multiplier.
+  struct Corrected {
+    Vector3 free, force, change;
+    double compliance, pressing;
+    int slips;
+  };
 
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
     MultiplierRow& r = multipliers.rows(near.slave);
     if (r.active == 0) return;
+    const RowNodes nodes = nodes_of(r);
     const Vector3 before = r.change;
-    correct(r);
-    scatter(r, before + r.change, [&](int at, int axis) { return &free_nodes.change(at, sweep & 1, axis); });
+    const Corrected now = corrected(r, nodes);
+    r.free = now.free;
+    r.compliance = now.compliance;
+    r.force = now.force;
+    r.change = now.change;
+    r.pressing = now.pressing;
+    scatter(r, nodes, before + now.change, [&](int at, int axis) { return &free_nodes.change(at, sweep & 1, axis); });
   }
 
   /// A sweep's new force of one multiplier.
-  KOKKOS_INLINE_FUNCTION void correct(MultiplierRow& r) const {
+  KOKKOS_INLINE_FUNCTION Corrected corrected(const MultiplierRow& r, const RowNodes& nodes) const {
+    Corrected now;
     Vector3 moves = r.free;
-    if (sweep == 1) {
-      r.compliance = 0;
-      for (int k = 0; k < r.count; ++k) {
-        const FreeNode& free = free_nodes.nodes(r.row[k]);
-        moves = moves + r.weight[k] * free.predicted;
-        r.compliance += std::fabs(r.weight[k]) * free.together;
+    now.compliance = sweep == 1 ? 0 : r.compliance;
+    const auto add = [&](int at, double weight) {
+      if (sweep > 1) {
+        moves = moves + weight * movement(at);
+        return;
       }
-      r.free = moves;
-    } else {
-      for (int k = 0; k < r.count; ++k) moves = moves + r.weight[k] * movement(r.row[k]);
-    }
+      const FreeNode free = free_nodes.nodes(at);
+      moves = moves + weight * free.predicted;
+      now.compliance += std::fabs(weight) * free.together;
+    };
+    for (int k = 0; k < nodes_of_multiplier; ++k) add(nodes.row[k], nodes.weight[k]);
+    for (int k = nodes_of_multiplier; k < nodes.count; ++k) add(r.row[k], r.weight[k]);
+    now.free = sweep == 1 ? moves : r.free;
     const double opening = dot(moves, r.normal);
-    const double pressing = std::fmax(0.0, r.pressing - (r.closing + opening) / r.compliance);
-    Vector3 force = pressing * r.normal;
-    r.slips = 1;
+    now.pressing = std::fmax(0.0, r.pressing - (r.closing + opening) / now.compliance);
+    now.force = now.pressing * r.normal;
+    now.slips = 1;
     if constexpr (Friction) {
-      Vector3 tangential = r.force - r.pressing * r.normal - (1 / r.compliance) * (moves - opening * r.normal);
-      const double bound = r.friction * pressing, size = norm(tangential);
-      r.slips = size > bound ? 1 : 0;
+      Vector3 tangential = r.force - r.pressing * r.normal - (1 / now.compliance) * (moves - opening * r.normal);
+      const double bound = r.friction * now.pressing, size = norm(tangential);
+      now.slips = size > bound ? 1 : 0;
       if (size > bound) tangential = (bound / size) * tangential;
-      force = force + tangential;
+      now.force = now.force + tangential;
     }
-    r.change = force - r.force;
-    r.force = force;
-    r.pressing = pressing;
+    now.change = now.force - r.force;
+    return now;
   }
 
   /// m, of a node for what multipliers have changed by in this step.
@@ -252,27 +326,38 @@ struct ContactMultiplier {
   KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
-    MultiplierRow& r = multipliers.rows(s);
-    if (r.active != 0) {
-      correct(r);
-      scatter(r, r.force - r.begun, [&](int at, int axis) { return &external.contact(at, axis); });
+    const MultiplierRow& r = multipliers.rows(s);
+    const Vector3 pressed = row(contact.normal_force, s), rubbed = row(contact.tangential_force, s);
+    const Vector3 normal = r.normal, moved = r.moved;
+    const double gap = r.gap, gap_before = contact.gap(s);
+    Vector3 force = r.force;
+    double pressing = r.pressing;
+    int slips = r.slips;
+    const bool active = r.active != 0;
+    if (active) {
+      const RowNodes nodes = nodes_of(r);
+      const Vector3 begun = r.begun;
+      const Corrected now = corrected(r, nodes);
+      force = now.force;
+      pressing = now.pressing;
+      slips = now.slips;
+      scatter(r, nodes, force - begun, [&](int at, int axis) { return &external.contact(at, axis); });
     }
     if constexpr (Normals::curved) {
       const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
-      if (r.active != 0) book_work(s, near.node, contact.tracked(s), place, r.pressing * r.normal);
+      if (active) book_work(s, near.node, contact.tracked(s), place, pressing * normal);
     } else {
-      const double held = norm(row(contact.normal_force, s)), before = contact.gap(s);
-      const bool closes = is_distance(before) && is_distance(r.gap);
-      if (closes) multipliers.impact_energy(s) -= 0.5 * (held + r.pressing) * (r.gap - before);
+      const bool closes = is_distance(gap_before) && is_distance(gap);
+      if (closes) multipliers.impact_energy(s) -= 0.5 * (norm(pressed) + pressing) * (gap - gap_before);
     }
     if constexpr (Friction) {
-      const Vector3 tangential = r.force - r.pressing * r.normal;
-      contact.friction_energy(s) -= 0.5 * dot(row(contact.tangential_force, s) + tangential, r.moved);
+      const Vector3 tangential = force - pressing * normal;
+      contact.friction_energy(s) -= 0.5 * dot(rubbed + tangential, moved);
       for (int k = 0; k < 3; ++k) contact.tangential_force(s, k) = tangential[k];
     }
-    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = r.pressing * r.normal[k];
-    contact.gap(s) = r.gap;
-    contact.status(s) = !(r.pressing > 0) ? status_apart : r.slips != 0 ? status_slips : status_sticks;
+    for (int k = 0; k < 3; ++k) contact.normal_force(s, k) = pressing * normal[k];
+    contact.gap(s) = gap;
+    contact.status(s) = !(pressing > 0) ? status_apart : slips != 0 ? status_slips : status_sticks;
   }
 
   /// Half of what a normal force at one end of the last step does on the bodies in it. Of curved segments the gap does
@@ -292,12 +377,14 @@ struct PredictFreeNodes {
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     if (i >= free_nodes.listed_count(0)) return;
     const int at = free_nodes.listed(i);
-    FreeNode& free = free_nodes.nodes(at);
-    const int n = free.node;
-    free.constraint = motion.acceleration.force.nodes.constraint(n);
-    free.compliance = motion.compliance(n);
+    const NodeArrays& nodes = motion.acceleration.force.nodes;
+    FreeNode free;
+    free.node = free_nodes.nodes(at).node;
+    free.constraint = nodes.constraint(free.node);
+    free.compliance = motion.compliance(free.node);
     free.together = free.compliance * multiplicity_quantum * static_cast<double>(free_nodes.multiplicity(at));
-    free.predicted = motion(n);
+    free.predicted = motion(free.node);
+    free_nodes.nodes(at) = free;
     free_nodes.multiplicity(at) = 0;
     for (int parity = 0; parity < 2; ++parity)
       for (int axis = 0; axis < 3; ++axis) free_nodes.change(at, parity, axis) = 0;

@@ -28,4 +28,9 @@ void halve_into_blocks(const Assembly& assembly, std::vector<int>& elements, int
 /// rows bend, and where element sizes are graded.
 void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first);
 
+/// Joins what growing has left in between, blocks of few elements, to fuller ones of several pieces. No element of the
+/// range is in a block that begins before first[from].
+void join_scraps(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first,
+                 std::size_t from);
+
 }  // namespace railwave

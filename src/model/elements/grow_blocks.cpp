@@ -156,7 +156,9 @@ class Grower {
 }  // namespace
 
 void grow_blocks(const Assembly& assembly, std::vector<int>& elements, int begin, int end, std::vector<int>& first) {
+  const std::size_t from = first.size();
   Grower(assembly, elements, begin, end).divide(elements, begin, end, first);
+  join_scraps(assembly, elements, begin, end, first, from);
 }
 
 }  // namespace railwave

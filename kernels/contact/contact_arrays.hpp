@@ -89,9 +89,14 @@ struct alignas(16) WindowEntry {
 /// the next check.
 struct ContactWindow {
   int count = 0;
-  Array<WindowEntry*> entries;
-  Array<int*> near;        ///< places in `entries`, in any order: what the nodes do does not depend on each other
-  Array<int*> near_count;  ///< one
+  Array<WindowEntry*> entries;  ///< room for all slave nodes, as `near`; the window's come first
+  Array<int*> near;             ///< places in `entries`, in any order: what the nodes do does not depend on each other
+  Array<int*> near_count;       ///< one
+
+  /// What launches over the near nodes, whose number the device knows, are made for: no less than the window has, and
+  /// seldom another, so that they can be recorded.
+  KOKKOS_INLINE_FUNCTION int bound() const { return (count + grain - 1) / grain * grain; }
+  static constexpr int grain = 256;
 };
 
 inline constexpr int status_apart = 0, status_sticks = 1, status_slips = 2;

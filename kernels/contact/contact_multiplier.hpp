@@ -401,8 +401,8 @@ struct MultiplierPairs {
   KOKKOS_INLINE_FUNCTION void operator()(const Phase& phase, const int i) const {
     int k = i;
     for (const Pair& pair : pairs) {
-      if (k >= 0 && k < pair.window.count) pair.item(phase, k);
-      k -= pair.window.count;
+      if (k >= 0 && k < pair.window.bound()) pair.item(phase, k);
+      k -= pair.window.bound();
     }
     if constexpr (std::is_same_v<Phase, Multiplier::Finish>)
       if (i == 0) pairs[0].free_nodes.listed_count(0) = 0;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -122,6 +123,8 @@ EnsembleEnd run_ensemble(const EnsembleRequest& request, std::ostream& out) {
     members.push_back(std::make_unique<Member>());
     read_member(request, m, *members.back());
   }
+  // On a GPU of NVIDIA, launches of different members that share one of its queues wait for each other; 8 are usual.
+  setenv("CUDA_DEVICE_MAX_CONNECTIONS", "32", 0);
   const KokkosScope kokkos;
   std::vector<EnsembleMember> runs;
   SettledFiles settled(RAILWAVE_VERSION);

@@ -17,9 +17,8 @@ namespace railwave {
 
 namespace {
 
-/// Graphs of so many steps cost no more than a hundredth of the time between two changes of a contact's window, after
-/// which they are recorded anew.
-constexpr int default_steps = 4;
+/// A graph of so many steps makes what is launched before each, and the gap there, a hundredth of its time.
+constexpr int default_steps = 16;
 
 /// Steps of the largest graph: RAILWAVE_STEP_GRAPHS; 0, with which all steps are plain, also where a tool listens, as
 /// it would not be told of launches within graphs.
@@ -45,6 +44,7 @@ class StepValues {
   StepValues(int width, int steps_of_graph)
       : width_(width),
         table_("values of steps", width * (steps_of_table + steps_of_graph)),
+        host_("values of steps, on the host", table_.extent(0)),
         taken_("values of a graph", width * steps_of_graph) {}
 
   const Value* of(int step_of_graph) const { return width_ == 0 ? nullptr : taken_.data() + step_of_graph * width_; }
@@ -57,6 +57,7 @@ class StepValues {
     if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_) {
       space.fence();
       fill(step, step_size, value);
+      Kokkos::deep_copy(space, table_, host_);
     }
     if (constant_ && in_place_) return;
     const int all = static_cast<int>(constant_ ? taken_.extent(0) : steps * width_);
@@ -74,19 +75,19 @@ class StepValues {
     step_size_ = step_size;
     in_place_ = false;
     constant_ = true;
-    auto host = Kokkos::create_mirror_view(table_);
-    const int rows = static_cast<int>(host.extent(0)) / width_;
+    const int rows = static_cast<int>(host_.extent(0)) / width_;
     for (int s = 0; s < rows; ++s)
       for (int k = 0; k < width_; ++k) {
         const Value now = value(step + s, k);
-        constant_ = constant_ && (s == 0 || std::memcmp(&now, &host(k), sizeof now) == 0);
-        host(s * width_ + k) = now;
+        constant_ = constant_ && (s == 0 || std::memcmp(&now, &host_(k), sizeof now) == 0);
+        host_(s * width_ + k) = now;
       }
-    Kokkos::deep_copy(table_, host);
   }
 
   int width_;
-  Array<Value*> table_, taken_;
+  Array<Value*> table_;
+  PinnedArray<Value*> host_;
+  Array<Value*> taken_;
   long first_ = 0;
   double step_size_ = 0;  ///< s; 0: nothing is in the table
   bool constant_ = false, in_place_ = false;
@@ -113,10 +114,7 @@ struct StepRecording::Recordings {
 
   State state() const {
     State now{model.step_size};
-    for (const ContactPair& pair : model.contacts) {
-      now.push_back(static_cast<double>(pair.layouts));
-      now.push_back(pair.window.count);
-    }
+    for (const ContactPair& pair : model.contacts) now.push_back(pair.window.bound());
     return now;
   }
 

@@ -140,8 +140,10 @@ std::vector<ContactSpring> possible_contact_springs(const std::vector<double>& m
   for (const Vec3& v : master_velocities) fastest_master = std::fmax(fastest_master, std::sqrt(dot(v, v)));
 
   std::vector<char> near(slaves.size(), 0);
-  if (within.near)
-    for (const WindowEntry& entry : to_vector(pair.window.entries)) near[entry.slave] = entry.near != 0;
+  if (within.near) {
+    const auto entries = to_vector(pair.window.entries);
+    for (int i = 0; i < pair.window.count; ++i) near[entries[i].slave] = entries[i].near != 0;
+  }
 
   std::vector<ContactSpring> springs;
   const auto status = to_host(pair.arrays.status), tracked = to_host(pair.arrays.tracked);

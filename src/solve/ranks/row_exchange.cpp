@@ -1,6 +1,8 @@
 #include "solve/ranks/row_exchange.hpp"
 
 #include "kernels/support/packed_rows.hpp"
+#include "kernels/support/team.hpp"
+#include "solve/launch_graph.hpp"
 
 namespace railwave {
 
@@ -8,50 +10,102 @@ namespace railwave {
 template <class S>
 struct RowBuffer {
   Array<PartialForce<S>*> device;
-  typename Array<PartialForce<S>*>::HostMirror host;
+  PinnedArray<PartialForce<S>*> host;
 
-  explicit RowBuffer(std::size_t rows)
-      : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)), host(Kokkos::create_mirror_view(device)) {}
+  explicit RowBuffer(std::size_t rows) : device(unset_array<PartialForce<S>*>("rows of other ranks", rows)) {
+    if constexpr (on_device)
+      host = PinnedArray<PartialForce<S>*>("rows of other ranks, on the host", rows);
+    else
+      host = device;
+  }
+};
+
+template <class S>
+struct PrecisionBuffers {
+  RowBuffer<S> sent, received;
+
+  PrecisionBuffers(const RankShare& share, bool used)
+      : sent(used ? share.sent.extent(0) : 0), received(used ? share.received.extent(0) : 0) {}
+};
+
+struct ReachMilestone {
+  PinnedArray<long*> reached;
+  long number;
+  KOKKOS_INLINE_FUNCTION void operator()(const int) const { reached(0) = number; }
+};
+
+/// A word of the host's that the device counts up when it has come to a place in the order of its launches: a fence
+/// would wait for all that was launched after that place, too.
+class Milestone {
+ public:
+  Milestone() : reached_("milestone", 1) {}
+
+  /// The place after all that has been launched.
+  void put() {
+    ++wanted_;
+    Kokkos::parallel_for("milestone", SpreadRange(0, 1), ReachMilestone{reached_, wanted_});
+  }
+  void wait() const {
+    const volatile long& reached = reached_(0);
+    while (reached < wanted_) {
+    }
+  }
+
+ private:
+  PinnedArray<long*> reached_;
+  long wanted_ = 0;
 };
 
 struct RowExchange::Buffers {
-  RowBuffer<double> sent, received;
-  RowBuffer<float> sent_single, received_single;
+  PrecisionBuffers<double> in_double;
+  PrecisionBuffers<float> in_single;
+  Milestone packed;
+  ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
 
-  explicit Buffers(const RankShare& share, bool single)
-      : sent(single ? 0 : share.sent.extent(0)),
-        received(single ? 0 : share.received.extent(0)),
-        sent_single(single ? share.sent.extent(0) : 0),
-        received_single(single ? share.received.extent(0) : 0) {}
+  Buffers(const RankShare& share, bool single) : in_double(share, !single), in_single(share, single) {}
 };
 
 namespace {
 
 template <class S>
-void send(const Array<PartialForce<S>*>& rows, const RowBuffer<S>& sent, const RowBuffer<S>& received,
-          const RankShare& share, Transport& transport) {
+void pack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
   const int count = static_cast<int>(share.sent.extent(0));
   if (count > 0)
     Kokkos::parallel_for("pack_rows", Range(0, count),
-                         PackedValues<PartialForce<S>, true>{rows, share.sent, 1, sent.device});
-  Kokkos::deep_copy(sent.host, sent.device);
-  ExecutionSpace().fence();
+                         PackedValues<PartialForce<S>, true>{rows, share.sent, 1, buffers.sent.device});
+}
+
+template <class S>
+void unpack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
+  const int count = static_cast<int>(share.received.extent(0));
+  if (count > 0)
+    Kokkos::parallel_for("unpack_rows", Range(0, count),
+                         PackedValues<PartialForce<S>, false>{rows, share.received, 1, buffers.received.device});
+}
+
+/// What has been packed comes after the last step's unpacking in the device's order, so that both buffers are free.
+template <class S>
+void start_messages(const PrecisionBuffers<S>& buffers, const RankShare& share, const ExecutionSpace& copies,
+                    Transport& transport) {
+  const RowBuffer<S>&sent = buffers.sent, &received = buffers.received;
   for (const RankShare::Neighbour& one : share.neighbours)
     transport.start_receive(one.rank, received.host.data() + one.first_received,
                             sizeof(PartialForce<S>) * one.received_count);
+  if constexpr (on_device) {
+    Kokkos::deep_copy(copies, sent.host, sent.device);
+    copies.fence();
+  }
   for (const RankShare::Neighbour& one : share.neighbours)
     transport.start_send(one.rank, sent.host.data() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count);
 }
 
 template <class S>
-void receive(const Array<PartialForce<S>*>& rows, const RowBuffer<S>& received, const RankShare& share,
-             Transport& transport) {
+void finish_messages(const PrecisionBuffers<S>& buffers, const ExecutionSpace& copies, Transport& transport) {
   transport.finish();
-  Kokkos::deep_copy(received.device, received.host);
-  const int count = static_cast<int>(share.received.extent(0));
-  if (count > 0)
-    Kokkos::parallel_for("unpack_rows", Range(0, count),
-                         PackedValues<PartialForce<S>, false>{rows, share.received, 1, received.device});
+  if constexpr (on_device) {
+    Kokkos::deep_copy(copies, buffers.received.device, buffers.received.host);
+    copies.fence();
+  }
 }
 
 }  // namespace
@@ -64,12 +118,24 @@ RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& tr
 
 RowExchange::~RowExchange() = default;
 
+template <class Do>
+void RowExchange::with_rows(const Do& act) const {
+  if (nodal_.partial.single_precision)
+    act(nodal_.partial.in_single, buffers_->in_single);
+  else
+    act(nodal_.partial.in_double, buffers_->in_double);
+}
+
 Task RowExchange::send_task() {
   Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
-              if (nodal_.partial.single_precision)
-                send(nodal_.partial.in_single, buffers_->sent_single, buffers_->received_single, share_, transport_);
-              else
-                send(nodal_.partial.in_double, buffers_->sent, buffers_->received, share_, transport_);
+              with_rows([this](const auto& rows, const auto& buffers) {
+                pack(rows, buffers, share_);
+                // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
+                if constexpr (on_device)
+                  buffers_->packed.put();
+                else
+                  start_messages(buffers, share_, buffers_->copies, transport_);
+              });
             }};
   task.stage = Stage::own_forces;
   task.recordable = false;
@@ -78,10 +144,14 @@ Task RowExchange::send_task() {
 
 Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
-              if (nodal_.partial.single_precision)
-                receive(nodal_.partial.in_single, buffers_->received_single, share_, transport_);
-              else
-                receive(nodal_.partial.in_double, buffers_->received, share_, transport_);
+              with_rows([this](const auto& rows, const auto& buffers) {
+                if constexpr (on_device) {
+                  buffers_->packed.wait();
+                  start_messages(buffers, share_, buffers_->copies, transport_);
+                }
+                finish_messages(buffers, buffers_->copies, transport_);
+                unpack(rows, buffers, share_);
+              });
             }};
   task.stage = Stage::own_forces;
   task.recordable = false;

@@ -24,6 +24,10 @@ class RowExchange {
  private:
   struct Buffers;
 
+  /// Calls act(rows of partial forces, their buffers).
+  template <class Do>
+  void with_rows(const Do& act) const;
+
   const NodalState& nodal_;
   RankShare share_;
   Transport& transport_;

@@ -62,7 +62,7 @@ template <class Phase, class Pairs>
 void launch(const char* name, const Pairs& pairs) {
   // How many nodes can touch is known on the device only.
   int slaves = 0;
-  for (const auto& pair : pairs.pairs) slaves += pair.window.count;
+  for (const auto& pair : pairs.pairs) slaves += pair.window.bound();
   using Policy = Kokkos::RangePolicy<ExecutionSpace, Phase, Kokkos::LaunchBounds<64>, AsArgument>;
   Kokkos::parallel_for(name, Policy(0, slaves), pairs);
 }
@@ -86,7 +86,7 @@ void run_phase(const char* name, const std::vector<AnyMultiplier>& pairs) {
 int most_listed(const NodalState& nodal, const std::vector<ContactPair>& contacts) {
   long most = 0;
   for (const ContactPair& pair : contacts)
-    if (!pair.has_springs()) most += static_cast<long>(pair.multipliers.most_nodes) * pair.window.count;
+    if (!pair.has_springs()) most += static_cast<long>(pair.multipliers.most_nodes) * pair.window.bound();
   return static_cast<int>(std::min<long>(most, nodal.external.row_count));
 }
 

@@ -175,6 +175,20 @@ struct EnterOrLeave {
   }
 };
 
+/// Launches that are recorded know where the arrays are: they are made once.
+void fill_window(ContactWindow& window, int slave_count, const std::vector<WindowEntry>& entries) {
+  if (static_cast<int>(window.entries.extent(0)) != slave_count) {
+    window.entries = Array<WindowEntry*>("window", slave_count);
+    window.near = Array<int*>("near nodes", slave_count);
+    window.near_count = Array<int*>("number of near nodes", 1);
+  }
+  const auto host = Kokkos::create_mirror_view(window.entries);
+  std::copy(entries.begin(), entries.end(), host.data());
+  std::fill(host.data() + entries.size(), host.data() + slave_count, WindowEntry{});
+  Kokkos::deep_copy(window.entries, host);
+  window.count = static_cast<int>(entries.size());
+}
+
 void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
   const ContactArrays& contact = pair.arrays;
   pair.slaves_at_layout = rows_of(nodes.position, contact.slave_nodes);
@@ -200,10 +214,7 @@ void lay_out_window(const NodeArrays& nodes, ContactPair& pair, double margin) {
     nearest[s] = found;
     inside[s] = 1;
   }
-  pair.window.count = static_cast<int>(entries.size());
-  pair.window.entries = to_device("window", entries);
-  pair.window.near = unset_array<int*>("near nodes", entries.size());
-  pair.window.near_count = Array<int*>("number of near nodes", 1);
+  fill_window(pair.window, contact.slave_count, entries);
   Kokkos::parallel_for("enter_or_leave", Range(0, contact.slave_count),
                        EnterOrLeave{contact, to_device("inside window", inside), to_device("nearest", nearest)});
 }

@@ -23,7 +23,7 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const
   // teams take several turns.
   const int contact_teams =
       pair.has_springs()
-          ? std::min(most_contact_teams, (pair.window.count + Together::slaves_of_team - 1) / Together::slaves_of_team)
+          ? std::min(most_contact_teams, (pair.window.bound() + Together::slaves_of_team - 1) / Together::slaves_of_team)
           : 0;
   SetLoads sets{};  // CUDA 13.0's compiler crashes on a conditional expression inside the functor's braces
   if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind, 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <vector>
 
@@ -27,7 +28,17 @@ class LaunchGraph {
 
   /// Records what `launch` launches, one after the other, to begin when a node is done.
   static Node after(const Node& node, const std::function<void()>& launch) {
-    return node.cuda_capture(ExecutionSpace(), [launch](const ExecutionSpace&) { launch(); });
+    // What is thrown meanwhile must not leave the space recording.
+    std::exception_ptr failure;
+    const Node done = node.cuda_capture(ExecutionSpace(), [launch, &failure](const ExecutionSpace&) {
+      try {
+        launch();
+      } catch (...) {
+        failure = std::current_exception();
+      }
+    });
+    if (failure) std::rethrow_exception(failure);
+    return done;
   }
 
   /// Done when all of these are.

@@ -49,9 +49,13 @@ TEST_CASE("recorded steps are plain ones, bit for bit") {
   SECTION("mixed") { scene.solver.precision = scene::Precision::mixed; }
   SECTION("single") {
     scene.parts[1].stiffness_damping = 0;
+    scene.prescribed_motions.clear();
     scene.solver.precision = scene::Precision::single_precision;
   }
-  SECTION("subcycling") { scene.solver.subcycling = true; }
+  SECTION("subcycling") {
+    scene.solver.subcycling = true;
+    scene.prescribed_motions.clear();
+  }
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   SECTION("two contacts by multipliers") {
     scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier;

@@ -13,14 +13,18 @@ namespace railwave {
 /// that stand in their rows, histories of materials, energies dissipated.
 class StateTransfer {
  public:
-  StateTransfer(Model& model, Transport& transport) : model_(model), transport_(transport) {}
+  StateTransfer(Model& model, Transport& transport);
+  ~StateTransfer();
 
   void send(int to, const ShareItems& items);
   void receive(int from, const ShareItems& items);
 
  private:
+  struct Kept;
+
   Model& model_;
   Transport& transport_;
+  std::unique_ptr<Kept> kept_;
 };
 
 /// What rank 0 has the others do.

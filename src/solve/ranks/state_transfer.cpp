@@ -1,4 +1,7 @@
+#include <map>
+
 #include "kernels/support/packed_rows.hpp"
+#include "kernels/support/team.hpp"
 #include "model/host_copy.hpp"
 #include "solve/ranks/rank_team.hpp"
 
@@ -17,62 +20,107 @@ std::vector<int> rows_of(const ElementGroup& group, const std::vector<int>& bloc
   return rows;
 }
 
-template <bool Sending>
+}  // namespace
+
+/// What transfers with another rank need again and again: places on the device, and room for what is packed, on the
+/// device and on the host.
+struct StateTransfer::Kept {
+  std::map<int, std::vector<Array<int*>>> places;  ///< by other rank, in the order of the arrays
+  Array<double*> device;
+  PinnedArray<double*> host;
+
+  void make_room(std::size_t bytes) {
+    const std::size_t count = (bytes + sizeof(double) - 1) / sizeof(double);
+    if (device.extent(0) >= count) return;
+    device = unset_array<double*>("packed", count);
+    if constexpr (on_device)
+      host = PinnedArray<double*>(Kokkos::view_alloc(std::string("packed"), Kokkos::WithoutInitializing), count);
+    else
+      host = device;
+  }
+};
+
+namespace {
+
+/// Arrays of a model, one after the other, to or from another rank.
+template <bool Sending, class Kept>
 class Transfer {
  public:
-  Transfer(Transport& transport, int other) : transport_(transport), other_(other) {}
+  Transfer(Transport& transport, int other, Kept& kept)
+      : transport_(transport), other_(other), kept_(kept), places_(kept.places[other]) {}
 
   /// @param width values at each place
-  template <class T>
-  void values(const Array<T*>& array, const std::vector<int>& places, int width) const {
-    if (array.extent(0) == 0 || places.empty()) return;
-    const auto packed = unset_array<T*>("packed", places.size() * width);
-    transfer_all(packed, packed.extent(0), PackedValues<T, Sending>{array, to_device("places", places), width, packed});
+  /// @param places called the first time
+  template <class T, class Places>
+  void values(const Array<T*>& array, const Places& places, int width) {
+    if (array.extent(0) == 0) return;
+    const Array<int*> at = next(places);
+    const std::size_t count = at.extent(0) * width;
+    transfer<T>(count, count, [&](const Array<T*>& packed) {
+      return PackedValues<T, Sending>{array, at, width, packed};
+    });
   }
 
-  template <class T, int N>
-  void rows(const Array<T* [N]>& array, const std::vector<int>& places) const {
-    if (array.extent(0) == 0 || places.empty()) return;
-    const auto packed = unset_array<T*>("packed", places.size() * N);
-    transfer_all(packed, places.size(), PackedRows<T, N, Sending>{array, to_device("places", places), packed});
+  template <class T, int N, class Places>
+  void rows(const Array<T* [N]>& array, const Places& places) {
+    if (array.extent(0) == 0) return;
+    const Array<int*> at = next(places);
+    transfer<T>(at.extent(0) * N, at.extent(0), [&](const Array<T*>& packed) {
+      return PackedRows<T, N, Sending>{array, at, packed};
+    });
   }
 
  private:
-  template <class T, class Kernel>
-  void transfer_all(const Array<T*>& packed, std::size_t calls, const Kernel& kernel) const {
-    const auto host = Kokkos::create_mirror_view(packed);
+  template <class Places>
+  Array<int*> next(const Places& places) {
+    if (array_ == places_.size()) places_.push_back(to_device("places", places()));
+    return places_[array_++];
+  }
+
+  /// @param count of values
+  /// @param calls of the kernel that packs or unpacks
+  template <class T, class KernelOf>
+  void transfer(std::size_t count, std::size_t calls, const KernelOf& kernel_of) {
+    if (count == 0) return;
+    kept_.make_room(sizeof(T) * count);
+    const Array<T*> packed(reinterpret_cast<T*>(kept_.device.data()), count);
+    const PinnedArray<T*> host(reinterpret_cast<T*>(kept_.host.data()), count);
     const Range range(0, static_cast<int>(calls));
-    const std::size_t bytes = sizeof(T) * packed.extent(0);
     if constexpr (Sending) {
-      Kokkos::parallel_for("pack", range, kernel);
-      Kokkos::deep_copy(host, packed);
-      transport_.start_send(other_, host.data(), bytes);
+      Kokkos::parallel_for("pack", range, kernel_of(packed));
+      if constexpr (on_device) Kokkos::deep_copy(ExecutionSpace(), host, packed);
+      ExecutionSpace().fence();
+      transport_.start_send(other_, host.data(), sizeof(T) * count);
       transport_.finish();
     } else {
-      transport_.start_receive(other_, host.data(), bytes);
+      transport_.start_receive(other_, host.data(), sizeof(T) * count);
       transport_.finish();
-      Kokkos::deep_copy(packed, host);
-      Kokkos::parallel_for("unpack", range, kernel);
-      ExecutionSpace().fence();
+      if constexpr (on_device) Kokkos::deep_copy(ExecutionSpace(), packed, host);
+      Kokkos::parallel_for("unpack", range, kernel_of(packed));
+      ExecutionSpace().fence();  // the room is the next array's
     }
   }
 
   Transport& transport_;
   int other_;
+  Kept& kept_;
+  std::vector<Array<int*>>& places_;
+  std::size_t array_ = 0;
 };
 
-template <bool Sending>
-void transfer_all(Model& model, const ShareItems& items, const Transfer<Sending>& transfer) {
-  transfer.template rows<double, 3>(model.nodes.position, items.nodes);
-  transfer.template rows<double, 3>(model.nodes.velocity, items.nodes);
+template <class Transfer>
+void transfer_all(Model& model, const ShareItems& items, Transfer transfer) {
+  const auto nodes = [&] { return items.nodes; };
+  transfer.template rows<double, 3>(model.nodes.position, nodes);
+  transfer.template rows<double, 3>(model.nodes.velocity, nodes);
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     ElementGroup& group = model.elements[g];
-    const std::vector<int>& blocks = items.blocks[g];
+    const auto blocks = [&] { return items.blocks[g]; };
+    const auto rows = [&] { return rows_of(group, items.blocks[g]); };
     transfer.template rows<double, BlockFrame::values>(group.blocks.frame, blocks);
     transfer.values(group.blocks.hourglass_energy, blocks, power_sums);
     transfer.values(group.material.history, blocks, elements_of_block * group.material.history_values);
     transfer.values(group.damping.energy, blocks, 1);
-    const std::vector<int> rows = rows_of(group, blocks);
     transfer.values(model.partial.in_double, rows, 1);
     transfer.values(model.partial.in_single, rows, 1);
   }
@@ -80,12 +128,17 @@ void transfer_all(Model& model, const ShareItems& items, const Transfer<Sending>
 
 }  // namespace
 
+StateTransfer::StateTransfer(Model& model, Transport& transport)
+    : model_(model), transport_(transport), kept_(std::make_unique<Kept>()) {}
+
+StateTransfer::~StateTransfer() = default;
+
 void StateTransfer::send(int to, const ShareItems& items) {
-  transfer_all(model_, items, Transfer<true>(transport_, to));
+  transfer_all(model_, items, Transfer<true, Kept>(transport_, to, *kept_));
 }
 
 void StateTransfer::receive(int from, const ShareItems& items) {
-  transfer_all(model_, items, Transfer<false>(transport_, from));
+  transfer_all(model_, items, Transfer<false, Kept>(transport_, from, *kept_));
 }
 
 }  // namespace railwave

@@ -296,6 +296,7 @@ int dispatch(int argc, char** argv) {
   });
   add_sweep_command(app, arguments.sweep, [&] {
     stop_on_signals();
+    hide_ranks();  // of which its runs are none
     code = sweep::sweep_command(arguments.sweep, was_signalled, draw_sweep, std::cout);
   });
   CLI::App* help = app.add_subcommand("help", "what a section or key of the case file means, or a command");
@@ -307,8 +308,9 @@ int dispatch(int argc, char** argv) {
   reference->add_flag("--schema", arguments.schema, "the schema");
   reference->callback([&] { code = print_reference(arguments); });
 
-  // Of processes that mpirun has started together the others have a part in runs alone.
-  if (rank_of_process() > 0 && (argc < 2 || std::string(argv[1]) != "run")) return done;
+  // Of processes that mpirun has started together the others have a part in runs and ensembles alone.
+  const std::string command = argc < 2 ? "" : argv[1];
+  if (rank_of_process() > 0 && command != "run" && command != "ensemble") return done;
   add_option_checks(app);
   try {
     app.parse(argc, argv);

@@ -11,13 +11,16 @@ namespace railwave {
 /// nodes. One team works on a block: it brings the block's nodes into scratch memory once, computes its elements from
 /// there, and sums the forces of their corners there, so that only what the block's nodes feel in sum leaves it.
 inline constexpr int elements_of_block = 128;
-/// A byte numbers them. A team's scratch memory holds ten values of each and where its corner forces lie, the corner
-/// forces, a value of each element, and what Kokkos keeps there: 48 KiB at most.
-inline constexpr int nodes_of_block = 246;
-static_assert(nodes_of_block * (10 * 8 + 2) + 8 * (3 * 8 + 1) * elements_of_block + 2 * 8 * (elements_of_block + 1) +
+/// Rooms for a block's nodes are multiples of this.
+inline constexpr int node_room = 16;
+/// A team's scratch memory holds ten values of each node and where its corner forces lie, the corner forces, a value of
+/// each element, and what Kokkos keeps there: 48 KiB at most, which any GPU has. A byte numbers them.
+inline constexpr int nodes_of_block = 240;
+static_assert((nodes_of_block + node_room - 1) / node_room * node_room * (10 * 8 + 2) +
+                      8 * (3 * 8 + 1) * elements_of_block + 2 * 8 * (elements_of_block + 2) +
                       8 * (elements_of_block + 2) + 128 <=
                   48 * 1024,
-              "fewer nodes would leave room");
+              "the scratch memory of a team is too small");
 /// A block's node that no other block touches and no load, contact or constraint concerns can be advanced by the
 /// block's own team: its number in the block's list then carries this bit.
 inline constexpr int advance_bit = static_cast<int>(0x80000000u);

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <ostream>
+#include <stdexcept>
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
@@ -19,6 +20,7 @@
 #include "output/results_file.hpp"
 #include "output/run_places.hpp"
 #include "output/settled_file.hpp"
+#include "solve/ranks/transport.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {
@@ -98,6 +100,34 @@ EnsembleEnd report_ends(const std::vector<std::unique_ptr<Member>>& members, con
   return end;
 }
 
+using Members = std::vector<std::unique_ptr<Member>>;
+
+/// Those whose numbers are `first`, `first + every`, ...
+Members read_members(const EnsembleRequest& request, std::size_t first, std::size_t every) {
+  Members members;
+  for (std::size_t m = first; m < request.members.size(); m += every) {
+    members.push_back(std::make_unique<Member>());
+    read_member(request, m, *members.back());
+  }
+  return members;
+}
+
+EnsembleEnd run_members(const Members& members, std::ostream& out) {
+  // On a GPU of NVIDIA, launches of different members that share one of its queues wait for each other; 8 are usual.
+  setenv("CUDA_DEVICE_MAX_CONNECTIONS", "32", 0);
+  const KokkosScope kokkos;
+  std::vector<EnsembleMember> runs;
+  SettledFiles settled(RAILWAVE_VERSION);
+  for (const auto& member : members) {
+    build_member(*member);
+    runs.push_back({&member->model, {member->results.get(), member->progress.get()}, &settled, {}});
+  }
+  stop_on_signals();
+  const EnsembleEnd end = report_ends(members, run_together(runs), out);
+  for (const auto& member : members) member->model = Model{};  // before Kokkos ends
+  return end;
+}
+
 }  // namespace
 
 void add_ensemble_command(CLI::App& app, EnsembleRequest& request, const std::function<void()>& run) {
@@ -118,24 +148,22 @@ void add_ensemble_command(CLI::App& app, EnsembleRequest& request, const std::fu
 }
 
 EnsembleEnd run_ensemble(const EnsembleRequest& request, std::ostream& out) {
-  std::vector<std::unique_ptr<Member>> members;
-  for (std::size_t m = 0; m < request.members.size(); ++m) {
-    members.push_back(std::make_unique<Member>());
-    read_member(request, m, *members.back());
-  }
-  // On a GPU of NVIDIA, launches of different members that share one of its queues wait for each other; 8 are usual.
-  setenv("CUDA_DEVICE_MAX_CONNECTIONS", "32", 0);
-  const KokkosScope kokkos;
-  std::vector<EnsembleMember> runs;
-  SettledFiles settled(RAILWAVE_VERSION);
-  for (const auto& member : members) {
-    build_member(*member);
-    runs.push_back({&member->model, {member->results.get(), member->progress.get()}, &settled, {}});
-  }
-  stop_on_signals();
-  const EnsembleEnd end = report_ends(members, run_together(runs), out);
-  for (const auto& member : members) member->model = Model{};  // before Kokkos ends
-  return end;
+  const auto others = transport_of_processes();
+  if (others == nullptr) return run_members(read_members(request, 0, 1), out);
+  // Members are dealt out in turn. A launcher of MPI ends all processes when one ends with an error: each waits for the
+  // others before it does.
+  const auto together = [&others](const auto& work) {
+    try {
+      auto result = work();
+      if (others->all_agree(true)) return result;
+    } catch (...) {
+      others->all_agree(false);
+      throw;
+    }
+    throw std::runtime_error("another process of this ensemble has failed: it says why");
+  };
+  const Members members = together([&] { return read_members(request, others->rank(), others->ranks()); });
+  return together([&] { return run_members(members, out); });
 }
 
 }  // namespace railwave

@@ -159,7 +159,57 @@ class Refusals(Ranks):
         self.assertEqual(sum(elements), int(re.search(r"in all: (\d+) elements", done.stdout)[1]))
 
 
+    def test_processes_with_different_cases(self):
+        self.write(scene("penalty"))
+        (self.folder / "other.toml").write_text(scene("penalty").replace("density = 7800", "density = 7801"))
+        run = subprocess.run([*MPIRUN, "-n", "1", str(PROGRAM), "run", "case.toml", ":", "-n", "1", str(PROGRAM), "run",
+                              "other.toml"], cwd=self.folder, text=True, capture_output=True, env=ENVIRONMENT,
+                             timeout=PATIENCE, check=False)
+        self.assertNotEqual(run.returncode, 0)
+        self.assertIn("rank 1: this process has another model than rank 0", run.stderr)
+
+
+class Ensembles(Ranks):
+    """Members are dealt out to ranks; each is what it is alone."""
+
+    MEMBERS = ("contacts.between.friction=0.2", "contacts.between.friction=0.4", "contacts.between.friction=0.5")
+
+    def ensemble(self, *more):
+        words = [word for number, one in enumerate(self.MEMBERS)
+                 for word in ("--member", one, f"output.file=member_{number}.h5")]
+        return subprocess.run([*MPIRUN, "-n", "2", str(PROGRAM), "ensemble", "case.toml", *words, *more], text=True,
+                              cwd=self.folder, capture_output=True, env=ENVIRONMENT, timeout=PATIENCE, check=False)
+
+    def test_members_are_what_they_are_alone(self):
+        self.write(scene("penalty"))
+        done = self.ensemble()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stdout.count(": completed"), len(self.MEMBERS), done.stdout)
+        for number, one in enumerate(self.MEMBERS):
+            self.run_to_end(1, "--set", one)
+            self.assert_same(self.kept(f"alone_{number}.h5"), self.folder / f"member_{number}.h5")
+
+    def test_a_member_that_is_refused_stops_all_before_they_begin(self):
+        self.write(scene("penalty"))
+        done = self.ensemble("--member", "contacts.between.friction=-1", "output.file=member_3.h5")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("member 4 of the ensemble: ", done.stderr)
+        self.assertFalse((self.folder / "member_0.h5").exists())
+
+
 class OfOthers(Ranks):
+    def test_runs_of_a_sweep_are_alone(self):
+        self.write(scene("penalty", 0.02))
+        (self.folder / "study.toml").write_text("""case = "case.toml"
+[grid]
+contacts.between.friction = [0.2, 0.3]
+[figures]
+friction_work = "energy.friction"
+""")
+        done = subprocess.run([*MPIRUN, "-n", "2", str(PROGRAM), "sweep", "study.toml", "--no-pictures"], text=True,
+                              cwd=self.folder, capture_output=True, env=ENVIRONMENT, timeout=PATIENCE, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_a_task_of_a_scheduler_is_a_run_of_its_own(self):
         self.write(scene("penalty", 0.02))
         self.assertIn("results: ", self.run_to_end(1, SLURM_PROCID="3", SLURM_STEP_NUM_TASKS="4"))

@@ -198,7 +198,7 @@ ElementBlocks arrays_of(const BlockLists& lists, bool single_precision) {
   blocks.element_count = to_device("block element count", lists.element_count);
   blocks.node_count = to_device("block node count", node_count);
   blocks.material = to_device("block material", lists.material);
-  blocks.node = even_rows("block nodes", lists.node, 16, blocks.node_stride);
+  blocks.node = even_rows("block nodes", lists.node, node_room, blocks.node_stride);
   blocks.frame_node = to_device("block frame nodes", lists.frame_node);
   if (single_precision) blocks.frame = Array<double * [BlockFrame::values]>("block frames", blocks.count);
   blocks.corner = to_device("block corners", lists.corner);

@@ -147,6 +147,10 @@ int started_together() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"); }
 
 int rank_of_process() { return started_together() < 2 ? 0 : launched("OMPI_COMM_WORLD_RANK", "PMI_RANK"); }
 
+void hide_ranks() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) unsetenv(name);
+}
+
 std::unique_ptr<Transport> transport_of_processes() {
   if (started_together() < 2) return nullptr;
   auto transport = std::make_unique<MpiTransport>();
@@ -157,6 +161,8 @@ std::unique_ptr<Transport> transport_of_processes() {
 #else
 
 int rank_of_process() { return 0; }
+
+void hide_ranks() {}
 
 std::unique_ptr<Transport> transport_of_processes() { return nullptr; }
 

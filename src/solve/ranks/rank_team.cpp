@@ -1,5 +1,9 @@
 #include "solve/ranks/rank_team.hpp"
 
+#include <stdexcept>
+
+#include "model/host_copy.hpp"
+
 namespace railwave {
 namespace {
 
@@ -22,6 +26,21 @@ BlockPartition common_partition(const Model& model, Transport& transport) {
   }
   for (std::vector<int>& owner : partition.owner) transport.broadcast(owner.data(), sizeof(int) * owner.size());
   return partition;
+}
+
+/// Of a model as it was built: alike for the same case, settings and program.
+std::uint64_t fingerprint(const Model& model) {
+  std::uint64_t hash = 14695981039346656037ull;  // of Fowler, Noll and Vo
+  const auto add = [&hash](const void* data, std::size_t bytes) {
+    const auto* byte = static_cast<const unsigned char*>(data);
+    for (std::size_t k = 0; k < bytes; ++k) hash = (hash ^ byte[k]) * 1099511628211ull;
+  };
+  const std::vector<double> mass = to_vector(model.nodes.mass);
+  const double end = model.scene.time.end;
+  add(mass.data(), sizeof(double) * mass.size());
+  add(&end, sizeof end);
+  add(model.scene.static_text.data(), model.scene.static_text.size());
+  return hash;
 }
 
 Instant instant_of(const RankOrder& order) {
@@ -60,6 +79,7 @@ void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long s
   order.elapsed = instant.elapsed;
   order.time = instant.time;
   order.velocity_lag = model_.velocity_lag;
+  if (kind == RankOrder::deal_out) order.model = fingerprint(model_);
   transport_.broadcast(&order, sizeof order);
 }
 
@@ -90,6 +110,10 @@ void follow_rank_0(Model& model, Transport& transport) {
   RankOrder first;
   transport.broadcast(&first, sizeof first);
   if (first.kind == RankOrder::end) return;
+  if (first.model != fingerprint(model))
+    throw std::runtime_error(
+        "this process has another model than rank 0: all that mpirun starts must be given the same program, case and "
+        "settings");
   const BlockPartition partition = common_partition(model, transport);
   const RankLayout layout = lay_out_ranks(model, partition);
   const ShareItems items = items_of(model, partition, layout, transport.rank());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "solve/plan.hpp"
@@ -45,6 +46,7 @@ struct RankOrder {
   double elapsed = 0;       ///< s, since the instant before
   double time = 0;          ///< s, at the present instant
   double velocity_lag = 0;  ///< s, see NodalState
+  std::uint64_t model = 0;  ///< when it is dealt out: what tells it from others
 };
 
 /// Rank 0's side.

@@ -34,6 +34,9 @@ class Transport {
 /// the first, or the program was built without MPI.
 int rank_of_process();
 
+/// Processes that are started from now on take themselves for alone.
+void hide_ranks();
+
 /// That of the processes which mpirun has started; null where this one is alone, or the program was built without MPI.
 /// MPI is begun then, and ended with the transport.
 std::unique_ptr<Transport> transport_of_processes();

@@ -49,6 +49,8 @@ class StepValues {
 
   const Value* of(int step_of_graph) const { return width_ == 0 ? nullptr : taken_.data() + step_of_graph * width_; }
 
+  void forget() { step_size_ = 0; }
+
   /// Brings the values of some steps in place, in the order of a space.
   /// @param value of a step, of the given number
   template <class ValueAt>
@@ -205,6 +207,15 @@ StepRecording::~StepRecording() { finish(); }
 
 void StepRecording::finish() { recordings_->finish(); }
 
+void StepRecording::forget() {
+  Recordings& all = *recordings_;
+  all.finish();
+  ExecutionSpace().fence();
+  all.graphs.clear();
+  all.load_values.forget();
+  all.places.forget();
+}
+
 int StepRecording::most() const { return recordings_->most; }
 
 long StepRecording::advance(const Instant& instant, long quiet, const std::function<double(long)>& time) {
@@ -243,6 +254,7 @@ struct StepRecording::Recordings {};
 StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*) {}
 StepRecording::~StepRecording() = default;
 void StepRecording::finish() {}
+void StepRecording::forget() {}
 int StepRecording::most() const { return 0; }
 long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
 

@@ -30,6 +30,9 @@ class StepRecording {
   /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
   void finish();
 
+  /// Before steps with other inputs or arrays than those that were recorded. Finishes too.
+  void forget();
+
  private:
   struct Recordings;
   std::unique_ptr<Recordings> recordings_;

@@ -19,6 +19,7 @@
 #include "solve/statics/settle.hpp"
 #include "solve/step_control.hpp"
 #include "solve/step_recording.hpp"
+#include "solve/stepped_run.hpp"
 
 namespace railwave {
 namespace {
@@ -49,6 +50,8 @@ std::string while_settling(const scene::Scene& scene, bool out_of_time) {
   return std::string(out_of_time ? "the wall time was spent" : "interrupted") + " while the scene settled" +
          (kept ? "; how far it came is kept, and the next run without --restart settles on from there" : "");
 }
+
+}  // namespace
 
 /// What the loop itself remembers from one step to the next.
 struct LoopMemory {
@@ -94,9 +97,8 @@ class TimeLoop {
         leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space) {
-    if (keeping.from) restore();
+    if (keeping.from) take_up(*keeping.from);
     summary_.first_step = model.step;
-    instant_.elapsed = memory_.elapsed;
     if (leader_) leader_->begin();
     since_first_step_.restart();
   }
@@ -119,6 +121,29 @@ class TimeLoop {
     end_step();
     return true;
   }
+
+  /// The present state, between two steps.
+  RunState state() {
+    recording_.finish();
+    if (leader_) leader_->gather();
+    RunState state;
+    save_model_state(model_, state);
+    StateSaver saver(state);
+    memory_.archive(saver);
+    state.history_rows = memory_.history_rows;
+    state.field_outputs = memory_.field_outputs;
+    return state;
+  }
+
+  void take_up(const RunState& state) {
+    restore_model_state(model_, state);
+    StateRestorer restorer(state);
+    memory_.archive(restorer);
+    memory_.control.move_end();
+    instant_.elapsed = memory_.elapsed;
+  }
+
+  void inputs_changed() { recording_.forget(); }
 
   /// Of a run that has ended.
   RunSummary summary() {
@@ -147,13 +172,6 @@ class TimeLoop {
     return doubts;
   }
 
-  void restore() {
-    restore_model_state(model_, *keeping_.from);
-    StateRestorer restorer(*keeping_.from);
-    memory_.archive(restorer);
-    memory_.control.move_end();
-  }
-
   /// The time comes first: a checkpoint holds that of its step.
   void begin_step() {
     instant_.time = model_.time = memory_.control.time();
@@ -173,15 +191,8 @@ class TimeLoop {
 
   void checkpoint() {
     recording_.finish();
-    if (leader_) leader_->gather();
     const WallClock clock;
-    RunState state;
-    save_model_state(model_, state);
-    StateSaver saver(state);
-    memory_.archive(saver);
-    state.history_rows = memory_.history_rows;
-    state.field_outputs = memory_.field_outputs;
-    keeping_.checkpoints->keep(std::move(state));
+    keeping_.checkpoints->keep(state());
     ++summary_.checkpoints;
     since_checkpoint_.restart();
     summary_.checkpoint_seconds += clock.seconds();
@@ -333,8 +344,6 @@ class TimeLoop {
   bool sampled_ = false;      ///< the instant's forces and energies are sampled
 };
 
-}  // namespace
-
 void request_stop() { stop_requested = 1; }
 
 RunSummary run(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled,
@@ -344,6 +353,24 @@ RunSummary run(Model& model, const std::vector<RunObserver*>& observers, Settled
   }
   return loop.summary();
 }
+
+SteppedRun::SteppedRun(Model& model, const std::vector<RunObserver*>& observers, SettledStates* settled)
+    : observers_(observers), loop_(std::make_unique<TimeLoop>(model, observers_, settled, keeping_)) {}
+
+SteppedRun::~SteppedRun() = default;
+
+bool SteppedRun::go_on() { return loop_->go_on(); }
+
+RunState SteppedRun::state() { return loop_->state(); }
+
+void SteppedRun::take_up(const RunState& state) {
+  loop_->inputs_changed();
+  loop_->take_up(state);
+}
+
+void SteppedRun::inputs_changed() { loop_->inputs_changed(); }
+
+RunSummary SteppedRun::summary() { return loop_->summary(); }
 
 std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members) {
   std::vector<RunOutcome> outcomes(members.size());

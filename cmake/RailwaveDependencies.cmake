@@ -1,4 +1,4 @@
-# Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5,
+# Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5, railwave::zlib,
 # railwave::ranks (MPI and METIS, empty where they are not there), railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
 
 # What scripts/setup has put there.
@@ -23,6 +23,10 @@ add_library(railwave_hdf5 INTERFACE)
 target_include_directories(railwave_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(railwave_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 add_library(railwave::hdf5 ALIAS railwave_hdf5)
+
+# Reports compress their data; HDF5 itself stands on it.
+find_package(ZLIB REQUIRED)
+add_library(railwave::zlib ALIAS ZLIB::ZLIB)
 
 # Runs over several processes, where both are there.
 add_library(railwave_ranks INTERFACE)

@@ -1,0 +1,115 @@
+"""A report in headless Chromium, cut off from any network, and what the tests ask of it."""
+
+import base64
+import io
+import json
+import pathlib
+import shutil
+import sys
+import time
+
+SKIPPED = 77  # exit code of a test that this machine cannot run
+
+try:
+    import numpy as np
+    from PIL import Image
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+except ImportError:
+    sys.exit(SKIPPED)
+
+PATIENCE = 60  # s, for what takes a second on an idle machine
+FLAGS = (
+    "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader", "--disable-background-networking", "--hide-scrollbars",
+    "--host-resolver-rules=MAP * ~NOTFOUND",
+)
+
+
+def expect_browser(template):
+    """Ends the test as skipped where there is no Chromium with its driver, or no page was made."""
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not (chromium and driver and template.is_file()):
+        print("skipped: scripts/setup --tests installs Chromium and makes the page of reports")
+        sys.exit(SKIPPED)
+
+
+class Page:
+    """A report that is open. Everything that the page writes to the console, and every address that it asks for, is
+    kept."""
+
+    def __init__(self, path, width=1280, height=900, dark=False):
+        options = Options()
+        options.binary_location = shutil.which("chromium")
+        for flag in FLAGS:
+            options.add_argument(flag)
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        self.driver.set_script_timeout(PATIENCE)
+        self._command("Network.enable")
+        self._command(
+            "Emulation.setDeviceMetricsOverride",
+            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 600},
+        )
+        self.set_dark(dark)
+        self.driver.get(pathlib.Path(path).resolve().as_uri())
+        self.wait_for("document.body.dataset.ready")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.driver.quit()
+
+    def _command(self, name, arguments=None):
+        return self.driver.execute_cdp_cmd(name, arguments or {})
+
+    def set_dark(self, dark):
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        self._command("Emulation.setEmulatedMedia", {"features": [scheme]})
+
+    def ask(self, expression, *arguments):
+        """Value of a JavaScript expression; arguments are arguments[0] and so on."""
+        return self.driver.execute_script(f"return {expression}", *arguments)
+
+    def wait_for(self, expression):
+        end = time.monotonic() + PATIENCE
+        while not self.ask(expression):
+            if time.monotonic() > end:
+                raise AssertionError(f"this has not become true: {expression}; console: {self.console()}")
+            time.sleep(0.05)
+
+    def text(self, selector):
+        return self.ask("document.querySelector(arguments[0]).innerText", selector)
+
+    def console(self):
+        return [entry["message"] for entry in self.driver.get_log("browser")]
+
+    def requests(self):
+        """Addresses that the page has asked for, other than files and data that it holds itself."""
+        addresses = []
+        for entry in self.driver.get_log("performance"):
+            message = json.loads(entry["message"])["message"]
+            if message["method"] == "Network.requestWillBeSent":
+                addresses.append(message["params"]["request"]["url"])
+        return [address for address in addresses if not address.startswith(("file:", "data:", "blob:"))]
+
+    def move_slider(self, selector, position):
+        self.ask(
+            "(() => { const s = document.querySelector(arguments[0]); s.value = arguments[1];"
+            " s.dispatchEvent(new Event('input', {bubbles: true})); })()",
+            selector, position,
+        )
+
+    def picture(self, selector=None):
+        """(height, width, 3) of an element, or of the whole page."""
+        where = self.ask(
+            "(() => { const r = (arguments[0] ? document.querySelector(arguments[0]) : document.documentElement)"
+            ".getBoundingClientRect(); return [r.x + scrollX, r.y + scrollY, r.width, r.height]; })()",
+            selector,
+        )
+        clip = dict(zip(("x", "y", "width", "height"), where), scale=1)
+        shot = self._command("Page.captureScreenshot", {"captureBeyondViewport": True, "clip": clip})
+        with Image.open(io.BytesIO(base64.b64decode(shot["data"]))) as image:
+            return np.asarray(image.convert("RGB"))

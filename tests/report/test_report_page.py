@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""The page of `railwave report` in a browser without a network: what it says, draws and lets people do."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import browser  # noqa: E402
+
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+
+PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
+SOURCE = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
+CASE = SOURCE / "cases" / "rolling.toml"
+COARSE = [
+    f"--set=meshes.{mesh}.{key}" for mesh in ("wheel", "rail") for key in ("zone_size=0.005", "zone_layers=1")
+] + ["--set=time.end=5e-4", "--set=output.field_interval=1e-4"]
+PHONE = 390  # px, width of a usual telephone
+
+
+def setUpModule():
+    global FOLDER, RESULTS, REPORT
+    browser.expect_browser(SOURCE / "build" / "report" / "report.html")
+    FOLDER = tempfile.TemporaryDirectory()
+    RESULTS = pathlib.Path(FOLDER.name) / "rolling.h5"
+    run("run", CASE, *COARSE, f"--set=output.file={RESULTS}")
+    run("report", RESULTS)
+    REPORT = RESULTS.with_suffix(".html")
+
+
+def tearDownModule():
+    FOLDER.cleanup()
+
+
+def run(*arguments):
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"railwave {arguments}: {done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def brightness(picture):
+    return picture.mean()
+
+
+class TestPage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.page = browser.Page(REPORT)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.page.driver.quit()
+
+    def test_summary_has_the_accuracy_of_the_run(self):
+        text = self.page.text("#summary")
+        with h5py.File(RESULTS) as file:
+            energy = file["history/energy"]
+            elastic = (energy["internal"][:] + energy["contact"][:]).max()
+            share = 100 * np.abs(energy["balance_error"][:]).max() / elastic
+        self.assertIn("Completed at 0.5 ms", text)
+        self.assertIn(f"off by {float(f'{share:.2g}'):g} % of the largest elastic energy", text)
+        self.assertIn("Monitor:", text)
+        # Cells of 5 mm on a patch of about 15 mm.
+        coarse = r"Mesh in the patch of contact tread: coarse, cells of (4\.\d+|5|5\.\d+) mm are b/[23]\."
+        self.assertRegex(text, coarse)
+
+    def test_curves_have_the_values_of_the_results(self):
+        force = self.page.ask(
+            "(() => { const plot = [...document.querySelectorAll('#histories .card')].find(card =>"
+            " card.querySelector('h3').textContent === 'Contact tread').querySelector('.plot');"
+            " return [Array.from(plot.data[2].y), plot.data[2].name, plot.layout.yaxis.title.text]; })()"
+        )
+        with h5py.File(RESULTS) as file:
+            wanted = 1e-3 * file["history/contact/tread/normal_force"][:, 2]
+        np.testing.assert_allclose(force[0], wanted, rtol=1e-6)
+        self.assertEqual(force[1:], ["z", "tread: normal force, kN"])
+
+    def test_table_is_that_of_the_command(self):
+        csv = RESULTS.with_suffix(".csv")
+        run("contact", RESULTS, "--csv", csv)
+        rows = self.page.ask("document.querySelectorAll('#tables tbody tr').length")
+        self.assertEqual(rows, len(csv.read_text().splitlines()) - 1)
+
+    def test_nothing_is_asked_of_a_network_and_nothing_fails(self):
+        self.assertEqual(self.page.requests(), [])
+        self.assertEqual(self.page.console(), [])
+
+
+class TestLooks(unittest.TestCase):
+    def test_light_and_dark(self):
+        with browser.Page(REPORT) as light, browser.Page(REPORT, dark=True) as dark:
+            self.assertGreater(brightness(light.picture("#summary")), 180)
+            self.assertLess(brightness(dark.picture("#summary")), 75)
+
+    def test_a_phone_need_not_be_scrolled_sideways(self):
+        with browser.Page(REPORT, width=PHONE) as page:
+            self.assertEqual(page.ask("document.documentElement.scrollWidth"), PHONE)
+            self.assertEqual(page.console(), [])
+
+
+class TestCommand(unittest.TestCase):
+    def test_a_file_of_somebody_else_stays(self):
+        other = RESULTS.with_name("mine.html")
+        other.write_text("<html>mine</html>")
+        done = subprocess.run([PROGRAM, "report", RESULTS, "--out", other], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("mine.html", done.stderr)
+        self.assertEqual(other.read_text(), "<html>mine</html>")
+
+    def test_what_is_no_results_file_is_refused(self):
+        done = subprocess.run([PROGRAM, "report", CASE], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no HDF5 file", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

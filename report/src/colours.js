@@ -13,8 +13,15 @@ export const named = (name) => getComputedStyle(document.documentElement).getPro
 
 // Viridis (S. van der Walt, N. Smith, 2015; CC0) at nine places.
 const VIRIDIS = [
-    [68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99],
-    [170, 220, 50], [253, 231, 37],
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
 ];
 
 /** [red, green, blue], 0 to 255, of a share of the scale. */

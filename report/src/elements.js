@@ -33,12 +33,20 @@ export function tick(label, checked, onchange) {
 /** A table: heading cells and rows of cells; a cell is text or a number, which is put to the right. */
 export function table(heading, rows) {
     const cell = (kind) => (content) =>
-        element(kind, { class: isNumber(content) ? "number" : "" }, content instanceof Node ? content : String(content));
+        element(
+            kind,
+            { class: isNumber(content) ? "number" : "" },
+            content instanceof Node ? content : String(content),
+        );
     return element(
         "table",
         {},
         element("thead", {}, element("tr", {}, heading.map(cell("th")))),
-        element("tbody", {}, rows.map((row) => element("tr", {}, row.map(cell("td"))))),
+        element(
+            "tbody",
+            {},
+            rows.map((row) => element("tr", {}, row.map(cell("td")))),
+        ),
     );
 }
 

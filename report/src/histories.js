@@ -25,7 +25,14 @@ function groupsOf(results) {
     return groups;
 }
 
-const FIRST = ["normal_force", "tangential_force", "nodes_in_contact", "nodes_slipping", "displacement", "velocity"].map(words);
+const FIRST = [
+    "normal_force",
+    "tangential_force",
+    "nodes_in_contact",
+    "nodes_slipping",
+    "displacement",
+    "velocity",
+].map(words);
 
 /** Plots in the order in which people ask for them. */
 function inOrder(plots) {
@@ -103,7 +110,12 @@ function card(title, plots, results, number) {
         await draw(place, traces, layout("time, ms", withUnit(plot.title, label)));
         names.replaceChildren(...(traces.length > 1 ? [legend(place, traces)] : []));
     };
-    const list = choice("", shown.map(({ title: text }, i) => [i, text]), 0, show);
+    const list = choice(
+        "",
+        shown.map(({ title: text }, i) => [i, text]),
+        0,
+        show,
+    );
     return {
         whole: element("div", { class: "card" }, element("h3", { textContent: title }), list, place, names),
         place,
@@ -120,7 +132,10 @@ export async function histories(place, results, number) {
         if (plots.length > 0) cards.push(card(title, plots, results, number));
     };
     for (const owner of owners)
-        add(`Contact ${owner}`, groups.contact.filter(({ title }) => title.startsWith(`${owner}: `)));
+        add(
+            `Contact ${owner}`,
+            groups.contact.filter(({ title }) => title.startsWith(`${owner}: `)),
+        );
     for (const plot of withoutBalance(groups.energy))
         if (plot.curves.length > 0) add(plot.title[0].toUpperCase() + plot.title.slice(1), [plot]);
     add("Loads", groups.load);
@@ -132,9 +147,14 @@ export async function histories(place, results, number) {
                 "Draw a box to zoom, double-click to go back; a click on a name hides a curve or brings it." +
                 " The time axes move together.",
         }),
-        element("div", { class: "cards" }, cards.map(({ whole }) => whole)),
+        element(
+            "div",
+            { class: "cards" },
+            cards.map(({ whole }) => whole),
+        ),
     );
-    if (cards.length === 0) place.replaceChildren(element("p", { textContent: "These runs have written no histories." }));
+    if (cards.length === 0)
+        place.replaceChildren(element("p", { textContent: "These runs have written no histories." }));
     await Promise.all(cards.map(({ ready }) => ready()));
     linkTimes(cards.map((one) => one.place));
 }

@@ -3,6 +3,8 @@ import { about } from "./about.js";
 import { curve, dark } from "./colours.js";
 import { element } from "./elements.js";
 import { histories } from "./histories.js";
+import { model } from "./model.js";
+import { patches } from "./patches.js";
 import { summary } from "./summary.js";
 import { tables } from "./tables.js";
 
@@ -19,7 +21,9 @@ function heading() {
     document.getElementById("title").textContent = title;
     document.title = `${title} – Railwave report`;
     document.getElementById("subtitle").textContent =
-        results.length === 1 ? results[0].file : `${results.length} results: ${results.map(({ name }) => name).join(", ")}`;
+        results.length === 1
+            ? results[0].file
+            : `${results.length} results: ${results.map(({ name }) => name).join(", ")}`;
 }
 
 function picker() {
@@ -56,6 +60,8 @@ function fill() {
         const results = shown();
         const figures = await summary(place("summary"), results);
         await histories(place("histories"), results, number);
+        await patches(place("patches"), results);
+        await model(place("model"), results);
         await tables(place("tables"), results, figures);
         document.body.dataset.ready = "1";
     });

@@ -50,7 +50,10 @@ export function legend(plot, traces) {
                         await Plotly.restyle(plot, { visible: on }, [i]);
                     },
                 },
-                element("span", { class: `swatch ${trace.line.dash ?? "solid"}`, style: `--colour:${trace.line.color}` }),
+                element("span", {
+                    class: `swatch ${trace.line.dash ?? "solid"}`,
+                    style: `--colour:${trace.line.color}`,
+                }),
                 trace.name,
             );
             button.setAttribute("aria-pressed", trace.visible !== false);

@@ -26,8 +26,8 @@ function energyStatement({ energy }) {
     return [
         "Energy balance: ",
         verdict(good ? "good" : "poor", good ? "kept" : "not kept"),
-        `, off by ${digits(100 * share, 2)} % of the largest elastic energy (${quantity(energy.elastic, "J")}) at most,`,
-        ` at ${quantity(energy.time, "s")}; below 1 % is wanted.`,
+        `, off by ${digits(100 * share, 2)} % of the largest elastic energy (${quantity(energy.elastic, "J")})`,
+        ` at most, at ${quantity(energy.time, "s")}; below 1 % is wanted.`,
     ];
 }
 
@@ -36,7 +36,11 @@ function monitorStatement({ warnings }) {
     return [
         "Monitor: ",
         verdict("fair", warnings.length === 1 ? "one finding" : `${warnings.length} findings`),
-        element("ul", {}, warnings.map((text) => element("li", { textContent: text }))),
+        element(
+            "ul",
+            {},
+            warnings.map((text) => element("li", { textContent: text })),
+        ),
     ];
 }
 
@@ -44,13 +48,17 @@ function resolutionStatement({ name, resolution }) {
     if (!resolution) return [`Patch of contact ${name}: nothing touched with four nodes or more.`];
     const cells = resolution.minor_axis / resolution.cell;
     const [level, text] =
-        cells >= ACCURATE_CELLS ? ["good", "fine"] : cells >= ACCEPTABLE_CELLS ? ["good", "acceptable"] : ["poor", "coarse"];
+        cells >= ACCURATE_CELLS
+            ? ["good", "fine"]
+            : cells >= ACCEPTABLE_CELLS
+              ? ["good", "acceptable"]
+              : ["poor", "coarse"];
     return [
         `Mesh in the patch of contact ${name}: `,
         verdict(level, text),
         `, cells of ${quantity(resolution.cell, "m", 3)} are b/${digits(cells, 2)} of the minor axis`,
-        ` b = ${quantity(resolution.minor_axis, "m", 3)} at ${quantity(resolution.time, "s")}, where the normal force is`,
-        " largest. b/10 is acceptable, b/20 accurate (Zhao and Li 2011, in Yang 2018, 3.1.2).",
+        ` b = ${quantity(resolution.minor_axis, "m", 3)} at ${quantity(resolution.time, "s")}, where the normal force`,
+        " is largest. b/10 is acceptable, b/20 accurate (Zhao and Li 2011, in Yang 2018, 3.1.2).",
     ];
 }
 
@@ -73,7 +81,11 @@ function accuracy(result) {
         { class: "card accuracy" },
         element("h3", { textContent: result.name }),
         element("p", { class: "faint", textContent: result.summary.title }),
-        element("ul", {}, statements.filter(Boolean).map((parts) => element("li", {}, ...parts))),
+        element(
+            "ul",
+            {},
+            statements.filter(Boolean).map((parts) => element("li", {}, ...parts)),
+        ),
     );
 }
 
@@ -87,8 +99,18 @@ const RUN_FIGURES = [
 ];
 // Columns of `railwave contact`, at the last output.
 const PATCH_FIGURES = [
-    "normal_force", "creep_force", "lateral_force", "traction_coefficient", "area", "peak_nodal_pressure", "peak_shear",
-    "semi_axis_along", "semi_axis_across", "longitudinal_creepage", "lateral_creepage", "spin_creepage",
+    "normal_force",
+    "creep_force",
+    "lateral_force",
+    "traction_coefficient",
+    "area",
+    "peak_nodal_pressure",
+    "peak_shear",
+    "semi_axis_along",
+    "semi_axis_across",
+    "longitudinal_creepage",
+    "lateral_creepage",
+    "spin_creepage",
 ];
 
 /** Of each contact the last row of all patches together: {column: {value, unit}}. */

@@ -29,6 +29,8 @@ async function patchColumns({ patches }) {
 
 const fileName = (...parts) => `${parts.join("-").replaceAll(/[^A-Za-z0-9._=-]+/g, "_")}.csv`;
 
+const thinned = ({ history }) => (history.shown < history.samples ? " (thinned)" : "");
+
 /** All tables of the results: {text, file, columns()}. */
 function tablesOf(results) {
     return results.flatMap((result) => [
@@ -38,11 +40,13 @@ function tablesOf(results) {
             columns: () => patchColumns(contact),
         })),
         ...(result.history.channels.length > 0
-            ? [{
-                  text: `${result.name}: histories${result.history.shown < result.history.samples ? " (thinned)" : ""}`,
-                  file: fileName(result.name, "histories"),
-                  columns: () => historyColumns(result),
-              }]
+            ? [
+                  {
+                      text: `${result.name}: histories${thinned(result)}`,
+                      file: fileName(result.name, "histories"),
+                      columns: () => historyColumns(result),
+                  },
+              ]
             : []),
     ]);
 }
@@ -62,13 +66,26 @@ export async function tables(place, results, figures) {
         const rows = Array.from({ length: Math.min(count, MOST_ROWS) }, (_, row) =>
             columns.map(({ values }) => digits(values[row], 6)),
         );
-        shown.replaceChildren(table(columns.map(({ name, unit }) => `${name} [${unit}]`), rows));
-        note.textContent = `${count} rows, ${columns.length} columns, SI units${count > MOST_ROWS ? `; the first ${MOST_ROWS} are shown` : ""}.`;
+        shown.replaceChildren(
+            table(
+                columns.map(({ name, unit }) => `${name} [${unit}]`),
+                rows,
+            ),
+        );
+        const part = count > MOST_ROWS ? `; the first ${MOST_ROWS} are shown` : "";
+        note.textContent = `${count} rows, ${columns.length} columns, SI units${part}.`;
     };
     const buttons = element(
         "div",
         { class: "controls" },
-        all.length > 0 ? choice("Table", all.map(({ text }, i) => [i, text]), 0, show) : null,
+        all.length > 0
+            ? choice(
+                  "Table",
+                  all.map(({ text }, i) => [i, text]),
+                  0,
+                  show,
+              )
+            : null,
         all.length > 0
             ? element("button", {
                   type: "button",
@@ -81,7 +98,10 @@ export async function tables(place, results, figures) {
             type: "button",
             textContent: "Download the summary (CSV)",
             onclick: () =>
-                save("summary.csv", `${[figures.heading, ...figures.rows].map((row) => row.map(cell).join(",")).join("\n")}\n`),
+                save(
+                    "summary.csv",
+                    `${[figures.heading, ...figures.rows].map((row) => row.map(cell).join(",")).join("\n")}\n`,
+                ),
         }),
     );
     place.replaceChildren(buttons, note, shown);

@@ -2,46 +2,26 @@
 """The page of `railwave report` in a browser without a network: what it says, draws and lets people do."""
 
 import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import browser  # noqa: E402
+from coarse_report import CASE, CoarseReport, run  # noqa: E402
 
 import h5py  # noqa: E402
 import numpy as np  # noqa: E402
 
-PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
-SOURCE = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
-CASE = SOURCE / "cases" / "rolling.toml"
-COARSE = [
-    f"--set=meshes.{mesh}.{key}" for mesh in ("wheel", "rail") for key in ("zone_size=0.005", "zone_layers=1")
-] + ["--set=time.end=5e-4", "--set=output.field_interval=1e-4"]
 PHONE = 390  # px, width of a usual telephone
 
 
 def setUpModule():
-    global FOLDER, RESULTS, REPORT
-    browser.expect_browser(SOURCE / "build" / "report" / "report.html")
-    FOLDER = tempfile.TemporaryDirectory()
-    RESULTS = pathlib.Path(FOLDER.name) / "rolling.h5"
-    run("run", CASE, *COARSE, f"--set=output.file={RESULTS}")
-    run("report", RESULTS)
-    REPORT = RESULTS.with_suffix(".html")
+    global MADE
+    MADE = CoarseReport()
 
 
 def tearDownModule():
-    FOLDER.cleanup()
-
-
-def run(*arguments):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise AssertionError(f"railwave {arguments}: {done.stdout}{done.stderr}")
-    return done.stdout
+    MADE.close()
 
 
 def brightness(picture):
@@ -51,7 +31,7 @@ def brightness(picture):
 class TestPage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.page = browser.Page(REPORT)
+        cls.page = browser.Page(MADE.page)
 
     @classmethod
     def tearDownClass(cls):
@@ -59,7 +39,7 @@ class TestPage(unittest.TestCase):
 
     def test_summary_has_the_accuracy_of_the_run(self):
         text = self.page.text("#summary")
-        with h5py.File(RESULTS) as file:
+        with h5py.File(MADE.results) as file:
             energy = file["history/energy"]
             elastic = (energy["internal"][:] + energy["contact"][:]).max()
             share = 100 * np.abs(energy["balance_error"][:]).max() / elastic
@@ -76,14 +56,14 @@ class TestPage(unittest.TestCase):
             " card.querySelector('h3').textContent === 'Contact tread').querySelector('.plot');"
             " return [Array.from(plot.data[2].y), plot.data[2].name, plot.layout.yaxis.title.text]; })()"
         )
-        with h5py.File(RESULTS) as file:
+        with h5py.File(MADE.results) as file:
             wanted = 1e-3 * file["history/contact/tread/normal_force"][:, 2]
         np.testing.assert_allclose(force[0], wanted, rtol=1e-6)
         self.assertEqual(force[1:], ["z", "tread: normal force, kN"])
 
     def test_table_is_that_of_the_command(self):
-        csv = RESULTS.with_suffix(".csv")
-        run("contact", RESULTS, "--csv", csv)
+        csv = MADE.results.with_suffix(".csv")
+        run("contact", MADE.results, "--csv", csv)
         rows = self.page.ask("document.querySelectorAll('#tables tbody tr').length")
         self.assertEqual(rows, len(csv.read_text().splitlines()) - 1)
 
@@ -94,29 +74,25 @@ class TestPage(unittest.TestCase):
 
 class TestLooks(unittest.TestCase):
     def test_light_and_dark(self):
-        with browser.Page(REPORT) as light, browser.Page(REPORT, dark=True) as dark:
+        with browser.Page(MADE.page) as light, browser.Page(MADE.page, dark=True) as dark:
             self.assertGreater(brightness(light.picture("#summary")), 180)
             self.assertLess(brightness(dark.picture("#summary")), 75)
 
     def test_a_phone_need_not_be_scrolled_sideways(self):
-        with browser.Page(REPORT, width=PHONE) as page:
+        with browser.Page(MADE.page, width=PHONE) as page:
             self.assertEqual(page.ask("document.documentElement.scrollWidth"), PHONE)
             self.assertEqual(page.console(), [])
 
 
 class TestCommand(unittest.TestCase):
     def test_a_file_of_somebody_else_stays(self):
-        other = RESULTS.with_name("mine.html")
+        other = MADE.results.with_name("mine.html")
         other.write_text("<html>mine</html>")
-        done = subprocess.run([PROGRAM, "report", RESULTS, "--out", other], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("mine.html", done.stderr)
+        self.assertIn("mine.html", run("report", MADE.results, "--out", other, code=2))
         self.assertEqual(other.read_text(), "<html>mine</html>")
 
     def test_what_is_no_results_file_is_refused(self):
-        done = subprocess.run([PROGRAM, "report", CASE], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("no HDF5 file", done.stderr)
+        self.assertIn("no HDF5 file", run("report", CASE, code=2))
 
 
 if __name__ == "__main__":

@@ -32,8 +32,8 @@ export function about(place, { program, results }) {
             textContent:
                 `Made by ${program}. Histories have seven digits. Fields and nodes of patches are stored in 65535` +
                 " levels between the smallest and the largest value of each field, component and instant, so that a" +
-                " value is off by at most 1/131068 of that range; displacements so beside the rigid motion. The results" +
-                " files have the full numbers.",
+                " value is off by at most 1/131068 of that range; displacements so beside the rigid motion." +
+                " The results files have the full numbers.",
         }),
         ...results.map(ofResult),
     );

@@ -6,10 +6,13 @@ import { draw, layout, legend, linkTimes } from "./plot.js";
 import { readAs, withUnit, words } from "./units.js";
 
 const DASHES = ["solid", "dash", "dot", "dashdot"];
-const MANY = 4; // results: more than these are told apart by colour, one quantity at a time
+const MANY = 2; // results: more than these are told apart by colour, one quantity at a time
 const DWARFS = 10; // a curve so many times larger than the others' median is not drawn until it is asked for
 
-/** The curves of one plot: {title, unit, curves: [{label, name}]}, name being the channel's. */
+/**
+ * The plots by what they are of: {title, unit, curves: [{label, names, of}]}; a curve is made of the channels `names`,
+ * at each sample by `of` where there are several.
+ */
 function groupsOf(results) {
     const channels = new Map();
     for (const { history } of results) for (const one of history.channels) channels.set(one.name, one);
@@ -19,13 +22,42 @@ function groupsOf(results) {
         let plot = groups[one.group].find((known) => known.title === title && known.unit === one.unit);
         if (!plot) groups[one.group].push((plot = { title, unit: one.unit, curves: [] }));
         const label = one.group === "energy" ? words(one.quantity) : one.component || words(one.quantity);
-        plot.curves.push({ label, name: one.name });
+        plot.curves.push({ label, names: [one.name] });
     }
+    const owners = [...new Set(groups.contact.map(({ title }) => title.split(": ")[0]))];
+    groups.contact.unshift(...owners.flatMap((owner) => derived(owner, channels)));
     for (const name of ["contact", "load", "set"]) groups[name] = inOrder(groups[name]);
     return groups;
 }
 
+const AXES = ["x", "y", "z"];
+
+/** What people look at first of a contact: its forces in one plot, and their ratio. */
+function derived(owner, channels) {
+    const names = (quantity) => AXES.map((axis) => `contact.${owner}.${quantity}.${axis}`);
+    const [normal, tangential] = [names("normal_force"), names("tangential_force")];
+    if (![...normal, ...tangential].every((name) => channels.has(name))) return [];
+    const size = (...parts) => Math.hypot(...parts);
+    const ratio = (...parts) => {
+        const load = size(...parts.slice(0, 3));
+        return load > 0 ? size(...parts.slice(3)) / load : NaN;
+    };
+    const forces = [
+        { label: "normal", names: normal, of: size },
+        { label: "tangential", names: tangential, of: size },
+        { label: "tangential x", names: [tangential[0]] },
+        { label: "tangential y", names: [tangential[1]] },
+    ];
+    const of = { label: "tangential over normal force", names: [...normal, ...tangential], of: ratio };
+    return [
+        { title: `${owner}: forces`, unit: "N", curves: forces },
+        { title: `${owner}: tangential over normal force`, unit: "1", curves: [of] },
+    ];
+}
+
 const FIRST = [
+    "forces",
+    "tangential over normal force",
     "normal_force",
     "tangential_force",
     "nodes_in_contact",
@@ -43,11 +75,13 @@ function inOrder(plots) {
     return [...plots].sort((a, b) => place(a) - place(b));
 }
 
+const inEnergyOrder = (curves) => [...curves].sort((a, b) => (b.label === "internal") - (a.label === "internal"));
+
 /** The balance's error is far smaller than energies: it has a plot of its own. */
 function withoutBalance(plots) {
-    const isBalance = ({ name }) => name === "energy.balance_error";
+    const isBalance = ({ names }) => names[0] === "energy.balance_error";
     return plots.flatMap((plot) => [
-        { ...plot, curves: plot.curves.filter((one) => !isBalance(one)) },
+        { ...plot, curves: inEnergyOrder(plot.curves.filter((one) => !isBalance(one))) },
         { title: "error of the energy balance", unit: plot.unit, curves: plot.curves.filter(isBalance) },
     ]);
 }
@@ -62,17 +96,23 @@ function dwarfing(arrays) {
     return sizes.map((size) => size > DWARFS * middle && sorted.length > 2);
 }
 
+/** The values of a curve. */
+async function valuesOf({ parts, of }) {
+    const arrays = await Promise.all(parts.map((channel) => numbers(channel.values)));
+    return of ? arrays[0].map((_, i) => of(...arrays.map((array) => array[i]))) : arrays[0];
+}
+
 async function tracesOf(plot, curves, results, number) {
     const { factor } = readAs(plot.unit);
     const found = results.flatMap((result) =>
         curves.flatMap((one, c) => {
-            const channel = result.history.channels.find(({ name }) => name === one.name);
-            return channel ? [{ result, channel, label: one.label, c }] : [];
+            const parts = one.names.map((name) => result.history.channels.find((known) => known.name === name));
+            return parts.every(Boolean) ? [{ result, parts, of: one.of, label: one.label, c }] : [];
         }),
     );
-    const values = await Promise.all(found.map(({ channel }) => numbers(channel.values)));
+    const values = await Promise.all(found.map(valuesOf));
     const times = await Promise.all(found.map(({ result }) => numbers(result.history.time)));
-    const hidden = curves.length > 1 ? dwarfing(values) : values.map(() => false);
+    const hidden = plot.title === "energies" && curves.length > 1 ? dwarfing(values) : values.map(() => false);
     const several = results.length > 1;
     return found.map(({ result, label, c }, i) => ({
         x: Array.from(times[i], (t) => 1e3 * t),
@@ -107,7 +147,7 @@ function card(title, plots, results, number) {
         const plot = shown[position];
         const { label } = readAs(plot.unit);
         const traces = await tracesOf(plot, plot.curves, results, number);
-        await draw(place, traces, layout("time, ms", withUnit(plot.title, label)));
+        await draw(place, traces, layout("time, ms", withUnit(plot.title.split(": ").at(-1), label)));
         names.replaceChildren(...(traces.length > 1 ? [legend(place, traces)] : []));
     };
     const list = choice(

@@ -91,26 +91,30 @@ class Card {
         return [values[left], values[values.length - 1 - left]];
     }
 
-    /** Draws the instant nearest to a time. */
-    async show(time, { quantity, scale, mesh, follow, ends }) {
+    /** The bodies at the instant nearest to a time, and the ends of their scale. */
+    async prepare(time, { quantity, scale, ends }) {
         const shown = this.bodies.filter((body) => !this.off.has(body));
         await Promise.all(shown.map((body) => body.load()));
-        const bodies = await Promise.all(
+        this.drawn = await Promise.all(
             shown.map(async (body) => {
                 const output = body.outputAt(time);
                 const found = await body.values(output, quantity);
                 return { name: body.name, corners: body.corners, places: await body.places(output, scale), found };
             }),
         );
-        const [low, high] = await this.#rangeOf(quantity, shown, bodies, ends);
+        return this.#rangeOf(quantity, shown, this.drawn, ends);
+    }
+
+    /** Draws what prepare() has made, coloured from `low` to `high`. */
+    draw(low, high, { quantity, mesh, follow }) {
         const span = high > low ? high - low : 1;
-        for (const body of bodies)
+        for (const body of this.drawn)
             body.colour = (face, node) =>
                 body.found ? (body.found.values[body.found.ofNodes ? node : face] - low) / span : 0;
-        const middle = middleOf(bodies);
+        const middle = middleOf(this.drawn);
         if (follow && this.middle && this.looked) this.view.follow(middle.clone().sub(this.middle));
         this.middle = middle;
-        this.view.show(bodies, mesh);
+        this.view.show(this.drawn, mesh);
         if (!this.looked) this.look("iso");
         this.#label(quantity, low, high);
     }
@@ -145,8 +149,8 @@ export async function model(place, results) {
     if (cards.length === 0) {
         place.replaceChildren(
             hint(
-                "These results have no fields of bodies. A case names what is to be seen here in output.field_sets and" +
-                    " output.fields.",
+                "These results have no fields of bodies. A case names what is to be seen here in output.field_sets" +
+                    " and output.fields.",
             ),
         );
         return;
@@ -160,7 +164,14 @@ export async function model(place, results) {
     let time = times.at(-1);
     let drawing = Promise.resolve();
     const redraw = () => {
-        drawing = drawing.then(() => Promise.all(cards.map((card) => card.show(time, wishes))));
+        drawing = drawing.then(async () => {
+            const now = { ...wishes };
+            const ranges = await Promise.all(cards.map((card) => card.prepare(time, now)));
+            // One scale for all results.
+            const low = Math.min(...ranges.map((range) => range[0]));
+            const high = Math.max(...ranges.map((range) => range[1]));
+            for (const card of cards) card.draw(low, high, now);
+        });
         return drawing;
     };
     const wish =
@@ -175,8 +186,8 @@ export async function model(place, results) {
     });
     place.replaceChildren(
         hint(
-            "Drag to turn, use the wheel or two fingers to zoom, the right button or two fingers to move. What is under" +
-                " the pointer is named in the corner. Seen is what the case names in output.field_sets.",
+            "Drag to turn, use the wheel or two fingers to zoom, the right button or two fingers to move. What is" +
+                " under the pointer is named in the corner. Seen is what the case names in output.field_sets.",
         ),
         element(
             "div",

@@ -93,7 +93,7 @@ async function cardOf(result, name) {
     const whole = await solution(contact);
     const kinds = ["plot patch", "", "plot patch state", "plot cut", "", "scroll figures"];
     const [map, below, states, cut, names, figures] = kinds.map((kind) => element("div", { class: kind }));
-    const show = async (time, wishes) => {
+    const show = async (time, wishes, most) => {
         const instant = nearest(whole.instants, time);
         const patch = patchAt(whole, instant, wishes.patch);
         when.textContent = `${contact.surface}, t = ${(1e3 * whole.instants[instant].time).toFixed(4)} ms${
@@ -103,11 +103,11 @@ async function cardOf(result, name) {
             [map, wishes.colourBy],
             [states, "state"],
         ]) {
-            const picture = patchPlot(patch, whole.most, colourBy, wishes);
+            const picture = patchPlot(patch, most, colourBy, wishes);
             await draw(plot, picture.traces, picture.its);
         }
-        below.replaceChildren(key(whole.most, wishes));
-        const line = cutPlot(patch, whole.most);
+        below.replaceChildren(key(most, wishes));
+        const line = cutPlot(patch, most);
         await draw(cut, line.traces, line.its);
         names.replaceChildren(legend(cut, line.traces));
         figures.replaceChildren(...(patch ? [table(["at this instant", ""], figuresOf(patch, wishes.criterion))] : []));
@@ -127,6 +127,7 @@ async function cardOf(result, name) {
         ),
         times: whole.instants.map((one) => one.time),
         numbers: patchNumbers(whole),
+        most: whole.most,
         hasSolver: Number.isFinite(whole.nodes.slips_by_solver[0]),
         show,
     };
@@ -144,9 +145,10 @@ export async function patches(place, results) {
     const bar = element("div");
     let time = Infinity;
     let shown = [];
+    let most = {}; // largest values of all that is shown: one scale for all results
     let drawing = Promise.resolve();
     const redraw = () => {
-        drawing = drawing.then(() => Promise.all(shown.map((card) => card.show(time, wishes))));
+        drawing = drawing.then(() => Promise.all(shown.map((card) => card.show(time, wishes, most))));
         return drawing;
     };
     const wish =
@@ -158,6 +160,9 @@ export async function patches(place, results) {
     const texts = (table_) => Object.entries(table_).map(([value, one]) => [value, one.text ?? one]);
     const choose = async (name) => {
         shown = await Promise.all(results.slice(0, MOST_CARDS).map((result) => cardOf(result, name)));
+        most = {};
+        for (const card of shown)
+            for (const [what, value] of Object.entries(card.most ?? {})) most[what] = Math.max(most[what] ?? 0, value);
         const times = [...new Set(shown.flatMap((card) => card.times))].sort((a, b) => a - b);
         const numbers = [...new Set(shown.flatMap((card) => card.numbers))];
         if (!shown.some((card) => card.hasSolver)) wishes.criterion = "slips_by_force";

@@ -95,6 +95,18 @@ class Page:
                 addresses.append(message["params"]["request"]["url"])
         return [address for address in addresses if not address.startswith(("file:", "data:", "blob:"))]
 
+    def expect_no_sideways_scrolling(self):
+        """Fails, naming the elements that are too wide, where the page is wider than its window."""
+        width = self.ask("document.documentElement.clientWidth")
+        if self.ask("document.documentElement.scrollWidth") <= width:
+            return
+        wide = self.ask(
+            "[...document.querySelectorAll('body *')].map(one => [one, one.getBoundingClientRect().right])"
+            ".filter(([one, right]) => right > arguments[0] + 0.5).map(([one, right]) => `${one.tagName}.${one.className}"
+            "#${one.id} to ${Math.round(right)}: ${one.textContent.slice(0, 60)}`).slice(0, 20)", width
+        )
+        raise AssertionError(f"wider than {width}: {wide}")
+
     def move_slider(self, selector, position):
         self.ask(
             "(() => { const s = document.querySelector(arguments[0]); s.value = arguments[1];"

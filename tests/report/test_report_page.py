@@ -43,7 +43,7 @@ class TestPage(unittest.TestCase):
             energy = file["history/energy"]
             elastic = (energy["internal"][:] + energy["contact"][:]).max()
             share = 100 * np.abs(energy["balance_error"][:]).max() / elastic
-        self.assertIn("Completed at 0.5 ms", text)
+        self.assertIn("completed at 0.5 ms", text)
         self.assertIn(f"off by {float(f'{share:.2g}'):g} % of the largest elastic energy", text)
         self.assertIn("Monitor:", text)
         # Cells of 5 mm on a patch of about 15 mm.
@@ -54,12 +54,27 @@ class TestPage(unittest.TestCase):
         force = self.page.ask(
             "(() => { const plot = [...document.querySelectorAll('#histories .card')].find(card =>"
             " card.querySelector('h3').textContent === 'Contact tread').querySelector('.plot');"
-            " return [Array.from(plot.data[2].y), plot.data[2].name, plot.layout.yaxis.title.text]; })()"
+            " return [Array.from(plot.data[0].y), Array.from(plot.data[2].y), plot.data[0].name, plot.data[2].name,"
+            " plot.layout.yaxis.title.text, plot.layout.xaxis.title.text]; })()"
         )
         with h5py.File(MADE.results) as file:
-            wanted = 1e-3 * file["history/contact/tread/normal_force"][:, 2]
-        np.testing.assert_allclose(force[0], wanted, rtol=1e-6)
-        self.assertEqual(force[1:], ["z", "tread: normal force, kN"])
+            contact = file["history/contact/tread"]
+            normal = 1e-3 * np.linalg.norm(contact["normal_force"][:], axis=1)
+            tangential = 1e-3 * contact["tangential_force"][:, 0]
+        np.testing.assert_allclose(force[0], normal, rtol=1e-6)
+        np.testing.assert_allclose(force[1], tangential, rtol=1e-6)
+        self.assertEqual(force[2:], ["normal", "tangential x", "forces, kN", "time, ms"])
+
+    def test_a_zoom_moves_all_time_axes_and_a_name_hides_its_curve(self):
+        first = "document.querySelector('#histories .plot')"
+        buttons = "document.querySelector('#histories .legend button')"
+        self.page.ask(f"{buttons}.click()")
+        self.page.wait_for(f"{first}.data[0].visible === false")
+        self.page.ask(f"{buttons}.click()")
+        self.page.wait_for(f"{first}.data[0].visible === true")
+        ranges = "[...document.querySelectorAll('#histories .plot')].map(plot => plot.layout.xaxis.range.join())"
+        self.page.ask(f"{first}.emit('plotly_relayout', {{'xaxis.range[0]': 0.1, 'xaxis.range[1]': 0.2}})")
+        self.page.wait_for(f"{ranges}.slice(1).every(text => text === '0.1,0.2')")
 
     def test_table_is_that_of_the_command(self):
         csv = MADE.results.with_suffix(".csv")
@@ -80,7 +95,8 @@ class TestLooks(unittest.TestCase):
 
     def test_a_phone_need_not_be_scrolled_sideways(self):
         with browser.Page(MADE.page, width=PHONE) as page:
-            self.assertEqual(page.ask("document.documentElement.scrollWidth"), PHONE)
+            self.assertEqual(page.ask("innerWidth"), PHONE)
+            page.expect_no_sideways_scrolling()
             self.assertEqual(page.console(), [])
 
 

@@ -24,16 +24,17 @@ function onEnergy({ energy }) {
     const what = "Energy balance";
     if (!energy) return verdict(what, "fair", "not written");
     if (energy.error === null) return verdict(what, "poor", "broken", "", ", its values are not finite.");
-    if (!(energy.elastic > 0))
+    if (!(energy.held > 0))
         return verdict(what, "fair", "no elastic energy", "", `, off by ${quantity(energy.error, "J")}.`);
-    const share = energy.error / energy.elastic;
+    const share = energy.error / energy.held;
     const good = share < GOOD_BALANCE;
+    const of = `the largest elastic energy${energy.yields ? " and plastic work" : ""}`;
     return verdict(
         what,
         good ? "good" : "poor",
         good ? "kept" : "not kept",
         `, ${digits(100 * share, 2)} %`,
-        `, off by ${digits(100 * share, 2)} % of the largest elastic energy (${quantity(energy.elastic, "J")})` +
+        `, off by ${digits(100 * share, 2)} % of ${of} (${quantity(energy.held, "J")})` +
             ` at most, at ${quantity(energy.time, "s")}; below 1 % is wanted.`,
     );
 }

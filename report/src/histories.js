@@ -7,7 +7,7 @@ import { readAs, withUnit, words } from "./units.js";
 
 const DASHES = ["solid", "dash", "dot", "dashdot"];
 const MANY = 2; // results: more than these are told apart by colour, one quantity at a time
-const DWARFS = 10; // a curve so many times larger than the others' median is not drawn until it is asked for
+const DWARFS = 10; // an energy so many times larger than the internal one is not drawn until it is asked for
 
 /**
  * The plots by what they are of: {title, unit, curves: [{label, names, of}]}; a curve is made of the channels `names`,
@@ -88,12 +88,10 @@ function withoutBalance(plots) {
 
 const largest = (values) => values.reduce((most, value) => (Math.abs(value) > most ? Math.abs(value) : most), 0);
 
-/** Whether each of these curves is too large for the others to be seen. */
+/** Whether each of these energies is too large for the internal energy, which the first curve is, to be seen. */
 function dwarfing(arrays) {
     const sizes = arrays.map(largest);
-    const sorted = [...sizes].filter((size) => size > 0).sort((a, b) => a - b);
-    const middle = sorted[Math.floor((sorted.length - 1) / 2)] ?? 0;
-    return sizes.map((size) => size > DWARFS * middle && sorted.length > 2);
+    return sizes.map((size) => sizes[0] > 0 && size > DWARFS * sizes[0]);
 }
 
 /** The values of a curve. */

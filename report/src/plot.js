@@ -18,7 +18,7 @@ export function layout(x, y, more = {}) {
     });
     return {
         autosize: true,
-        margin: { l: 12, r: 12, t: 10, b: 12 },
+        margin: { l: 12, r: 12, t: 32, b: 12 }, // above: the buttons
         paper_bgcolor: "rgba(0,0,0,0)",
         plot_bgcolor: "rgba(0,0,0,0)",
         font: { color: named("--ink"), size: 13, family: "system-ui, sans-serif" },

@@ -64,7 +64,11 @@ export async function summary(place, results) {
     const [heading, ...rows] = many(results) ? turned(all) : all;
     place.replaceChildren(
         accuracy(results),
-        element("div", { class: "card scroll tall figures", style: "margin-top:1rem" }, table(heading, rows)),
+        element(
+            "div",
+            { class: `card scroll figures ${many(results) ? "tall" : ""}`, style: "margin-top:1rem" },
+            table(heading, rows),
+        ),
     );
     return { heading, rows };
 }

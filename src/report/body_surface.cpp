@@ -8,7 +8,7 @@
 #include "case/field_table.hpp"
 #include "mesh/face_table.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 constexpr std::size_t fitted_nodes = 4000;  ///< at most, for a rigid motion
@@ -112,4 +112,4 @@ RigidMotion nearest_rigid_motion(const std::vector<Eigen::Vector3d>& nodes, cons
   return motion;
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

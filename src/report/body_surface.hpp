@@ -8,7 +8,7 @@
 
 #include "post/results_reader.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 
 /// What is seen of a set of /fields: its facets, or the outer faces of its hexahedra, and the nodes at their corners.
 struct BodySurface {
@@ -38,4 +38,4 @@ struct RigidMotion {
 /// @param displacements m, three numbers a node
 RigidMotion nearest_rigid_motion(const std::vector<Eigen::Vector3d>& nodes, const std::vector<double>& displacements);
 
-}  // namespace railwave::report
+}  // namespace railwave::page

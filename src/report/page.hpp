@@ -12,7 +12,7 @@
 
 /// A page is its template, filled with what it says of each results file, section by section: each is JSON, with its
 /// arrays among the blocks. All numbers are in SI units.
-namespace railwave::report {
+namespace railwave::page {
 
 /// How much of a run goes into a page.
 struct Limits {
@@ -20,14 +20,15 @@ struct Limits {
   std::size_t samples = 4000;  ///< of each history
 };
 
-/// A section's JSON, and what was left out of it, for the page and for people at the terminal.
+/// A section's JSON, what was left out of it, for the page and for people at the terminal, and how much there is.
 struct Section {
   std::string json;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = {};
+  Limits there{0, 0};
 };
 
 /// What the run was and how it ended: title, program, steps, warnings of the monitor, the case's text, and the energy
-/// balance: its largest error and the largest elastic energy, J.
+/// balance: its largest error and the largest elastic energy with plastic work, J.
 Section summary_section(const ResultsReader& results, const HistoryTable& history);
 
 /// All histories. Where there are more samples than the limit each channel has the smallest and the largest value of
@@ -46,6 +47,7 @@ Section field_section(const ResultsReader& results, const Limits& limits, PageBl
 /// scripts/setup --report has made in the source tree. Throws InputError that says how it is made where there is none,
 /// and where it has no place for the data.
 std::string page_template();
+bool has_page_template();
 
 /// The template with data in its place.
 /// @param blocks elements of HTML that come before the data
@@ -62,4 +64,4 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths);
 std::string json_list(const std::vector<std::string>& items);
 std::string json_object(const std::vector<std::pair<std::string, std::string>>& members);
 
-}  // namespace railwave::report
+}  // namespace railwave::page

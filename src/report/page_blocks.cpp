@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 constexpr std::uint16_t not_known = 65535;
@@ -107,4 +107,4 @@ std::string json_text(const std::string& plain) {
 
 std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace railwave::report {
+namespace railwave::page {
 
 /// The arrays of a page. Each becomes a block of text in the HTML file: its bytes, deflated (zlib) and written as
 /// base64, which the page takes apart again by the browser's own DecompressionStream. Before that the first bytes of
@@ -38,4 +38,4 @@ std::string json_text(const std::string& plain);
 /// A number as JSON; null where it is not finite.
 std::string json_number(double value);
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -8,7 +8,7 @@
 #include "post/contact_tables.hpp"
 #include "report/page.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 /// Columns of the nodes, facets and cuts that the page draws.
@@ -112,6 +112,7 @@ Section contact_section(const ResultsReader& results, const Limits& limits, Page
     const ContactTables tables = contact_tables(results, name, {name}, request);
     const auto& of_all = tables.patches.values("patch");
     const auto outputs = static_cast<std::size_t>(std::count(of_all.begin(), of_all.end(), 0.0));
+    section.there.instants = std::max(section.there.instants, outputs);
     if (outputs > limits.instants)
       section.notes.push_back(fmt::format("contact {}: its patches are drawn at {} of {} output times, evenly chosen",
                                           name, limits.instants, outputs));
@@ -129,4 +130,4 @@ Section contact_section(const ResultsReader& results, const Limits& limits, Page
   return section;
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -8,7 +8,7 @@
 #include "report/body_surface.hpp"
 #include "report/page.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 using Members = std::vector<std::pair<std::string, std::string>>;
@@ -119,6 +119,7 @@ Section read(const ResultsReader& results, const Limits& limits, PageBlocks& blo
   std::vector<std::string> items;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const std::size_t outputs = bodies[i].times.size();
+    section.there.instants = std::max(section.there.instants, outputs);
     if (outputs > limits.instants)
       section.notes.push_back(
           fmt::format("fields of {}: {} of {} output times, evenly chosen", bodies[i].name, limits.instants, outputs));
@@ -137,4 +138,4 @@ Section field_section(const ResultsReader& results, const Limits& limits, PageBl
   return results.report_damage([&] { return read(results, limits, blocks); });
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -6,7 +6,7 @@
 
 #include "report/page.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 /// More than `most` samples as the smallest and the largest of each of most/2 stretches, in the order in which they
@@ -41,6 +41,7 @@ std::vector<double> stretch_times(const std::vector<double>& times, std::size_t 
 
 Section history_section(const HistoryTable& history, const Limits& limits, PageBlocks& blocks) {
   Section section;
+  section.there.samples = history.times.size();
   std::vector<std::string> channels;
   for (const SampledChannel& one : history.channels)
     channels.push_back(json_object({{"name", json_text(one.channel.name)},
@@ -65,4 +66,4 @@ Section history_section(const HistoryTable& history, const Limits& limits, PageB
   return section;
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -3,7 +3,7 @@
 
 #include "report/page.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 using Members = std::vector<std::pair<std::string, std::string>>;
@@ -22,22 +22,26 @@ const std::vector<double>* energy(const HistoryTable& history, const char* name)
   return nullptr;
 }
 
-/// The largest error of the balance beside the largest elastic energy, as the summary of a run has it.
+/// The largest error of the balance beside the largest elastic energy, as the summary of a run has it, to which plastic
+/// work is added where there is some: a body that yields holds little.
 std::string energy_balance(const HistoryTable& history) {
   const auto *error = energy(history, "balance_error"), *internal = energy(history, "internal"),
-             *contact = energy(history, "contact");
+             *contact = energy(history, "contact"), *plastic = energy(history, "plastic");
   if (!error || !internal || !contact || history.times.empty()) return "null";
   std::size_t worst = 0;
-  double elastic = 0;
-  bool finite = true;
+  double held = 0;
+  bool finite = true, yields = false;
   for (std::size_t i = 0; i < history.times.size(); ++i) {
+    const double work = plastic ? (*plastic)[i] : 0;
     finite = finite && std::isfinite((*error)[i]);
+    yields = yields || work > 0;
     if (std::fabs((*error)[i]) > std::fabs((*error)[worst])) worst = i;
-    elastic = std::max(elastic, (*internal)[i] + (*contact)[i]);
+    held = std::max(held, (*internal)[i] + (*contact)[i] + work);
   }
   return json_object({{"error", json_number(finite ? std::fabs((*error)[worst]) : NAN)},
                       {"time", json_number(history.times[worst])},
-                      {"elastic", json_number(elastic)}});
+                      {"held", json_number(held)},
+                      {"yields", yields ? "true" : "false"}});
 }
 
 }  // namespace
@@ -65,7 +69,7 @@ Section summary_section(const ResultsReader& results, const HistoryTable& histor
   members.emplace_back("warnings", texts(root, "warnings"));
   members.emplace_back("left_out", texts(root, "left_out"));
   members.emplace_back("energy", energy_balance(history));
-  return {json_object(members), {}};
+  return {json_object(members)};
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

@@ -9,7 +9,7 @@
 
 #include "case/error.hpp"
 
-namespace railwave::report {
+namespace railwave::page {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,6 +27,12 @@ std::vector<fs::path> places() {
 }
 
 }  // namespace
+
+bool has_page_template() {
+  const std::vector<fs::path> all = places();
+  std::error_code failed;
+  return std::any_of(all.begin(), all.end(), [&](const fs::path& path) { return fs::exists(path, failed); });
+}
 
 std::string page_template() {
   for (const fs::path& path : places()) {
@@ -80,4 +86,4 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths) {
   return names;
 }
 
-}  // namespace railwave::report
+}  // namespace railwave::page

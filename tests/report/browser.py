@@ -102,8 +102,9 @@ class Page:
             return
         wide = self.ask(
             "[...document.querySelectorAll('body *')].map(one => [one, one.getBoundingClientRect().right])"
-            ".filter(([one, right]) => right > arguments[0] + 0.5).map(([one, right]) => `${one.tagName}.${one.className}"
-            "#${one.id} to ${Math.round(right)}: ${one.textContent.slice(0, 60)}`).slice(0, 20)", width
+            ".filter(([, right]) => right > arguments[0] + 0.5).slice(0, 20).map(([one, right]) =>"
+            " `${one.tagName}.${one.className}#${one.id} to ${Math.round(right)}: ${one.textContent.slice(0, 60)}`)",
+            width,
         )
         raise AssertionError(f"wider than {width}: {wide}")
 

@@ -22,7 +22,7 @@ async function load(contact) {
         cuts,
         instants,
         rows: { nodes: ranges(nodes.row), facets: ranges(facets.row), cuts: ranges(cuts.row) },
-        most: extremes(nodes),
+        most: extremes(nodes, cuts),
     };
 }
 
@@ -36,9 +36,11 @@ function ranges(row) {
     return found;
 }
 
-/** Largest values at all instants: one scale for all of them. */
-function extremes(nodes) {
-    const most = { pressure: 0, shear: 0, slip: 0, along: 0, across: 0 };
+/** Largest values at all instants: one scale for all of them; `below`: how far shear along cuts is below zero. */
+function extremes(nodes, cuts) {
+    const most = { pressure: 0, shear: 0, slip: 0, along: 0, across: 0, below: 0 };
+    for (const name of ["shear_along", "shear_across"])
+        for (const value of cuts[name]) if (-value > most.below) most.below = -value;
     for (let i = 0; i < nodes.row.length; ++i) {
         most.along = Math.max(most.along, Math.abs(nodes.along[i]));
         most.across = Math.max(most.across, Math.abs(nodes.across[i]));

@@ -55,7 +55,7 @@ function cutPlot(patch, most) {
         ],
         its: layout("rolling direction, mm", "stress, MPa", {
             xaxis: { range: [-half, half] },
-            yaxis: { range: [-1.1 * MPA * most.shear, 1.1 * MPA * most.pressure] },
+            yaxis: { range: [-MPA * (1.1 * most.below + 0.02 * most.pressure), 1.1 * MPA * most.pressure] },
         }),
     };
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,20 @@ std::vector<fs::path> places() {
   if (!failed) found.push_back(program.parent_path().parent_path() / "share" / "railwave" / "report.html");
   found.emplace_back(RAILWAVE_REPORT_TEMPLATE);
   return found;
+}
+
+/// Without the hash that ends the name of a sweep's member (-0123456789ab), where all have one and are told apart
+/// without it.
+std::vector<std::string> without_hashes(const std::vector<std::string>& names) {
+  constexpr std::size_t length = 13;
+  std::vector<std::string> bare;
+  for (const std::string& name : names) {
+    const std::size_t at = name.size() > length ? name.size() - length : 0;
+    if (at == 0 || name[at] != '-' || name.find_first_not_of("0123456789abcdef", at + 1) != std::string::npos)
+      return names;
+    bare.push_back(name.substr(0, at));
+  }
+  return std::set<std::string>(bare.begin(), bare.end()).size() == bare.size() ? bare : names;
 }
 
 }  // namespace
@@ -83,7 +98,7 @@ std::vector<std::string> short_names(const std::vector<std::string>& paths) {
     names.emplace_back();
     for (const std::string& part : one) names.back() += (names.back().empty() ? "" : "/") + part;
   }
-  return names;
+  return without_hashes(names);
 }
 
 }  // namespace railwave::page

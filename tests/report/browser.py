@@ -19,7 +19,7 @@ try:
 except ImportError:
     sys.exit(SKIPPED)
 
-PATIENCE = 60  # s, for what takes a second on an idle machine
+PATIENCE = 240  # s, for what takes a second or two on an idle machine
 FLAGS = (
     "--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader", "--disable-background-networking", "--hide-scrollbars",

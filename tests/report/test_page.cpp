@@ -16,6 +16,11 @@ TEST_CASE("Results are called by what tells them apart") {
   CHECK(page::short_names({"results/a/rolling.h5", "results/b/rolling.h5"}) == std::vector<std::string>{"a", "b"});
   CHECK(page::short_names({"results/a/one.h5", "results/a/two.h5"}) == std::vector<std::string>{"one", "two"});
   CHECK(page::short_names({"/x/a/one.h5", "/x/b/two.h5"}) == std::vector<std::string>{"a/one", "b/two"});
+  const std::string members = "results/study/members/";
+  CHECK(page::short_names({members + "a=1-0123456789ab/results.h5", members + "a=2-abcdef012345/results.h5"}) ==
+        std::vector<std::string>{"a=1", "a=2"});
+  CHECK(page::short_names({members + "a=1-0123456789ab/results.h5", members + "a=1-abcdef012345/results.h5"}) ==
+        std::vector<std::string>{"a=1-0123456789ab", "a=1-abcdef012345"});
   // The same file twice: nothing tells them apart, and they keep a name.
   CHECK(page::short_names({"a/one.h5", "a/one.h5"}) == std::vector<std::string>{"a", "a"});
 }

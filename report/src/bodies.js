@@ -100,6 +100,7 @@ export class Body {
         const left = await all(rest);
         return this.nodes.map((node, i) => {
             const rigid = moved(turn, shift, node);
+            if (!left.every((part) => Number.isFinite(part[i]))) return rigid; // not known, where a run broke down
             if (scale === 1 || this.travels) return rigid.map((value, a) => value + scale * left[a][i]);
             return node.map((value, a) => value + scale * (rigid[a] + left[a][i] - value));
         });

@@ -6,7 +6,7 @@ import { draw, layout, legend, linkTimes } from "./plot.js";
 import { readAs, withUnit, words } from "./units.js";
 
 const DASHES = ["solid", "dash", "dot", "dashdot"];
-const MANY = 2; // results: more than these are told apart by colour, one quantity at a time
+const MANY = 2; // results: more than these are distinguished by colour, one quantity at a time
 const DWARFS = 10; // an energy so many times larger than the internal one is not drawn until it is asked for
 
 /**

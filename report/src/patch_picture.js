@@ -141,7 +141,7 @@ function meshTrace({ facets, nodes }) {
     return { x, y, mode: "lines", hoverinfo: "skip", line: { width: 0.5, color: named("--faint") }, opacity: 0.5 };
 }
 
-/** Nodes that carry an arrow: one in each square of a grid that is so fine that arrows are told apart. */
+/** Nodes that carry an arrow: one in each square of a grid that is so coarse that arrows do not overlap. */
 function nodesWithArrows({ nodes, count }, most) {
     const size = (2 * MM * Math.max(most.along, most.across)) / ARROWS;
     const taken = new Set();

@@ -27,7 +27,7 @@ std::vector<fs::path> places() {
   return found;
 }
 
-/// Without the hash that ends the name of a sweep's member (-0123456789ab), where all have one and are told apart
+/// Without the hash that ends the name of a sweep's member (-0123456789ab), where all have one and differ
 /// without it.
 std::vector<std::string> without_hashes(const std::vector<std::string>& names) {
   constexpr std::size_t length = 13;

@@ -11,7 +11,7 @@
 using namespace railwave;
 using Catch::Matchers::WithinAbs;
 
-TEST_CASE("Results are called by what tells them apart") {
+TEST_CASE("Results are called by where their paths differ") {
   CHECK(page::short_names({"results/rolling/rolling.h5"}) == std::vector<std::string>{"rolling"});
   CHECK(page::short_names({"results/a/rolling.h5", "results/b/rolling.h5"}) == std::vector<std::string>{"a", "b"});
   CHECK(page::short_names({"results/a/one.h5", "results/a/two.h5"}) == std::vector<std::string>{"one", "two"});
@@ -21,7 +21,7 @@ TEST_CASE("Results are called by what tells them apart") {
         std::vector<std::string>{"a=1", "a=2"});
   CHECK(page::short_names({members + "a=1-0123456789ab/results.h5", members + "a=1-abcdef012345/results.h5"}) ==
         std::vector<std::string>{"a=1-0123456789ab", "a=1-abcdef012345"});
-  // The same file twice: nothing tells them apart, and they keep a name.
+  // The same file twice: their paths do not differ, and they keep a name.
   CHECK(page::short_names({"a/one.h5", "a/one.h5"}) == std::vector<std::string>{"a", "a"});
 }
 

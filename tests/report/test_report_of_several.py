@@ -73,6 +73,30 @@ class TestSeveral(unittest.TestCase):
             self.assertEqual(page.console(), [])
 
 
+class TestBrokenRuns(unittest.TestCase):
+    def test_a_run_that_was_killed_amid_values_that_are_not_finite(self):
+        broken = shutil.copy(MADE.results, MADE.folder / "broken.h5")
+        with h5py.File(broken, "r+") as file:
+            file.attrs["completed"] = 0
+            file.attrs["reason"] = "a node <b>flew</b> away"
+            for name in ("displacement", "velocity"):
+                file[f"fields/rail.head/{name}"][-1, 3:6] = np.nan
+            file["fields/wheel.tread/stress"][-1] = np.nan
+            file["history/energy/internal"][-5:] = np.nan
+            file["history/energy/balance_error"][-1] = np.inf
+        run("report", broken)
+        with browser.Page(MADE.folder / "broken.html") as page:
+            text = page.text("#summary")
+            self.assertIn("not completed at 0.5 ms of 0.5 ms: a node <b>flew</b> away.", text)
+            self.assertIn("Energy balance: broken, its values are not finite.", text)
+            page.ask("(() => { const list = [...document.querySelectorAll('#model label')].find(one =>"
+                     " one.textContent.startsWith('Colour')).querySelector('select');"
+                     " list.value = 'displacement:size'; list.dispatchEvent(new Event('change')); })()")
+            page.wait_for("document.querySelector('#model .bar').textContent.includes('displacement, size')")
+            self.assertNotIn("NaN", page.text("#model .bar"))
+            self.assertEqual(page.console(), [])
+
+
 class TestThinning(unittest.TestCase):
     def test_instants_are_evenly_chosen_and_the_page_says_so(self):
         out = MADE.folder / "thin.html"

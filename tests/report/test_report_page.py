@@ -93,6 +93,16 @@ class TestLooks(unittest.TestCase):
             self.assertGreater(brightness(light.picture("#summary")), 180)
             self.assertLess(brightness(dark.picture("#summary")), 75)
 
+    def test_a_page_that_is_open_follows_the_system(self):
+        with browser.Page(MADE.page) as page:
+            colour = "document.querySelector('#histories .plot').layout.font.color"
+            light = page.ask(colour)
+            page.set_dark(True)
+            page.wait_for(f"{colour} !== '{light}'")
+            page.wait_for("document.querySelectorAll('#model canvas').length === 1")
+            self.assertLess(brightness(page.picture("#summary")), 75)
+            self.assertEqual(page.console(), [])
+
     def test_a_phone_need_not_be_scrolled_sideways(self):
         with browser.Page(MADE.page, width=PHONE) as page:
             self.assertEqual(page.ask("innerWidth"), PHONE)

@@ -43,11 +43,11 @@ class TestPage(unittest.TestCase):
             energy = file["history/energy"]
             elastic = (energy["internal"][:] + energy["contact"][:]).max()
             share = 100 * np.abs(energy["balance_error"][:]).max() / elastic
-        self.assertIn("completed at 0.5 ms", text)
+        self.assertIn("completed at 0.15 ms", text)
         self.assertIn(f"off by {float(f'{share:.2g}'):g} % of the largest elastic energy", text)
         self.assertIn("Monitor:", text)
-        # Cells of 5 mm on a patch of about 15 mm.
-        coarse = r"Mesh in the patch of contact tread: coarse, cells of (4\.\d+|5|5\.\d+) mm are b/[23]\."
+        # Cells of 4 mm on a patch of about 9 mm.
+        coarse = r"Mesh in the patch of contact tread: coarse, cells of (3\.[5-9]\d*|4|4\.\d+) mm are b/2\."
         self.assertRegex(text, coarse)
 
     def test_curves_have_the_values_of_the_results(self):

@@ -115,6 +115,18 @@ class Page:
             selector, position,
         )
 
+    def download(self, button, folder, name):
+        """Path of the file of that name that a click on the button saves in the folder."""
+        folder.mkdir(exist_ok=True)
+        self._command("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(folder)})
+        self.ask("document.querySelector(arguments[0]).click()", button)
+        end = time.monotonic() + PATIENCE
+        while not (folder / name).is_file():
+            if time.monotonic() > end:
+                raise AssertionError(f"{name} was not saved; there are {sorted(folder.iterdir())}")
+            time.sleep(0.05)
+        return folder / name
+
     def picture(self, selector=None):
         """(height, width, 3) of an element, or of the whole page."""
         where = self.ask(

@@ -82,6 +82,18 @@ class TestPage(unittest.TestCase):
         rows = self.page.ask("document.querySelectorAll('#tables tbody tr').length")
         self.assertEqual(rows, len(csv.read_text().splitlines()) - 1)
 
+    def test_tables_are_downloaded_as_the_command_writes_them(self):
+        csv = MADE.folder / "patches.csv"
+        run("contact", MADE.results, "--csv", csv)
+        saved = self.page.download("#download", MADE.folder / "downloads", "rolling-tread-patches.csv")
+        wanted = np.genfromtxt(csv, delimiter=",", names=True, usecols=range(1, 10))
+        found = np.genfromtxt(saved, delimiter=",", names=True)
+        self.assertEqual(saved.read_text().split(",")[:3], ["time [s]", "patch [1]", "nodes_in_contact [1]"])
+        for name in wanted.dtype.names:
+            there = next(one for one in found.dtype.names if one.rsplit("_", 1)[0] == name)
+            # Seven digits of a number in single precision: half a unit of the last, and 2^-24.
+            np.testing.assert_allclose(found[there], wanted[name], rtol=5e-7 + 2**-24)
+
     def test_nothing_is_asked_of_a_network_and_nothing_fails(self):
         self.assertEqual(self.page.requests(), [])
         self.assertEqual(self.page.console(), [])

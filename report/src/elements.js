@@ -52,6 +52,26 @@ export function table(heading, rows) {
 
 const isNumber = (content) => typeof content === "string" && /^[-–]?[0-9.]*(e[-+][0-9]+)?$/.test(content);
 
+/**
+ * A function that does the work one call at a time: calls that come while it is at work are one more call after that,
+ * so that a slider is never behind.
+ */
+export function latest(work) {
+    let running = null;
+    let again = false;
+    const go = async () => {
+        do {
+            again = false;
+            await work();
+        } while (again);
+        running = null;
+    };
+    return () => {
+        again = true;
+        return (running ??= go());
+    };
+}
+
 /** A time slider with a button that plays: `times` in s, onchange is given the position. */
 export function timeSlider(times, onchange) {
     const shown = element("output");

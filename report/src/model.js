@@ -3,7 +3,7 @@ import { Vector3 } from "three";
 
 import { Body, quantities } from "./bodies.js";
 import { rampGradient } from "./colours.js";
-import { choice, element, tick, timeSlider } from "./elements.js";
+import { choice, element, latest, tick, timeSlider } from "./elements.js";
 import { VIEWS, View } from "./scene.js";
 import { digits, readAs } from "./units.js";
 
@@ -77,7 +77,8 @@ class Card {
     /** Ends of the scale: of all instants, of these without some of the largest and smallest values, or of one. */
     async #rangeOf(quantity, shown, bodies, ends) {
         if (ends === "instant") {
-            const values = Float64Array.from(bodies.flatMap(({ found }) => Array.from(found?.values ?? []))).sort();
+            const all = bodies.flatMap(({ found }) => Array.from(found?.values ?? [])).filter(Number.isFinite);
+            const values = Float64Array.from(all).sort();
             return [values[0] ?? 0, values.at(-1) ?? 0];
         }
         const name = [quantity.name, ...shown.map((body) => body.name)].join("|");
@@ -111,8 +112,10 @@ class Card {
         for (const body of this.drawn)
             body.colour = (face, node) =>
                 body.found ? (body.found.values[body.found.ofNodes ? node : face] - low) / span : 0;
+        const names = this.drawn.map(({ name }) => name).join("|");
         const middle = middleOf(this.drawn);
-        if (follow && this.middle && this.looked) this.view.follow(middle.clone().sub(this.middle));
+        if (follow && this.followed === names) this.view.follow(middle.clone().sub(this.middle));
+        this.followed = names;
         this.middle = middle;
         this.view.show(this.drawn, mesh);
         if (!this.looked) this.look("iso");
@@ -162,18 +165,14 @@ export async function model(place, results) {
     times.sort((a, b) => a - b);
     const wishes = { quantity: list[0], scale: 1, mesh: true, follow: true, ends: "most" };
     let time = times.at(-1);
-    let drawing = Promise.resolve();
-    const redraw = () => {
-        drawing = drawing.then(async () => {
-            const now = { ...wishes };
-            const ranges = await Promise.all(cards.map((card) => card.prepare(time, now)));
-            // One scale for all results.
-            const low = Math.min(...ranges.map((range) => range[0]));
-            const high = Math.max(...ranges.map((range) => range[1]));
-            for (const card of cards) card.draw(low, high, now);
-        });
-        return drawing;
-    };
+    const redraw = latest(async () => {
+        const now = { ...wishes };
+        const ranges = await Promise.all(cards.map((card) => card.prepare(time, now)));
+        // One scale for all results.
+        const low = Math.min(...ranges.map((range) => range[0]));
+        const high = Math.max(...ranges.map((range) => range[1]));
+        for (const card of cards) card.draw(low, high, now);
+    });
     const wish =
         (name, read = (value) => value) =>
         (value) => {
@@ -232,5 +231,5 @@ export async function model(place, results) {
     }
     open = cards;
     slider.go(times.length - 1);
-    await drawing;
+    await redraw();
 }

@@ -1,6 +1,6 @@
 // The contact patches with their time slider, a card for each result.
 import { curve } from "./colours.js";
-import { choice, element, table, tick, timeSlider } from "./elements.js";
+import { choice, element, latest, table, tick, timeSlider } from "./elements.js";
 import { nearest, patchAt, patchNumbers, solution } from "./patch_data.js";
 import { ARROWS_OF, COLOURS, CRITERIA, patchPlot } from "./patch_picture.js";
 import { draw, layout, legend } from "./plot.js";
@@ -146,11 +146,7 @@ export async function patches(place, results) {
     let time = Infinity;
     let shown = [];
     let most = {}; // largest values of all that is shown: one scale for all results
-    let drawing = Promise.resolve();
-    const redraw = () => {
-        drawing = drawing.then(() => Promise.all(shown.map((card) => card.show(time, wishes, most))));
-        return drawing;
-    };
+    const redraw = latest(() => Promise.all(shown.map((card) => card.show(time, wishes, most))));
     const wish =
         (name, read = (value) => value) =>
         (value) => {
@@ -196,7 +192,7 @@ export async function patches(place, results) {
             slider.whole,
         );
         slider.go(times.length - 1);
-        await drawing;
+        await redraw();
     };
     const more = results.length - MOST_CARDS;
     place.replaceChildren(

@@ -115,6 +115,33 @@ class Page:
             selector, position,
         )
 
+    def place_in(self, selector, across, down):
+        """Place in the window, px, of a point of an element, which is scrolled into it; 0 to 1 from its upper left."""
+        return self.ask(
+            "(() => { const one = document.querySelector(arguments[0]); one.scrollIntoView({behavior: 'instant',"
+            " block: 'center'}); const r = one.getBoundingClientRect();"
+            " return [r.x + arguments[1] * r.width, r.y + arguments[2] * r.height]; })()",
+            selector, across, down,
+        )
+
+    def mouse(self, kind, place):
+        """Kind: mouseMoved, mousePressed or mouseReleased, with the left button."""
+        button = {} if kind == "mouseMoved" else {"button": "left", "clickCount": 1}
+        self._command("Input.dispatchMouseEvent", {"type": kind, "x": place[0], "y": place[1], **button})
+
+    def drag(self, selector, start, end):
+        """Drags from one point of an element to another one."""
+        first = self.place_in(selector, *start)
+        self.mouse("mouseMoved", first)
+        self.mouse("mousePressed", first)
+        last = self.place_in(selector, *end)
+        for part in (0.3, 0.6, 1):
+            place = [a + part * (b - a) for a, b in zip(first, last)]
+            self._command(
+                "Input.dispatchMouseEvent", {"type": "mouseMoved", "x": place[0], "y": place[1], "button": "left"}
+            )
+        self.mouse("mouseReleased", last)
+
     def download(self, button, folder, name):
         """Path of the file of that name that a click on the button saves in the folder."""
         folder.mkdir(exist_ok=True)

@@ -166,6 +166,11 @@ class TestBodies(unittest.TestCase):
         self.assertRegex(found, r"^roller: [0-9.]+ m/s$")
         self.assertLess(float(found.split()[1]), 60)
         self.assertGreater(float(found.split()[1]), 0.5)
+        # Dragging turns it.
+        before = self.page.picture("#model canvas")
+        self.page.drag("#model canvas", (0.3, 0.5), (0.6, 0.4))
+        self.page.ask("(async () => { for (let i = 0; i < 5; ++i) await new Promise(requestAnimationFrame); })()")
+        self.assertGreater(np.mean(before != self.page.picture("#model canvas")), 0.02)
         self.assertEqual(self.page.console(), [])
 
 

@@ -72,9 +72,17 @@ class TestPage(unittest.TestCase):
         self.page.wait_for(f"{first}.data[0].visible === false")
         self.page.ask(f"{buttons}.click()")
         self.page.wait_for(f"{first}.data[0].visible === true")
+        self.page.drag("#histories .plot .nsewdrag", (0.2, 0.5), (0.6, 0.5))
+        self.page.wait_for(f"{first}.layout.xaxis.range[0] > 0.02")
         ranges = "[...document.querySelectorAll('#histories .plot')].map(plot => plot.layout.xaxis.range.join())"
-        self.page.ask(f"{first}.emit('plotly_relayout', {{'xaxis.range[0]': 0.1, 'xaxis.range[1]': 0.2}})")
-        self.page.wait_for(f"{ranges}.slice(1).every(text => text === '0.1,0.2')")
+        self.page.wait_for(f"new Set({ranges}).size === 1")
+        low, high = self.page.ask(f"{first}.layout.xaxis.range")
+        self.assertAlmostEqual((high - low) / 0.15, 0.4, delta=0.02)
+
+    def test_values_are_under_the_pointer(self):
+        for across in (0.5, 0.52):
+            self.page.mouse("mouseMoved", self.page.place_in("#histories .plot .nsewdrag", across, 0.5))
+        self.page.wait_for("/normal : [0-9.]+/.test(document.querySelector('#histories .hoverlayer').textContent)")
 
     def test_table_is_that_of_the_command(self):
         csv = MADE.results.with_suffix(".csv")

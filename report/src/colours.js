@@ -1,7 +1,29 @@
 // Colours of curves and of values, in light and dark.
 
-const LIGHT = ["#1f6fb4", "#d1622b", "#2a8a57", "#8a4fb0", "#b8860b", "#c23b6e", "#4f7f8f", "#6b6b6b"];
-const DARK = ["#6db3f2", "#f2955c", "#63c98f", "#c295e6", "#e3b74a", "#f27ba5", "#8fc1d1", "#b5b5b5"];
+const LIGHT = [
+    "#1f6fb4",
+    "#d1622b",
+    "#2a8a57",
+    "#8a4fb0",
+    "#b8860b",
+    "#c23b6e",
+    "#4f7f8f",
+    "#6b6b6b",
+    "#7a8b1e",
+    "#7b4a2d",
+];
+const DARK = [
+    "#6db3f2",
+    "#f2955c",
+    "#63c98f",
+    "#c295e6",
+    "#e3b74a",
+    "#f27ba5",
+    "#8fc1d1",
+    "#b5b5b5",
+    "#c3d35a",
+    "#c99a77",
+];
 
 export const dark = window.matchMedia("(prefers-color-scheme: dark)");
 

@@ -145,7 +145,13 @@ function card(title, plots, results, number) {
         const plot = shown[position];
         const { label } = readAs(plot.unit);
         const traces = await tracesOf(plot, plot.curves, results, number);
-        await draw(place, traces, layout("time, ms", withUnit(plot.title.split(": ").at(-1), label)));
+        await draw(
+            place,
+            traces,
+            layout("time, ms", withUnit(plot.title.split(": ").at(-1), label), {
+                xaxis: { unifiedhovertitle: { text: "t = %{x:.7~g} ms" } },
+            }),
+        );
         names.replaceChildren(...(traces.length > 1 ? [legend(place, traces)] : []));
     };
     const list = choice(

@@ -15,6 +15,7 @@ export function layout(x, y, more = {}) {
         zerolinecolor: named("--faint"),
         automargin: true,
         exponentformat: "power",
+        hoverformat: ".6~g",
     });
     return {
         autosize: true,

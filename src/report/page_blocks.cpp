@@ -1,6 +1,8 @@
 #include "report/page_blocks.hpp"
 
+#ifdef RAILWAVE_ZLIB
 #include <zlib.h>
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +13,12 @@
 
 #include <fmt/format.h>
 
+#include "case/error.hpp"
+
 namespace railwave::page {
 namespace {
 
 constexpr std::uint16_t not_known = 65535;
-constexpr int compression = 9;
 
 /// Byte 0 of all numbers, then byte 1, and so on.
 template <class Number>
@@ -35,7 +38,9 @@ std::vector<Whole> differences(std::vector<Whole> numbers) {
   return numbers;
 }
 
+#ifdef RAILWAVE_ZLIB
 std::string deflated(const std::vector<unsigned char>& bytes) {
+  constexpr int compression = 9;
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string packed(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, bytes.data(), static_cast<uLong>(bytes.size()),
@@ -44,6 +49,11 @@ std::string deflated(const std::vector<unsigned char>& bytes) {
   packed.resize(size);
   return packed;
 }
+#else
+std::string deflated(const std::vector<unsigned char>&) {
+  throw InputError("this program was built without zlib, which reports need: install zlib1g-dev, configure and build");
+}
+#endif
 
 std::string base64(const std::string& bytes) {
   static constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

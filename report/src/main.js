@@ -54,18 +54,36 @@ function picker() {
     );
 }
 
+/** Says so at the top of the page where something cannot be drawn. */
+function fail(error) {
+    document.body.dataset.failed = "1";
+    const old =
+        typeof DecompressionStream === "undefined" ? " This browser is too old: it needs one of 2023 or later." : "";
+    document
+        .querySelector("main")
+        .prepend(
+            element("p", {
+                class: "verdict poor",
+                textContent: `This page could not be drawn: ${error.message}.${old}`,
+            }),
+        );
+    console.error(error);
+}
+
 let filling = Promise.resolve();
 function fill() {
-    filling = filling.then(async () => {
-        const results = shown();
-        const figures = await summary(place("summary"), results);
-        await histories(place("histories"), results, number);
-        await patches(place("patches"), results);
-        await model(place("model"), results);
-        await tables(place("tables"), results, figures);
-        document.body.dataset.ready = "1";
-    });
+    filling = filling.then(draw).catch(fail);
     return filling;
+}
+
+async function draw() {
+    const results = shown();
+    const figures = await summary(place("summary"), results);
+    await histories(place("histories"), results, number);
+    await patches(place("patches"), results);
+    await model(place("model"), results);
+    await tables(place("tables"), results, figures);
+    document.body.dataset.ready = "1";
 }
 
 heading();

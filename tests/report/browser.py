@@ -46,6 +46,13 @@ class Page:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)
+        try:
+            self._open(path, width, height, dark)
+        except BaseException:
+            self.driver.quit()
+            raise
+
+    def _open(self, path, width, height, dark):
         self.driver.set_script_timeout(PATIENCE)
         self._command("Network.enable")
         self._command(
@@ -54,7 +61,9 @@ class Page:
         )
         self.set_dark(dark)
         self.driver.get(pathlib.Path(path).resolve().as_uri())
-        self.wait_for("document.body.dataset.ready")
+        self.wait_for("document.body.dataset.ready || document.body.dataset.failed")
+        if self.ask("document.body.dataset.failed"):
+            raise AssertionError(f"the page could not be drawn: {self.console()}")
 
     def __enter__(self):
         return self

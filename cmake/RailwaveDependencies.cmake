@@ -1,5 +1,6 @@
-# Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5,
-# railwave::ranks (MPI and METIS, empty where they are not there), railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
+# Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5, railwave::zlib
+# (empty where it is not there), railwave::ranks (MPI and METIS, likewise), railwave::toml, railwave::cli, railwave::fmt,
+# railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
 
 # What scripts/setup has put there.
 list(APPEND CMAKE_PREFIX_PATH "${CMAKE_SOURCE_DIR}/.deps/kokkos" "${CMAKE_SOURCE_DIR}/.deps/catch2/usr")
@@ -23,6 +24,17 @@ add_library(railwave_hdf5 INTERFACE)
 target_include_directories(railwave_hdf5 SYSTEM INTERFACE ${HDF5_C_INCLUDE_DIRS})
 target_link_libraries(railwave_hdf5 INTERFACE ${HDF5_C_LIBRARIES})
 add_library(railwave::hdf5 ALIAS railwave_hdf5)
+
+# Reports compress their data by it. Where HDF5's headers are it usually is too.
+find_package(ZLIB QUIET)
+add_library(railwave_zlib INTERFACE)
+if(ZLIB_FOUND)
+  target_link_libraries(railwave_zlib INTERFACE ZLIB::ZLIB)
+  target_compile_definitions(railwave_zlib INTERFACE RAILWAVE_ZLIB)
+else()
+  message(STATUS "zlib was not found: 'railwave report' is left out. Debian has it as zlib1g-dev.")
+endif()
+add_library(railwave::zlib ALIAS railwave_zlib)
 
 # Runs over several processes, where both are there.
 add_library(railwave_ranks INTERFACE)

@@ -44,6 +44,7 @@ struct Arguments {
   SignalRequest signal;
   ResponseRequest response;
   DecayRequest decay;
+  ReportRequest report;
   ModesRequest modes;
   sweep::SweepRequest sweep;
   std::optional<std::string> mesh_file;  ///< none: mesh.h5 in the case's own folder
@@ -293,6 +294,11 @@ int dispatch(int argc, char** argv) {
   add_decay_command(app, arguments.decay, [&] {
     code = in_reading_child("railwave decay", arguments.decay.results,
                             [&] { return decay_command(arguments.decay, std::cout); });
+  });
+  add_report_command(app, arguments.report, [&] {
+    code = in_reading_child("railwave report", arguments.report.results, [&] {
+      return report_command(arguments.report, std::string("railwave ") + RAILWAVE_VERSION, std::cout);
+    });
   });
   add_sweep_command(app, arguments.sweep, [&] {
     stop_on_signals();

@@ -139,11 +139,13 @@ def run(program, folder, name, text, *options):
 CONTACT_COMMANDS = {
     "contact": "contact FILE --csv OUT/t.csv --nodes OUT/n.csv --cuts OUT/c.csv",
     "contact --hdf5": "contact FILE --hdf5 OUT/c.h5 --axle upper.z_max",
+    "report": "report FILE --out OUT/r.html",
     "signal psd": "signal psd FILE --channel contact.between.normal_force.size --csv OUT/p.csv",
     "signal bandpass": "signal bandpass FILE --channel energy.kinetic --low 1e4 --csv OUT/p.csv --hdf5 OUT/p.h5",
 }
 HAMMER_COMMANDS = {
     "frf": "frf FILE --csv OUT/f.csv --hdf5 OUT/f.h5",
+    "report": "report FILE --out OUT/r.html",
     "decay": "decay FILE --from 1000 --to 20000 --csv OUT/d.csv",
     "signal psd": "signal psd FILE --channel bar.row_*.velocity.z --csv OUT/p.csv",
     "signal wavelet": "signal wavelet FILE --channel bar.row_2.velocity.z --csv OUT/w.csv",

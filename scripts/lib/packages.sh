@@ -3,12 +3,12 @@
 
 packages_to_build=(
     cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libspectra-dev
-    libtomlplusplus-dev ninja-build pkg-config
+    libtomlplusplus-dev ninja-build pkg-config zlib1g-dev
 )
 packages_to_draw=(python3 python3-h5py python3-matplotlib)
 # clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built
-# without.
-packages_to_test=(clang-format python3-paraview)
+# without; Chromium, in which reports are opened.
+packages_to_test=(chromium chromium-driver clang-format python3-paraview python3-selenium)
 # Runs over several processes: MPI; METIS, which deals elements out to them; ssh, without which mpirun starts nothing,
 # not even on one machine.
 packages_for_ranks=(libmetis-dev libopenmpi-dev openmpi-bin openssh-client)

@@ -9,6 +9,7 @@
 #include "post/decay_command.hpp"
 #include "post/response_command.hpp"
 #include "post/signal_command.hpp"
+#include "report/report_command.hpp"
 #include "sweep/sweep_command.hpp"
 
 namespace railwave {
@@ -21,6 +22,9 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
 
 /// Adds `railwave signal KIND RESULTS ...`, which fills the request and calls `run`.
 void add_signal_command(CLI::App& app, SignalRequest& request, const std::function<void()>& run);
+
+/// Adds `railwave report RESULTS...`, which fills the request and calls `run`.
+void add_report_command(CLI::App& app, ReportRequest& request, const std::function<void()>& run);
 
 /// Adds `railwave sweep STUDY`, which fills the request and calls `run`.
 void add_sweep_command(CLI::App& app, sweep::SweepRequest& request, const std::function<void()>& run);

@@ -10,6 +10,7 @@
 #include "output/checkpoint_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/run_places.hpp"
+#include "report/page.hpp"
 
 namespace railwave {
 namespace {
@@ -38,6 +39,7 @@ void report_next_steps(const scene::Scene& scene, bool completed, std::ostream& 
   if (!completed && std::filesystem::exists(checkpoint_path(scene), failed))
     next("railwave run " + typed(scene.path) + " --restart",
          "go on from the last checkpoint; with the same --set as before");
+  if (page::has_page_template()) next("railwave report " + name, "all of it as one page for a browser");
   next("scripts/picture " + name, scene.contacts.empty()
                                       ? "pictures of energies, beside the results"
                                       : "pictures of contact patches, forces, energies, beside the results");

@@ -47,6 +47,8 @@ const std::vector<NumberOption>& number_options() {
       {"frf", "--to", "Hz", between(tiny, any), "5000"},
       {"decay", "--from", "Hz", between(tiny, any), "100"},
       {"decay", "--to", "Hz", between(tiny, any), "5000"},
+      {"report", "--instants", "", between(2, 10000), "60", true},
+      {"report", "--size", "MB", between(1, 1000), "14"},
       {"", "--window-end", "", {tiny, 1, false, true}, "0.05"},
       {"", "--resolution", "Hz", between(tiny, any), "1"},
       {"frf", "--prominence", "dB", between(tiny, 1000), "3"},

@@ -19,6 +19,8 @@ struct ContactRequest {
   std::vector<std::string> together;  ///< names of contacts, with commas, that are one contact solution; may be several
   double from = -std::numeric_limits<double>::infinity();  ///< s: output times before are left out
   double to = std::numeric_limits<double>::infinity();
+  /// At so many of the output times taken, evenly chosen with the first and the last, nodes, facets and cuts are found.
+  std::size_t most_detailed = std::numeric_limits<std::size_t>::max();
   double interval = 0;  ///< s: an output time nearer than that to the one before that was taken is left out
   std::array<double, 3> rolling_direction{1, 0, 0};
   std::array<double, 2> ring{CreepageRing{}.inner, CreepageRing{}.outer};  ///< see CreepageRing

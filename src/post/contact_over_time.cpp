@@ -45,29 +45,50 @@ class StatesTogether {
   std::vector<double> times_;
 };
 
+/// Which of the output times a request asks for.
+std::vector<std::size_t> wanted_outputs(const std::vector<double>& times, const ContactRequest& request) {
+  std::vector<std::size_t> outputs;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < request.from || times[i] > request.to) continue;
+    if (!outputs.empty() && times[i] < times[outputs.back()] + (1 - interval_rounding) * request.interval) continue;
+    outputs.push_back(i);
+  }
+  return outputs;
+}
+
 }  // namespace
+
+std::vector<std::size_t> evenly_chosen(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> chosen;
+  const std::size_t taken = std::min(count, most);
+  for (std::size_t n = 0; n < taken; ++n)
+    chosen.push_back(taken == 1 ? count - 1 : (n * (count - 1) + (taken - 1) / 2) / (taken - 1));
+  return chosen;
+}
 
 ContactTables contact_tables(const ResultsReader& results, const std::string& name,
                              const std::vector<std::string>& contacts, const ContactRequest& request) {
   ContactTables tables;
-  tables.with_nodes = request.nodes.has_value();
-  tables.with_facets = request.hdf5.has_value();
-  tables.with_cuts = request.cuts || request.hdf5;
   PatchOptions options;
   options.rolling = Vector(request.rolling_direction.data());
   options.ring = {request.ring[0], request.ring[1]};
 
   PatchWays ways(options.rolling);
-  std::vector<double> chosen;
   const StatesTogether reader(results, contacts);
   const std::vector<double>& times = reader.times();
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    if (times[i] < request.from || times[i] > request.to) continue;
-    if (!chosen.empty() && times[i] < chosen.back() + (1 - interval_rounding) * request.interval) continue;
-    const ContactState state = reader.state(i);
+  const std::vector<std::size_t> outputs = wanted_outputs(times, request);
+  const std::vector<std::size_t> detailed = evenly_chosen(outputs.size(), request.most_detailed);
+  std::vector<double> chosen;
+  for (std::size_t n = 0; n < outputs.size(); ++n) {
+    const double time = times[outputs[n]];
+    const bool in_detail = std::binary_search(detailed.begin(), detailed.end(), n);
+    tables.with_nodes = in_detail && request.nodes.has_value();
+    tables.with_facets = in_detail && request.hdf5.has_value();
+    tables.with_cuts = in_detail && (request.cuts || request.hdf5);
+    const ContactState state = reader.state(outputs[n]);
     const ContactSolution solution = contact_solution(state, options);
-    tables.add(times[i], state, solution, ways.add(times[i], solution));
-    chosen.push_back(times[i]);
+    tables.add(time, state, solution, ways.add(time, solution));
+    chosen.push_back(time);
   }
   if (chosen.empty() && !times.empty())
     throw InputError(fmt::format("contact {} has no output time from {} s to {} s: they go from {} s to {} s", name,

@@ -46,6 +46,10 @@ class ContactTables {
   int instant_count_ = 0;
 };
 
+/// Positions of at most `most` of `count` entries, ascending and evenly spread, the first and the last among them; of
+/// one alone the last.
+std::vector<std::size_t> evenly_chosen(std::size_t count, std::size_t most);
+
 class ResultsReader;
 struct ContactRequest;
 

@@ -189,6 +189,66 @@ HistorySeries read(const ResultsReader& results, const HistoryRequest& request) 
   return series;
 }
 
+/// The channels of one dataset: a vector's along the axes, a tensor's components.
+std::vector<ChannelPlace> places_of(const std::string& group, const std::string& owner, const std::string& quantity,
+                                    const hdf5::Shape& shape) {
+  const hsize_t components = shape.size() < 2 ? 1 : shape.back();
+  std::vector<std::string> names{""};
+  if (components == 3) names = {"x", "y", "z"};
+  if (components == 6) names = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  if (quantity == "stress") names.emplace_back("mises");
+  std::vector<ChannelPlace> places;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    ChannelPlace place;
+    place.group = group, place.owner = owner, place.quantity = quantity;
+    place.vector = components == 3;
+    place.tensor = components == 6;
+    place.component = static_cast<int>(i);
+    if (place.vector) place.direction = Eigen::Vector3d::Unit(static_cast<int>(i));
+    place.direction_text = names[i];
+    places.push_back(place);
+  }
+  return places;
+}
+
+HistoryTable read_table(const ResultsReader& results) {
+  const hdf5::Group history = results.history();
+  HistoryTable table;
+  table.times = history.dataset("time").read<double>();
+  const auto add = [&](const std::string& group, const std::string& owner, const hdf5::Group& there,
+                       const std::string& quantity) {
+    for (const ChannelPlace& place : places_of(group, owner, quantity, there.dataset(quantity).shape())) {
+      table.channels.push_back({read_mean(history, {place}), group, owner, quantity, place.direction_text});
+      table.times.resize(std::min(table.times.size(), table.channels.back().channel.values.size()));
+    }
+  };
+  const ChannelNames names = names_in(history);
+  table.beams = names.beams;
+  for (const std::string& energy : names.energies) add("energy", "", history.group("energy"), energy);
+  for (const char* group : {"contact", "load", "set"})
+    for (const std::string& owner : history.has(group) ? history.group(group).names() : std::vector<std::string>{}) {
+      const hdf5::Group there = history.group(group).group(owner);
+      for (const std::string& name : there.names())
+        if (group == std::string("set") ? find_field(name) != nullptr : name != "direction")
+          add(group, owner, there, name);
+    }
+  for (SampledChannel& one : table.channels) one.channel.values.resize(table.times.size());
+  return table;
+}
+
+template <class Read>
+auto report_damage(const ResultsReader& results, const Read& read_it) {
+  try {
+    return read_it();
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("results file {} is damaged: histories: {}", results.path(), error.what()));
+  }
+}
+
 }  // namespace
 
 std::vector<double> resampled(const std::vector<double>& times, const std::vector<double>& values, double start,
@@ -212,15 +272,11 @@ std::vector<double> resampled(const std::vector<double>& times, const std::vecto
 }
 
 HistorySeries read_history(const ResultsReader& results, const HistoryRequest& request) {
-  try {
-    return read(results, request);
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw InputError(fmt::format("results file {} is damaged: histories: {}", results.path(), error.what()));
-  }
+  return report_damage(results, [&] { return read(results, request); });
+}
+
+HistoryTable read_history_table(const ResultsReader& results) {
+  return report_damage(results, [&] { return read_table(results); });
 }
 
 std::string history_summary(const ResultsReader& results) { return names_in(results.history()).summary(); }

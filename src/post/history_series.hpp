@@ -51,6 +51,24 @@ struct HistoryRequest {
 /// for, values that are not finite, times that do not ascend or have gaps of more than twice the usual distance.
 HistorySeries read_history(const ResultsReader& results, const HistoryRequest& request);
 
+/// A channel as it was sampled, and what it is of.
+struct SampledChannel {
+  HistoryChannel channel;
+  std::string group, owner, quantity, component;  ///< see ChannelPlace; component: "x", "mises" or empty
+};
+
+/// All that a run sampled, but beams' forces: the run's own times, s, and at each of them the values, which may be not
+/// finite where the run went wrong.
+struct HistoryTable {
+  std::vector<double> times;
+  std::vector<SampledChannel> channels;
+  std::vector<std::string> beams;  ///< whose forces and moments are left out
+};
+
+/// Reads every channel as it is in the file: vectors along x, y and z, stresses with von Mises' equivalent. Throws
+/// InputError where the file is damaged.
+HistoryTable read_history_table(const ResultsReader& results);
+
 /// What read_history() knows in this file, for people: see ChannelNames::summary().
 std::string history_summary(const ResultsReader& results);
 

@@ -49,6 +49,8 @@ class ResultsReader {
   /// InputError if there is no such set.
   std::vector<Eigen::Vector3d> set_velocity(const std::string& set, const std::vector<double>& times) const;
 
+  hdf5::Group root() const { return file_.root(); }
+
   /// Group /history. Throws InputError if there is none.
   hdf5::Group history() const;
 

@@ -28,6 +28,7 @@ class Table {
   std::size_t row_count() const { return columns_.empty() ? 0 : values_.front().size(); }
   double& at(std::size_t row, const std::string& column) { return values_[place(column)][row]; }
   double at(std::size_t row, const std::string& column) const { return values_[place(column)][row]; }
+  const std::vector<double>& values(const std::string& column) const { return values_[place(column)]; }
 
   /// The names of the columns, after one called "contact"; and the rows, after that contact's name. Columns whose unit
   /// is "row" link one table to another and are left out.

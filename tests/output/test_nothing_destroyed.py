@@ -98,6 +98,8 @@ COMMANDS = {
     "signal --csv": ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--csv", "{}"],
     "signal --hdf5": ["signal", "psd", "own.h5", "--channel", "energy.kinetic", "--hdf5", "{}"],
 }
+if (pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"]) / "build" / "report" / "report.html").is_file():
+    COMMANDS["report --out"] = ["report", "own.h5", "--out", "{}"]
 INPUTS = {
     "run": ("case.toml", "cube.inp", "elements.inp", "push.csv"),
     "mesh": ("case.toml", "cube.inp", "elements.inp", "push.csv"),

@@ -53,7 +53,11 @@ class ResultsFolder(Folder):
         """Every command that the end of a run names, typed as it stands."""
         _, said = self.run_it("run", "case.toml")
         commands = re.findall(r"^  (\S.*?)  # ", said[said.index("\nnext:\n"):], re.MULTILINE)
-        self.assertEqual([shlex.split(command)[0] for command in commands], ["scripts/picture", "railwave", "paraview"])
+        can_report = (SOURCE / "build/report/report.html").exists()
+        first = ["railwave"] if can_report else []
+        self.assertEqual(
+            [shlex.split(command)[0] for command in commands], [*first, "scripts/picture", "railwave", "paraview"]
+        )
         for command in commands:
             words = shlex.split(command)
             self.assertTrue((self.folder / words[-1]).exists(), command)

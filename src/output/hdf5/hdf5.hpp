@@ -131,6 +131,7 @@ class Group {
   bool has_attribute(const std::string& name) const;
   double number_attribute(const std::string& name) const;
   std::string text_attribute(const std::string& name) const;
+  std::vector<std::string> texts_attribute(const std::string& name) const;  ///< what was set as a list of texts
 
  private:
   Handle new_attribute(const std::string& name, hid_t type, hid_t space) const;

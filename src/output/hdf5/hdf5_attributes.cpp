@@ -8,6 +8,7 @@ namespace railwave::hdf5 {
 namespace {
 
 constexpr std::size_t copies_of_text = 4;  ///< that HDF5 makes of a text on its way
+constexpr hssize_t most_texts = 1 << 20;   ///< of a list: more is damage
 
 }  // namespace
 
@@ -92,6 +93,25 @@ std::string Group::text_attribute(const std::string& name) const {
   const std::string value = text ? text : "";
   H5free_memory(text);
   return value;
+}
+
+std::vector<std::string> Group::texts_attribute(const std::string& name) const {
+  expect_free_memory();
+  const LimitedCall limited;
+  const std::string what = "reading attribute " + name + " of " + name_;
+  const Handle attribute(check(H5Aopen(id_.get(), name.c_str(), H5P_DEFAULT), what), H5Aclose);
+  const Handle stored(check(H5Aget_type(attribute.get()), what), H5Tclose);
+  const Handle space(check(H5Aget_space(attribute.get()), what), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space.get());
+  if (H5Tis_variable_str(stored.get()) <= 0 || count < 0 || count > most_texts)
+    throw std::runtime_error(what + ": it is no list of texts");
+  const Handle type = text_type();
+  std::vector<char*> read(static_cast<std::size_t>(count), nullptr);
+  if (count > 0) check(H5Aread(attribute.get(), type.get(), read.data()), what);
+  std::vector<std::string> texts;
+  for (char* text : read) texts.emplace_back(text ? text : "");
+  for (char* text : read) H5free_memory(text);
+  return texts;
 }
 
 }  // namespace railwave::hdf5

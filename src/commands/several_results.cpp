@@ -1,3 +1,4 @@
+// Options of the commands that take several results files: frf, decay and report.
 #include "commands/command_line.hpp"
 
 namespace railwave {
@@ -49,6 +50,24 @@ void add_decay_command(CLI::App& app, DecayRequest& request, const std::function
   command->add_option("--hdf5", request.hdf5, "also write them as HDF5: a file of its own");
   command->add_flag("--overwrite", request.overwrite,
                     "replace files that are there even if railwave has not written them; never the results");
+  command->callback(run);
+}
+
+void add_report_command(CLI::App& app, ReportRequest& request, const std::function<void()>& run) {
+  CLI::App* command = app.add_subcommand(
+      "report", "one HTML file of results, for any browser: summary, histories, contact patches, bodies in 3D, tables");
+  command->add_option("results", request.results, "results files; several are shown side by side")->required();
+  command->add_option("--out", request.out,
+                      "HTML file to write; default: RESULTS with the ending .html, of several report.html beside the "
+                      "first");
+  command->add_option("--instants", request.instants,
+                      "contact patches and fields at no more than so many of the output times, evenly chosen; default "
+                      "60");
+  command->add_option("--size", request.size,
+                      "MB that the page is to have at most: fewer instants and samples where it would have more; "
+                      "default 14");
+  command->add_flag("--overwrite", request.overwrite,
+                    "replace a file that is there even if railwave has not written it; never the results");
   command->callback(run);
 }
 

@@ -12,6 +12,8 @@ packages_to_test=(chromium chromium-driver clang-format python3-paraview python3
 # Runs over several processes: MPI; METIS, which deals elements out to them; ssh, without which mpirun starts nothing,
 # not even on one machine.
 packages_for_ranks=(libmetis-dev libopenmpi-dev openmpi-bin openssh-client)
+# The Python module.
+packages_for_python=(pybind11-dev python3-dev python3-numpy)
 # What hands sweeps over to many machines, here with controller and node on one, for its tests.
 packages_for_schedulers=(munge slurm-wlm snakemake)
 # libFuzzer and what reads its coverage.

@@ -1,0 +1,104 @@
+#include "deck/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "case/error.hpp"
+
+namespace railwave::deck {
+namespace {
+
+constexpr std::size_t most_refusals = 20;
+
+const char* called(Fate fate) {
+  return fate == Fate::taken ? "taken" : fate == Fate::replaced ? "replaced" : "dropped";
+}
+
+std::string upper_case(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return text;
+}
+
+bool stands_for(const std::string& word, const std::string& key) {
+  if (!word.empty() && word.back() == '*') return key.compare(0, word.size() - 1, word, 0, word.size() - 1) == 0;
+  // A keyword stands for all that is in it.
+  return key == word || key.compare(0, word.size() + 1, word + ".") == 0;
+}
+
+}  // namespace
+
+Report::Report(const std::vector<std::string>& drop) {
+  for (const std::string& word : drop) {
+    std::string name = upper_case(word);
+    if (!name.empty() && name[0] == '*') name.erase(0, 1);
+    drop_.emplace_back(name, false);
+  }
+}
+
+void Report::add(Fate fate, const Source& source, const std::string& text) { entries_.push_back({fate, source, text}); }
+
+bool Report::drops(const std::string& key) {
+  bool any = false;
+  for (auto& [word, met] : drop_)
+    if (!word.empty() && stands_for(word, key)) any = met = true;
+  return any;
+}
+
+bool Report::refuse(const Source& source, const std::string& key, const std::string& text) {
+  if (drops(key)) {
+    add(Fate::dropped, source, "as --drop asks, though " + text);
+    return true;
+  }
+  refusals_.push_back({source, fmt::format("{}; mend the deck, or leave that out by --drop {}", text, key)});
+  return false;
+}
+
+void Report::refuse_always(const Source& source, const std::string& text) { refusals_.push_back({source, text}); }
+
+void Report::check(const std::vector<std::string>& files) const {
+  if (refusals_.empty()) return;
+  std::vector<std::string> lines;
+  for (const Refusal& refusal : refusals_) {
+    const auto line = fmt::format("{}:{}: *{}: {}", files[refusal.source.place.file], refusal.source.place.position,
+                                  refusal.source.keyword, refusal.text);
+    if (std::find(lines.begin(), lines.end(), line) != lines.end()) continue;
+    if (lines.size() == most_refusals) {
+      lines.push_back(fmt::format("and {} more; nothing was written", refusals_.size() - most_refusals));
+      break;
+    }
+    lines.push_back(line);
+  }
+  throw InputError(lines);
+}
+
+std::vector<std::string> Report::unused_drops() const {
+  std::vector<std::string> words;
+  for (const auto& [word, met] : drop_)
+    if (!met) words.push_back(word);
+  return words;
+}
+
+std::size_t Report::count(Fate fate) const {
+  return static_cast<std::size_t>(
+      std::count_if(entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.fate == fate; }));
+}
+
+std::string Report::text(const std::vector<std::string>& files) const {
+  std::vector<const Entry*> ordered;
+  for (const Entry& entry : entries_) ordered.push_back(&entry);
+  std::stable_sort(ordered.begin(), ordered.end(), [](const Entry* a, const Entry* b) {
+    return std::make_tuple(a->source.place.file, a->source.place.position) <
+           std::make_tuple(b->source.place.file, b->source.place.position);
+  });
+  std::string text;
+  for (const Entry* entry : ordered)
+    text += fmt::format("{}:{}: *{}: {}: {}\n", files[entry->source.place.file], entry->source.place.position,
+                        entry->source.keyword, called(entry->fate), entry->text);
+  return text;
+}
+
+}  // namespace railwave::deck

@@ -26,7 +26,8 @@ struct ImportFiles {
 };
 
 ImportFiles files_of(const ImportRequest& request) {
-  const fs::path text = request.out.empty() ? fs::path(request.deck).filename().replace_extension(".toml") : fs::path(request.out);
+  const fs::path text =
+      request.out.empty() ? fs::path(request.deck).filename().replace_extension(".toml") : fs::path(request.out);
   fs::path mesh = text, report = text;
   return {text.string(), mesh.replace_extension(".inp").string(), report.replace_extension(".import.txt").string()};
 }
@@ -42,7 +43,8 @@ bool holds(const std::string& path, const std::string& text) {
 
 void add_import_command(CLI::App& app, ImportRequest& request, const std::function<void()>& run) {
   CLI::App* command = app.add_subcommand("import", "make a mesh and a case of an LS-DYNA keyword deck");
-  command->add_option("deck", request.deck, "keyword deck (.k, .key, .dyn); docs/decks.md lists its keywords")->required();
+  command->add_option("deck", request.deck, "keyword deck (.k, .key, .dyn); docs/decks.md lists its keywords")
+      ->required();
   command->add_option("--out", request.out,
                       "case file to write; its mesh (.inp) and a report (.import.txt), line by line what was taken, "
                       "replaced and dropped, lie beside it; default: the deck's name with .toml, in this folder");
@@ -50,9 +52,10 @@ void add_import_command(CLI::App& app, ImportRequest& request, const std::functi
                       "the deck's units of length, mass and time, such as mm,t,s; default: SI, if its materials can be "
                       "in these");
   command
-      ->add_option("--drop", request.drop,
-                   "leave out a keyword that is refused, such as MAT_ADD_EROSION, or a part of one, such as CONTACT.BT; "
-                   "may be repeated")
+      ->add_option(
+          "--drop", request.drop,
+          "leave out a keyword that is refused, such as MAT_ADD_EROSION, or a part of one, such as CONTACT.BT; "
+          "may be repeated")
       ->allow_extra_args(false);
   command->add_flag("--overwrite", request.overwrite,
                     "replace files that are there even if railwave has not written them; never what the command reads");
@@ -83,8 +86,8 @@ void import_command(const ImportRequest& request, std::ostream& out) {
   for (const std::string& note : import.notes) out << "note: " << note << '\n';
   out << files.text << ": " << import.parts << (import.parts == 1 ? " part, " : " parts, ") << import.elements
       << " hexahedra in " << files.mesh << '\n'
-      << files.report << ": " << import.taken << " entries taken, " << import.replaced << " replaced, " << import.dropped
-      << " dropped\n"
+      << files.report << ": " << import.taken << " entries taken, " << import.replaced << " replaced, "
+      << import.dropped << " dropped\n"
       << "Look through that report, then: railwave check " << files.text << '\n';
 }
 

@@ -116,8 +116,9 @@ void Bodies::group(const Deck& deck, const std::map<Number, Settings>& settings,
       if (body.parts.size() == 1)
         report.add(Fate::taken, source, fmt::format("[parts.{}]", body.name));
       else
-        report.add(Fate::replaced, source,
-                   fmt::format("part {} is within [parts.{}], with which it shares nodes and material", number, body.name));
+        report.add(
+            Fate::replaced, source,
+            fmt::format("part {} is within [parts.{}], with which it shares nodes and material", number, body.name));
     }
   }
 }
@@ -162,10 +163,11 @@ void Bodies::refuse_corners(Report& report, const Deck& deck) {
       const Body &one = bodies_[of_node_[node]], &other = bodies_[body];
       report.refuse_always(
           {deck.mesh.place_of_element(static_cast<int>(e)), "ELEMENT_SOLID"},
-          fmt::format("node {} of this element joins parts {} and {} of different materials at an edge or corner alone, "
-                      "or where a third part meets them, which ties cannot; give them one material, or nodes of their "
-                      "own and a *CONTACT_TIED",
-                      deck.mesh.node_numbers()[node], one.parts.front(), other.parts.front()));
+          fmt::format(
+              "node {} of this element joins parts {} and {} of different materials at an edge or corner alone, "
+              "or where a third part meets them, which ties cannot; give them one material, or nodes of their "
+              "own and a *CONTACT_TIED",
+              deck.mesh.node_numbers()[node], one.parts.front(), other.parts.front()));
     }
   }
 }

@@ -13,11 +13,11 @@ namespace railwave::deck {
 /// What sets a part's elements apart from those of others, besides their places.
 struct Settings {
   Number material = 0;
-  bool stiffness = false;          ///< hourglass control by displacement
-  double hourglass = 0;            ///< its coefficient
+  bool stiffness = false;            ///< hourglass control by displacement
+  double hourglass = 0;              ///< its coefficient
   double quadratic = 0, linear = 0;  ///< bulk viscosity
-  double mass_damping = 0;         ///< 1/time
-  double stiffness_damping = 0;    ///< time
+  double mass_damping = 0;           ///< 1/time
+  double stiffness_damping = 0;      ///< time
 
   bool operator==(const Settings& other) const {
     return material == other.material && stiffness == other.stiffness && hourglass == other.hourglass &&

@@ -12,11 +12,14 @@
 namespace railwave::deck {
 
 std::string toml(double value) {
-  if (!std::isfinite(value)) throw InputError("a number of the deck is too large in SI units; see whether --units fits");
-  return fmt::format("{:.15g}", value);
+  if (!std::isfinite(value))
+    throw InputError("a number of the deck is too large in SI units; see whether --units fits");
+  return fmt::format("{:.15g}", value == 0 ? 0.0 : value);  // no -0
 }
 
-std::string toml(const Vec3& value) { return fmt::format("[{}, {}, {}]", toml(value[0]), toml(value[1]), toml(value[2])); }
+std::string toml(const Vec3& value) {
+  return fmt::format("[{}, {}, {}]", toml(value[0]), toml(value[1]), toml(value[2]));
+}
 
 std::string toml(const std::string& text) {
   std::string result = "\"";
@@ -169,9 +172,9 @@ std::map<int, std::vector<Face>> Conversion::by_body(const std::vector<Face>& fa
 const Curve& Conversion::curve(Number number, const Source& source) const {
   const auto found = deck.curves.find(number);
   if (found == deck.curves.end())
-    fail(source, number == 0 ? "it names no curve; give one by *DEFINE_CURVE"
-                             : fmt::format("there is no curve {} (of *DEFINE_CURVE); define it, or mend the number",
-                                           number));
+    fail(source, number == 0
+                     ? "it names no curve; give one by *DEFINE_CURVE"
+                     : fmt::format("there is no curve {} (of *DEFINE_CURVE); define it, or mend the number", number));
   return found->second;
 }
 
@@ -189,30 +192,24 @@ std::string Conversion::add_curve(const std::string& name, const std::vector<std
   return name;
 }
 
-std::string Conversion::use_curve(Number number, const Source& source, double shift) {
+std::string Conversion::use_curve(Number number, const Source& source) {
   const Curve& of_deck = curve(number, source);
-  auto pairs = of_deck.points;
-  std::string name = fmt::format("curve_{}", number);
-  if (shift != 0) {
-    // Nothing acts before it arrives.
-    name += fmt::format("_at_{}", curves.size());
-    for (auto& point : pairs) point[0] += shift;
-    pairs.insert(pairs.begin(), {std::nextafter(pairs.front()[0], -1e300), 0});
-  } else if (curves.count(name) == 0) {
-    report.add(Fate::taken, of_deck.source, fmt::format("[curves.{}]", name));
-    if (deck.control.end && pairs.back()[0] < *deck.control.end)
-      report.add(Fate::replaced, of_deck.source,
-                 fmt::format("the curve ends at {}, before the run: here its last value, {}, holds from then on",
-                             pairs.back()[0], pairs.back()[1]));
-  }
-  return add_curve(name, pairs);
+  const std::string name = fmt::format("curve_{}", number);
+  if (curves.count(name) != 0) return name;
+  report.add(Fate::taken, of_deck.source, fmt::format("[curves.{}]", name));
+  const auto& last = of_deck.points.back();
+  if (deck.control.end && last[0] < *deck.control.end)
+    report.add(Fate::replaced, of_deck.source,
+               fmt::format("the curve ends at {}, before the run: here its last value, {}, holds from then on", last[0],
+                           last[1]));
+  return add_curve(name, of_deck.points);
 }
 
 std::array<Vec3, 3> Conversion::axes(Number number, const Source& source) const {
   const auto found = deck.axes.find(number);
   if (found == deck.axes.end())
-    fail(source, fmt::format("there are no axes {} (of *DEFINE_COORDINATE_SYSTEM, _VECTOR or _NODES); define them",
-                             number));
+    fail(source,
+         fmt::format("there are no axes {} (of *DEFINE_COORDINATE_SYSTEM, _VECTOR or _NODES); define them", number));
   const Axes& given = found->second;
   if (!given.nodes) return given.axes;
   const auto at = [&](int i) { return bodies.mesh().nodes[node((*given.nodes)[i], given.source)]; };

@@ -62,6 +62,7 @@ struct Conversion {
   std::map<int, Point> points;                ///< by node's position
   std::map<std::string, std::string> curves;  ///< sections of curves that are used, by name
   std::vector<std::string> plastic;           ///< bodies whose material yields
+  std::map<Number, std::string> materials;    ///< names of those that are written
 
   /// @throws InputError "file:line: *KEYWORD: ..."
   [[noreturn]] void fail(const Source& source, const std::string& text) const;
@@ -89,14 +90,13 @@ struct Conversion {
 
   const Curve& curve(Number number, const Source& source) const;
   /// The name of a case's curve made of one of the deck's.
-  /// @param shift later, in the deck's unit of time
-  std::string use_curve(Number number, const Source& source, double shift = 0);
+  std::string use_curve(Number number, const Source& source);
   /// Another curve, of times in the deck's unit.
   std::string add_curve(const std::string& name, const std::vector<std::array<double, 2>>& points);
 
   std::array<Vec3, 3> axes(Number number, const Source& source) const;
-  double body_mass(int body) const;           ///< in the deck's unit
-  std::vector<double> node_masses() const;    ///< likewise, by node, of all bodies together
+  double body_mass(int body) const;         ///< in the deck's unit
+  std::vector<double> node_masses() const;  ///< likewise, by node, of all bodies together
 };
 
 void write_bodies(Conversion& conversion);

@@ -33,10 +33,10 @@ struct Section {
   enum class Kind { solid, beam, discrete, other };
   Source source;
   Kind kind = Kind::other;
-  Number formulation = 0;                      ///< ELFORM
-  bool circle = false;                         ///< of a beam; else a rectangle
-  double outer = 0, inner = 0;                 ///< its diameters, or sides along s and t
-  std::string refusal;                         ///< why it cannot be taken; empty: it can
+  Number formulation = 0;       ///< ELFORM
+  bool circle = false;          ///< of a beam; else a rectangle
+  double outer = 0, inner = 0;  ///< its diameters, or sides along s and t
+  std::string refusal;          ///< why it cannot be taken; empty: it can
 };
 
 struct Material {
@@ -46,8 +46,8 @@ struct Material {
   std::string title;
   double density = 0, youngs_modulus = 0, poissons_ratio = 0;
   double yield_stress = 0, tangent_modulus = 0, hardening_beta = 1;
-  double coefficient = 0;  ///< stiffness or damping of a spring or dashpot
-  std::string refusal, key;  ///< why it cannot be taken, and what --drop takes to leave that out
+  double coefficient = 0;                        ///< stiffness or damping of a spring or dashpot
+  std::string refusal, key;                      ///< why it cannot be taken, and what --drop takes to leave that out
   std::vector<std::array<std::string, 2>> more;  ///< further such pairs: reason, key
 };
 
@@ -157,7 +157,7 @@ struct Pressure {
   Source source;
   Number curve = 0, set = 0;
   std::vector<Segment> segments;
-  double scale = 1, arrival = 0;
+  double scale = 1;
 };
 
 struct BodyLoad {
@@ -224,9 +224,9 @@ struct Control {
 
 struct Deck {
   std::string title;
-  NumberedMesh mesh;                     ///< all nodes; hexahedra
-  std::vector<int> node_scopes;          ///< by position of the node, see DynaScope
-  std::vector<Number> element_parts;     ///< by position of the element
+  NumberedMesh mesh;                  ///< all nodes; hexahedra
+  std::vector<int> node_scopes;       ///< by position of the node, see DynaScope
+  std::vector<Number> element_parts;  ///< by position of the element
   std::map<Number, Part> parts;
   std::map<Number, Section> sections;
   std::map<Number, Material> materials;

@@ -29,16 +29,15 @@ const std::map<std::string, Handler>& handlers() {
 Handler handler_of(const std::string& name) {
   const auto found = handlers().find(name);
   if (found != handlers().end()) return found->second;
-  if (begins_with(name, "CONTACT_")) return read_contact;
+  if (begins_with(name, "CONTACT_") && !begins_with(name, "CONTACT_FORCE_TRANSDUCER")) return read_contact;
   if (begins_with(name, "MAT_") && !begins_with(name, "MAT_ADD_")) return read_other_material;
   return nullptr;
 }
 
-std::string unknown(const std::string& name, std::size_t lines) {
+std::string unknown(const std::string& name) {
   if (begins_with(name, "ELEMENT_"))
-    return fmt::format("elements of this kind ({} lines) aren't read, only hexahedra (ELEMENT_SOLID), beams, discrete "
-                       "elements and point masses; model the part with these",
-                       lines);
+    return "elements of this kind aren't read, only hexahedra (ELEMENT_SOLID), beams, discrete elements and point "
+           "masses; model the part with these";
   if (begins_with(name, "RIGIDWALL"))
     return "there are no rigid walls here; model the wall by hexahedra that a *BOUNDARY_SPC holds, and a contact";
   if (begins_with(name, "CONSTRAINED_NODAL_RIGID") || begins_with(name, "CONSTRAINED_EXTRA") ||
@@ -151,7 +150,7 @@ void DeckReader::take(const DynaKeyword& keyword) {
   if (handler != nullptr) return handler(call);
   std::string why;
   if (is_harmless(call.name, why)) return report.add(Fate::dropped, source, why);
-  report.refuse(source, keyword.name, unknown(keyword.name, keyword.lines.size()));
+  report.refuse(source, keyword.name, unknown(keyword.name));
 }
 
 void DeckReader::transform_nodes() {
@@ -184,9 +183,10 @@ void DeckReader::transform_nodes() {
 
 void DeckReader::refuse_degenerate() {
   for (const auto& [kind, first] : degenerate)
-    report.refuse_always(first.first, fmt::format("{} {}, of which this is the first: solids here are hexahedra of eight "
-                                                  "nodes; mesh the part with these",
-                                                  first.second, kind));
+    report.refuse_always(first.first,
+                         fmt::format("{}: {}, of which this is the first; solids here are hexahedra of eight "
+                                     "nodes: mesh the part with these",
+                                     kind, first.second));
 }
 
 void DeckReader::read() {

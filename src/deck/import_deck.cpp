@@ -13,8 +13,8 @@
 namespace railwave::deck {
 namespace {
 
-constexpr double usual_viscous = 0.1;      // QM of IHQ 1 to 5
-constexpr double usual_stiffness = 0.05;   // of Railwave, see docs/hourglass.md
+constexpr double usual_viscous = 0.1;                         // QM of IHQ 1 to 5
+constexpr double usual_stiffness = 0.05;                      // of Railwave, see docs/hourglass.md
 constexpr double usual_quadratic = 1.5, usual_linear = 0.06;  // Q1, Q2
 constexpr double usual_step_scale = 0.9;
 
@@ -43,10 +43,11 @@ void set_hourglass(const Deck& deck, const Part& part, Settings& settings, Repor
     settings.stiffness = true;
     settings.hourglass = usual_stiffness;
     report.add(Fate::replaced, section.source,
-               fmt::format("ELFORM {}: one-point hexahedra with hourglass control by stiffness, {}", section.formulation,
-                           usual_stiffness));
+               fmt::format("ELFORM {}: one-point hexahedra with hourglass control by stiffness, {}",
+                           section.formulation, usual_stiffness));
     return;
   }
+  report.add(Fate::taken, section.source, "one-point hexahedra, the elements here");
   if (type == 0) type = 2;
   settings.stiffness = type > 3;
   settings.hourglass = std::fabs(coefficient != 0 ? coefficient : usual_viscous);
@@ -57,9 +58,10 @@ void set_hourglass(const Deck& deck, const Part& part, Settings& settings, Repor
     report.add(type == 2 ? Fate::taken : Fate::replaced, source,
                fmt::format("hourglass = \"{}\", {} (IHQ {})", kind, settings.hourglass, type));
   else
-    report.add(Fate::replaced, source,
-               fmt::format("IHQ {}: hourglass = \"{}\", {}; its coefficient is not quite the same, see docs/hourglass.md",
-                           type, kind, settings.hourglass));
+    report.add(
+        Fate::replaced, source,
+        fmt::format("IHQ {}: hourglass = \"{}\", {}; its coefficient is not quite the same, see docs/hourglass.md",
+                    type, kind, settings.hourglass));
 }
 
 /// A constant factor of a damping, 1 without a curve.
@@ -115,14 +117,16 @@ std::map<Number, Settings> part_settings(const Deck& deck, Report& report) {
     const Source of_element{deck.mesh.place_of_element(static_cast<int>(e)), "ELEMENT_SOLID"};
     const auto part = deck.parts.find(number);
     if (part == deck.parts.end()) {
-      report.refuse_always(of_element, fmt::format("there is no part {}; define it by *PART, or mend the number", number));
+      report.refuse_always(of_element,
+                           fmt::format("there is no part {}; define it by *PART, or mend the number", number));
       continue;
     }
     const Source& source = part->second.source;
     const auto section = deck.sections.find(part->second.section);
     const auto material = deck.materials.find(part->second.material);
     if (section == deck.sections.end()) {
-      report.refuse_always(source, fmt::format("part {}: there is no section {} that is read", number, part->second.section));
+      report.refuse_always(source,
+                           fmt::format("part {}: there is no section {} that is read", number, part->second.section));
       continue;
     }
     if (material == deck.materials.end()) {
@@ -175,12 +179,13 @@ Import import_deck(const std::string& path, const ImportOptions& options) {
   report_unused(deck, settings, report);
   Bodies bodies(deck, settings, report);
   report.check(deck.mesh.files);
-  Conversion conversion{deck, report, *units, bodies, {deck, bodies}, {}, options.mesh_file, {}, {}, {}};
+  Conversion conversion{deck, report, *units, bodies, {deck, bodies}, {}, options.mesh_file, {}, {}, {}, {}};
   conversion.text.remark(fmt::format("Made by railwave import of {}, whose units are {}.",
                                      std::filesystem::path(path).filename().string(), units->name));
   conversion.text.key("title", toml(deck.title.empty() ? std::filesystem::path(path).stem().string() : deck.title));
-  for (const auto write : {write_bodies, write_points, write_joints, write_beams, write_connectors, write_constraints,
-                           write_motions, write_non_reflecting, write_velocities, write_loads, write_contacts, write_run})
+  for (const auto write :
+       {write_bodies, write_points, write_joints, write_beams, write_connectors, write_constraints, write_motions,
+        write_non_reflecting, write_velocities, write_loads, write_contacts, write_run})
     write(conversion);
   report.check(deck.mesh.files);
 

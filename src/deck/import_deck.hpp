@@ -6,16 +6,16 @@
 namespace railwave::deck {
 
 struct ImportOptions {
-  std::string units;              ///< "mm,t,s"; empty: as the deck's materials have it
-  std::vector<std::string> drop;  ///< see Report
+  std::string units;                   ///< "mm,t,s"; empty: as the deck's materials have it
+  std::vector<std::string> drop;       ///< see Report
   std::string mesh_file = "deck.inp";  ///< how the case is to name its mesh file
 };
 
 /// What an LS-DYNA deck became. Texts of files, all or none of which are to be written.
 struct Import {
-  std::string mesh;    ///< Abaqus input of the hexahedra and sets, in the deck's unit of length
-  std::string text;    ///< case file
-  std::string report;  ///< line by line, what was taken, replaced, dropped
+  std::string mesh;                ///< Abaqus input of the hexahedra and sets, in the deck's unit of length
+  std::string text;                ///< case file
+  std::string report;              ///< line by line, what was taken, replaced, dropped
   std::vector<std::string> files;  ///< that were read
   std::vector<std::string> notes;  ///< for people
   std::size_t nodes = 0, elements = 0, parts = 0, taken = 0, replaced = 0, dropped = 0;

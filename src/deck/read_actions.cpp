@@ -32,7 +32,8 @@ void read_spc(Call& call) {
 void refuse_times(Call& call, const Source& source, double birth, double death) {
   constexpr double never = 1e15;
   if (birth > 0 && birth < never)
-    call.reader.report.refuse(source, source.keyword + ".BIRTH", "a birth time isn't read: it would act from the start");
+    call.reader.report.refuse(source, source.keyword + ".BIRTH",
+                              "a birth time isn't read: it would act from the start");
   if (death > 0 && death < never)
     call.reader.report.refuse(source, source.keyword + ".DEATH", "a death time isn't read: it would act to the end");
 }
@@ -118,7 +119,8 @@ void read_generated_velocity(Call& call) {
     initial.number = call.number(card, 0, "ID", part ? Kind::part : Kind::set);
     using Of = InitialVelocity::Of;
     initial.of = initial.number == 0 ? Of::all : type == 1 ? Of::part_set : part ? Of::part : Of::node_set;
-    if (type < 1 || type > 3) call.reader.fail(card.place(), fmt::format("STYP is {}, must be 1, 2 or 3; mend it", type));
+    if (type < 1 || type > 3)
+      call.reader.fail(card.place(), fmt::format("STYP is {}, must be 1, 2 or 3; mend it", type));
     initial.turning = card.real(2, "OMEGA");
     initial.velocity = vector_of(card, 3);
     initial.centre = vector_of(second, 0);
@@ -126,7 +128,8 @@ void read_generated_velocity(Call& call) {
     if (second.real(3, "NX") == -999)
       call.reader.report.refuse(initial.source, call.name + ".NX", "an axis through two nodes (NX -999) isn't read");
     if (second.whole(6, "PHASE") != 0)
-      call.reader.report.refuse(initial.source, call.name + ".PHASE", "velocities after dynamic relaxation aren't read");
+      call.reader.report.refuse(initial.source, call.name + ".PHASE",
+                                "velocities after dynamic relaxation aren't read");
     if (card.whole(7, "ICID") != 0)
       call.reader.report.refuse(initial.source, call.name + ".ICID", "velocities in other axes (ICID) aren't read");
     call.reader.deck.velocities.push_back(initial);

@@ -24,7 +24,8 @@ void read_termination(Call& call) {
   Control& control = call.reader.deck.control;
   control.end = card.real(0, "ENDTIM");
   control.end_source = call.cards.source(card);
-  for (const auto& [field, name] : {std::pair<int, const char*>{1, "ENDCYC"}, {2, "DTMIN"}, {3, "ENDENG"}, {4, "ENDMAS"}})
+  for (const auto& [field, name] :
+       {std::pair<int, const char*>{1, "ENDCYC"}, {2, "DTMIN"}, {3, "ENDENG"}, {4, "ENDMAS"}})
     if (card.real(field, name) != 0 && std::fabs(card.real(field, name)) < 1e7)
       call.reader.report.add(Fate::dropped, control.end_source, fmt::format("{}: the run ends at ENDTIM", name));
 }
@@ -57,9 +58,10 @@ void read_implicit(Call& call) {
   const DynaCard card = call.cards.take();
   const Source source = call.cards.source(card);
   if (card.whole(0, "IMFLAG") != 0)
-    call.reader.report.refuse(source, call.name, "the deck is solved implicitly, and Railwave explicitly: take IMFLAG 0 "
-                                                 "and an end time of a few milliseconds; for static loads before a run "
-                                                 "add [settle] to the case");
+    call.reader.report.refuse(source, call.name,
+                              "the deck is solved implicitly, and Railwave explicitly: take IMFLAG 0 "
+                              "and an end time of a few milliseconds; for static loads before a run "
+                              "add [settle] to the case");
   else
     call.reader.report.add(Fate::dropped, source, "IMFLAG is 0: it has no effect");
 }
@@ -145,6 +147,7 @@ bool is_harmless(const std::string& name, std::string& why) {
   };
   static const Row rows[] = {
       {"COMMENT", "a remark"},
+      {"CONTACT_FORCE_TRANSDUCER", "it only measures: forces of each contact are in the results"},
       {"DATABASE_", "what is written is as [output] of the case has it"},
       {"CONTROL_ENERGY", "all energies are always accounted for"},
       {"CONTROL_OUTPUT", "it concerns LS-DYNA's own files"},

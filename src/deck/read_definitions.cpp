@@ -60,7 +60,8 @@ void read_coordinate_system(Call& call) {
   axes.source = call.cards.source(first);
   const Vec3 origin = at(first, 1), on_x = at(first, 4), in_plane = at(second, 0);
   if (first.whole(7, "CIDL") != 0)
-    call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_SYSTEM.CIDL", "systems within another (CIDL) aren't read");
+    call.reader.report.refuse(axes.source, "DEFINE_COORDINATE_SYSTEM.CIDL",
+                              "systems within another (CIDL) aren't read");
   if (!make_axes(difference(on_x, origin), difference(in_plane, origin), axes.axes))
     call.reader.fail(first.place(), "the three points lie on a line; give three that make a plane");
   keep_axes(call, call.number(first, 0, "CID", Kind::define), axes);

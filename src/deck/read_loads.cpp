@@ -42,7 +42,9 @@ void read_pressure(Call& call) {
     }
     pressure.curve = call.number(card, first, "LCID", Kind::curve);
     pressure.scale = card.real(first + 1, "SF", 1);
-    pressure.arrival = card.real(first + 2, "AT");
+    if (card.real(first + 2, "AT") != 0)
+      call.reader.report.refuse(pressure.source, call.name + ".AT",
+                                "an arrival time (AT) isn't read; begin the curve with zeros up to then");
     call.reader.deck.pressures.push_back(pressure);
   }
 }
@@ -63,10 +65,10 @@ void read_body_load(Call& call) {
 }  // namespace
 
 const std::vector<HandlerEntry>& load_handlers() {
-  static const std::vector<HandlerEntry> all = {
-      {"LOAD_NODE_POINT", read_nodal},     {"LOAD_NODE_SET", read_nodal},    {"LOAD_NODE", read_nodal},
-      {"LOAD_SEGMENT", read_pressure},     {"LOAD_SEGMENT_SET", read_pressure}, {"LOAD_BODY_X", read_body_load},
-      {"LOAD_BODY_Y", read_body_load},     {"LOAD_BODY_Z", read_body_load}};
+  static const std::vector<HandlerEntry> all = {{"LOAD_NODE_POINT", read_nodal},     {"LOAD_NODE_SET", read_nodal},
+                                                {"LOAD_NODE", read_nodal},           {"LOAD_SEGMENT", read_pressure},
+                                                {"LOAD_SEGMENT_SET", read_pressure}, {"LOAD_BODY_X", read_body_load},
+                                                {"LOAD_BODY_Y", read_body_load},     {"LOAD_BODY_Z", read_body_load}};
   return all;
 }
 
@@ -88,20 +90,19 @@ void read_contact(Call& call) {
   }
   if (mpp) call.cards.take();
   using Type = Contact::Kind;
-  static const std::map<std::string, Type> known = {
-      {"SURFACE_TO_SURFACE", Type::surfaces},
-      {"AUTOMATIC_SURFACE_TO_SURFACE", Type::surfaces},
-      {"ONE_WAY_SURFACE_TO_SURFACE", Type::surfaces},
-      {"AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE", Type::surfaces},
-      {"NODES_TO_SURFACE", Type::nodes},
-      {"AUTOMATIC_NODES_TO_SURFACE", Type::nodes},
-      {"TIED_SURFACE_TO_SURFACE", Type::tied},
-      {"TIED_NODES_TO_SURFACE", Type::tied},
-      {"TIED_SURFACE_TO_SURFACE_OFFSET", Type::tied},
-      {"TIED_NODES_TO_SURFACE_OFFSET", Type::tied},
-      {"AUTOMATIC_SINGLE_SURFACE", Type::single},
-      {"AUTOMATIC_GENERAL", Type::single},
-      {"SINGLE_SURFACE", Type::single}};
+  static const std::map<std::string, Type> known = {{"SURFACE_TO_SURFACE", Type::surfaces},
+                                                    {"AUTOMATIC_SURFACE_TO_SURFACE", Type::surfaces},
+                                                    {"ONE_WAY_SURFACE_TO_SURFACE", Type::surfaces},
+                                                    {"AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE", Type::surfaces},
+                                                    {"NODES_TO_SURFACE", Type::nodes},
+                                                    {"AUTOMATIC_NODES_TO_SURFACE", Type::nodes},
+                                                    {"TIED_SURFACE_TO_SURFACE", Type::tied},
+                                                    {"TIED_NODES_TO_SURFACE", Type::tied},
+                                                    {"TIED_SURFACE_TO_SURFACE_OFFSET", Type::tied},
+                                                    {"TIED_NODES_TO_SURFACE_OFFSET", Type::tied},
+                                                    {"AUTOMATIC_SINGLE_SURFACE", Type::single},
+                                                    {"AUTOMATIC_GENERAL", Type::single},
+                                                    {"SINGLE_SURFACE", Type::single}};
   const auto found = known.find(type);
   if (found == known.end()) {
     call.reader.report.refuse(contact.source, call.name,
@@ -114,8 +115,7 @@ void read_contact(Call& call) {
   contact.slave = {sides.whole(0, "SSID"), sides.whole(2, "SSTYP")};
   contact.master = {sides.whole(1, "MSID"), sides.whole(3, "MSTYP")};
   for (Side* side : {&contact.slave, &contact.master})
-    side->number =
-        call.reader.offset(side->number, side->type == 3 ? Kind::part : Kind::set, call.cards.keyword());
+    side->number = call.reader.offset(side->number, side->type == 3 ? Kind::part : Kind::set, call.cards.keyword());
   if (sides.whole(4, "SBOXID") != 0 || sides.whole(5, "MBOXID") != 0)
     call.reader.report.refuse(contact.source, "CONTACT.SBOXID", "contacts within a box aren't read; name segments");
   contact.friction = friction.real(0, "FS");
@@ -134,8 +134,9 @@ void read_contact(Call& call) {
     contact.penalty_scale = scales.real(0, "SFS", 1);
     for (const int field : {2, 3})
       if (scales.real(field, "SST or MST") != 0)
-        call.reader.report.refuse(contact.source, "CONTACT.SST", "a thickness of contact (SST, MST) isn't read: solids "
-                                                                 "touch where their faces do");
+        call.reader.report.refuse(contact.source, "CONTACT.SST",
+                                  "a thickness of contact (SST, MST) isn't read: solids "
+                                  "touch where their faces do");
   }
   call.reader.deck.contacts.push_back(contact);
 }

@@ -30,8 +30,8 @@ void read_nodes(Call& call) {
   Deck& deck = call.reader.deck;
   std::size_t count = 0;
   while (call.cards.more()) {
-    const DynaCard card = call.cards.take(
-        {dyna_number, dyna_coordinate, dyna_coordinate, dyna_coordinate, dyna_code, dyna_code});
+    const DynaCard card =
+        call.cards.take({dyna_number, dyna_coordinate, dyna_coordinate, dyna_coordinate, dyna_code, dyna_code});
     const Number number = positive(call, card, 0, "NID", Kind::node);
     deck.mesh.add_node(number, {card.real(1, "X"), card.real(2, "Y"), card.real(3, "Z")}, card.place());
     deck.node_scopes.push_back(call.cards.keyword().scope);
@@ -57,7 +57,10 @@ const char* kind_of(const std::array<Number, 8>& nodes) {
   const bool zero = sorted[0] == 0;
   const auto different = std::unique(sorted.begin(), sorted.end()) - sorted.begin() - (zero ? 1 : 0);
   if (different == 8) return nullptr;
-  return different == 4 ? "tetrahedra" : different == 5 ? "pyramids" : different == 6 ? "wedges" : "collapsed hexahedra";
+  return different == 4   ? "tetrahedra"
+         : different == 5 ? "pyramids"
+         : different == 6 ? "wedges"
+                          : "collapsed hexahedra";
 }
 
 constexpr DynaCard::Width solid_width = dyna_number;
@@ -66,18 +69,16 @@ void read_solids(Call& call) {
   DeckReader& reader = call.reader;
   std::size_t count = 0;
   while (call.cards.more()) {
-    const DynaCard card =
-        call.cards.take({solid_width, solid_width, solid_width, solid_width, solid_width, solid_width, solid_width,
-                         solid_width, solid_width, solid_width});
+    const DynaCard card = call.cards.take({solid_width, solid_width, solid_width, solid_width, solid_width, solid_width,
+                                           solid_width, solid_width, solid_width, solid_width});
     const Number number = positive(call, card, 0, "EID", Kind::element);
     const Number part = positive(call, card, 1, "PID", Kind::part);
     std::array<Number, 8> nodes{};
     bool tetrahedron = false;
     if (card.count() <= 2) {
       // Two cards an element: numbers, then up to ten nodes.
-      const DynaCard second =
-          call.cards.take({solid_width, solid_width, solid_width, solid_width, solid_width, solid_width, solid_width,
-                           solid_width, solid_width, solid_width});
+      const DynaCard second = call.cards.take({solid_width, solid_width, solid_width, solid_width, solid_width,
+                                               solid_width, solid_width, solid_width, solid_width, solid_width});
       for (int i = 0; i < 8; ++i) nodes[i] = call.number(second, i, "node", Kind::node);
       tetrahedron = second.whole(8, "N9") != 0 || second.whole(9, "N10") != 0;
     } else {

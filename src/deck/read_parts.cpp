@@ -76,8 +76,8 @@ void read_beam_section(Call& call) {
       section.circle = shape == 1;
       section.outer = second.real(0, "TS1");
       section.inner = second.real(2, "TT1");
-      const bool tapered =
-          second.real(1, "TS2", section.outer) != section.outer || second.real(3, "TT2", section.inner) != section.inner;
+      const bool tapered = second.real(1, "TS2", section.outer) != section.outer ||
+                           second.real(3, "TT2", section.inner) != section.inner;
       if (shape > 1) section.refusal = "CST is neither 0 (rectangle) nor 1 (tube)";
       if (section.circle && section.inner != 0) section.refusal = "a hollow tube isn't read, only full circles";
       if (tapered) section.refusal = "the section differs at both ends";
@@ -88,7 +88,8 @@ void read_beam_section(Call& call) {
       section.circle = true;
       section.outer = std::sqrt(4 * std::fmax(area, 0) / 3.14159265358979323846);
       if (!is_circle(area, second.real(1, "ISS"), second.real(2, "ITT"), second.real(3, "J")))
-        section.refusal = "its area and moments are not those of a full circle, the only ones that are read of ELFORM 2";
+        section.refusal =
+            "its area and moments are not those of a full circle, the only ones that are read of ELFORM 2";
     } else {
       section.refusal = fmt::format("ELFORM {} is no Hughes-Liu (1) or resultant (2) beam", section.formulation);
     }
@@ -109,8 +110,7 @@ void read_discrete_section(Call& call) {
         section.refusal = "KD, V0, CL and FD (stiffening with speed, clearance, failure) aren't read";
     if (call.cards.left()) {
       const DynaCard second = call.cards.take();
-      if (second.real(0, "CDL") != 0 || second.real(1, "TDL") != 0)
-        section.refusal = "deflection limits aren't read";
+      if (second.real(0, "CDL") != 0 || second.real(1, "TDL") != 0) section.refusal = "deflection limits aren't read";
     }
     define(call, call.reader.deck.sections, call.number(card, 0, "SECID", Kind::other), "section", section);
   }
@@ -168,8 +168,9 @@ void read_kinematic(Call& call) {
     if (call.cards.left()) {
       const DynaCard second = call.cards.take();
       if (second.real(0, "SRC") != 0)
-        add_refusal(material, "MAT_PLASTIC_KINEMATIC.SRC", "SRC makes the yield stress grow with the strain rate, which "
-                                                           "materials here don't");
+        add_refusal(material, "MAT_PLASTIC_KINEMATIC.SRC",
+                    "SRC makes the yield stress grow with the strain rate, which "
+                    "materials here don't");
       const double failure = second.real(2, "FS");
       if (failure > 0 && failure < 1e10)
         add_refusal(material, "MAT_PLASTIC_KINEMATIC.FS", "FS makes elements fail, which they don't here");
@@ -204,8 +205,9 @@ void read_piecewise(Call& call) {
       for (int k = 0; k < 8; ++k) curve = curve || points.real(k, "EPS or ES") != 0;
     }
     if (rate)
-      add_refusal(material, name + ".C", "C or LCSR makes the yield stress depend on the strain rate, which materials "
-                                         "here don't");
+      add_refusal(material, name + ".C",
+                  "C or LCSR makes the yield stress depend on the strain rate, which materials "
+                  "here don't");
     if (curve) {
       material.refusal =
           "its hardening is a curve; give SIGY and ETAN (and no curve), or *MAT_PLASTIC_KINEMATIC, which is taken";
@@ -257,30 +259,29 @@ void read_other_material(Call& call) {
 }
 
 const std::vector<HandlerEntry>& part_handlers() {
-  static const std::vector<HandlerEntry> all = {
-      {"PART", read_part},
-      {"SECTION_SOLID", read_solid_section},
-      {"SECTION_BEAM", read_beam_section},
-      {"SECTION_DISCRETE", read_discrete_section},
-      {"SECTION_SHELL", read_other_section},
-      {"SECTION_TSHELL", read_other_section},
-      {"SECTION_POINT_SOURCE", read_other_section},
-      {"SECTION_SPH", read_other_section},
-      {"SECTION_SEATBELT", read_other_section},
-      {"MAT_ELASTIC", read_elastic},
-      {"MAT_001", read_elastic},
-      {"MAT_1", read_elastic},
-      {"MAT_PLASTIC_KINEMATIC", read_kinematic},
-      {"MAT_003", read_kinematic},
-      {"MAT_3", read_kinematic},
-      {"MAT_PIECEWISE_LINEAR_PLASTICITY", read_piecewise},
-      {"MAT_024", read_piecewise},
-      {"MAT_24", read_piecewise},
-      {"MAT_SPRING_ELASTIC", read_connector_law<Material::Kind::spring>},
-      {"MAT_S01", read_connector_law<Material::Kind::spring>},
-      {"MAT_DAMPER_VISCOUS", read_connector_law<Material::Kind::damper>},
-      {"MAT_S02", read_connector_law<Material::Kind::damper>},
-      {"HOURGLASS", read_hourglass}};
+  static const std::vector<HandlerEntry> all = {{"PART", read_part},
+                                                {"SECTION_SOLID", read_solid_section},
+                                                {"SECTION_BEAM", read_beam_section},
+                                                {"SECTION_DISCRETE", read_discrete_section},
+                                                {"SECTION_SHELL", read_other_section},
+                                                {"SECTION_TSHELL", read_other_section},
+                                                {"SECTION_POINT_SOURCE", read_other_section},
+                                                {"SECTION_SPH", read_other_section},
+                                                {"SECTION_SEATBELT", read_other_section},
+                                                {"MAT_ELASTIC", read_elastic},
+                                                {"MAT_001", read_elastic},
+                                                {"MAT_1", read_elastic},
+                                                {"MAT_PLASTIC_KINEMATIC", read_kinematic},
+                                                {"MAT_003", read_kinematic},
+                                                {"MAT_3", read_kinematic},
+                                                {"MAT_PIECEWISE_LINEAR_PLASTICITY", read_piecewise},
+                                                {"MAT_024", read_piecewise},
+                                                {"MAT_24", read_piecewise},
+                                                {"MAT_SPRING_ELASTIC", read_connector_law<Material::Kind::spring>},
+                                                {"MAT_S01", read_connector_law<Material::Kind::spring>},
+                                                {"MAT_DAMPER_VISCOUS", read_connector_law<Material::Kind::damper>},
+                                                {"MAT_S02", read_connector_law<Material::Kind::damper>},
+                                                {"HOURGLASS", read_hourglass}};
   return all;
 }
 

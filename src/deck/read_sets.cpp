@@ -28,7 +28,8 @@ Set begin_set(Call& call, Number& number, const char* what) {
   const DynaCard card = call.cards.take();
   set.source = call.cards.source(card);
   number = call.number(card, 0, "SID", Kind::set);
-  if (number < 1) call.reader.fail(card.place(), fmt::format("the {} has the number {}; numbers begin with 1", what, number));
+  if (number < 1)
+    call.reader.fail(card.place(), fmt::format("the {} has the number {}; numbers begin with 1", what, number));
   return set;
 }
 
@@ -36,9 +37,8 @@ template <class Set>
 void keep_set(Call& call, std::map<Number, Set>& sets, Number number, const Set& set, const char* what) {
   const auto [entry, is_new] = sets.emplace(number, set);
   if (!is_new)
-    call.reader.fail(set.source.place,
-                     fmt::format("{} {} is defined again (first at {}); give each its own number", what, number,
-                                 call.reader.lines.where(entry->second.source.place)));
+    call.reader.fail(set.source.place, fmt::format("{} {} is defined again (first at {}); give each its own number",
+                                                   what, number, call.reader.lines.where(entry->second.source.place)));
 }
 
 void read_list(Call& call) {
@@ -75,11 +75,13 @@ void read_generated(Call& call) {
     const DynaCard card = call.cards.take();
     const int width = stepped ? 3 : 2;
     for (int i = 0; i + 1 < (stepped ? 3 : numbers_of_card); i += width) {
-      const Number first = call.number(card, i, "first", kind.members), last = call.number(card, i + 1, "last", kind.members);
+      const Number first = call.number(card, i, "first", kind.members),
+                   last = call.number(card, i + 1, "last", kind.members);
       if (first == 0 && last == 0) continue;
       const Number step = stepped ? card.whole(2, "INCR") : 1;
       if (first < 1 || last < first || step < 1)
-        call.reader.fail(card.place(), fmt::format("a range {} to {} by {}; write the lower number first", first, last, step));
+        call.reader.fail(card.place(),
+                         fmt::format("a range {} to {} by {}; write the lower number first", first, last, step));
       set.ranges.push_back({first, last, step});
     }
   }
@@ -96,8 +98,9 @@ void read_general_nodes(Call& call) {
     if (option == "all")
       set.all = true;
     else if (option != "node" && option != "part")
-      call.reader.report.refuse(call.cards.source(card), "SET_NODE_GENERAL",
-                                fmt::format("option {} isn't read, only ALL, NODE and PART", for_message(card.text(0))));
+      call.reader.report.refuse(
+          call.cards.source(card), "SET_NODE_GENERAL",
+          fmt::format("option {} isn't read, only ALL, NODE and PART", for_message(card.text(0))));
     for (int i = 1; i < numbers_of_card; ++i) {
       if (option == "node") {
         const Number node = call.number(card, i, "node", Kind::node);

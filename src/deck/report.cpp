@@ -39,7 +39,14 @@ Report::Report(const std::vector<std::string>& drop) {
   }
 }
 
-void Report::add(Fate fate, const Source& source, const std::string& text) { entries_.push_back({fate, source, text}); }
+void Report::add(Fate fate, const Source& source, const std::string& text) {
+  // Several parts of one section say the same of it.
+  for (auto entry = entries_.rbegin(); entry != entries_.rend() && entry - entries_.rbegin() < 50; ++entry)
+    if (entry->source.place.file == source.place.file && entry->source.place.position == source.place.position &&
+        entry->text == text)
+      return;
+  entries_.push_back({fate, source, text});
+}
 
 bool Report::drops(const std::string& key) {
   bool any = false;
@@ -61,16 +68,26 @@ void Report::refuse_always(const Source& source, const std::string& text) { refu
 
 void Report::check(const std::vector<std::string>& files) const {
   if (refusals_.empty()) return;
+  // One line for all of a kind, with the place of the first.
+  std::map<std::string, std::size_t> known;
   std::vector<std::string> lines;
+  std::vector<std::size_t> more;
   for (const Refusal& refusal : refusals_) {
-    const auto line = fmt::format("{}:{}: *{}: {}", files[refusal.source.place.file], refusal.source.place.position,
-                                  refusal.source.keyword, refusal.text);
-    if (std::find(lines.begin(), lines.end(), line) != lines.end()) continue;
-    if (lines.size() == most_refusals) {
-      lines.push_back(fmt::format("and {} more; nothing was written", refusals_.size() - most_refusals));
-      break;
+    const std::string text = fmt::format("*{}: {}", refusal.source.keyword, refusal.text);
+    const auto [entry, is_new] = known.emplace(text, lines.size());
+    if (!is_new) {
+      ++more[entry->second];
+      continue;
     }
-    lines.push_back(line);
+    lines.push_back(fmt::format("{}:{}: {}", files[refusal.source.place.file], refusal.source.place.position, text));
+    more.push_back(0);
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (more[i] > 0) lines[i] += fmt::format(" (and {} more like it)", more[i]);
+  if (lines.size() > most_refusals) {
+    const std::size_t rest = lines.size() - most_refusals;
+    lines.resize(most_refusals);
+    lines.push_back(fmt::format("and {} more; nothing was written", rest));
   }
   throw InputError(lines);
 }

@@ -24,8 +24,8 @@ constexpr Unit masses[] = {{"kg", 1},
                            {"mg", 1e-6},
                            {"t", 1e3},
                            {"lb", pound},
-                           {"slug", pound * standard_gravity / (12 * inch)},
-                           {"slinch", pound * standard_gravity / inch}};
+                           {"slug", pound* standard_gravity / (12 * inch)},
+                           {"slinch", pound* standard_gravity / inch}};
 constexpr Unit times[] = {{"s", 1}, {"ms", 1e-3}, {"us", 1e-6}};
 
 template <std::size_t count>
@@ -84,12 +84,12 @@ Units guessed_units(const Deck& deck, const std::string& path) {
   for (const auto& [number, material] : deck.materials) {
     const bool solid = material.kind == Material::Kind::elastic || material.kind == Material::Kind::plastic;
     if (!solid || fits(material, si)) continue;
-    throw InputError(fmt::format(
-        "{}:{}: *{}: material {} with a density of {} and a Young's modulus of {} is none in SI units; {}",
-        deck.mesh.files[material.source.place.file], material.source.place.position, material.source.keyword, number,
-        material.density, material.youngs_modulus,
-        fitting.empty() ? "give the deck's units by --units, such as mm,t,s"
-                        : "give the deck's units, which may be " + joined(fitting, " or ")));
+    throw InputError(
+        fmt::format("{}:{}: *{}: material {} with a density of {} and a Young's modulus of {} is none in SI units; {}",
+                    deck.mesh.files[material.source.place.file], material.source.place.position,
+                    material.source.keyword, number, material.density, material.youngs_modulus,
+                    fitting.empty() ? "give the deck's units by --units, such as mm,t,s"
+                                    : "give the deck's units, which may be " + joined(fitting, " or ")));
   }
   throw InputError(fmt::format("{}: give the deck's units by --units, such as mm,t,s", path));
 }

@@ -20,12 +20,12 @@ struct Units {
   double acceleration() const { return length / (time * time); }
 };
 
-/// Units from their names, "mm,t,s": length (m, mm, cm, um, in, ft), mass (kg, g, mg, t, lb, slug, slinch), time (s, ms,
-/// us). In any order. Throws InputError that lists them where one is unknown or missing.
+/// Units from their names, "mm,t,s": length (m, mm, cm, um, in, ft), mass (kg, g, mg, t, lb, slug, slinch), time (s,
+/// ms, us). In any order. Throws InputError that lists them where one is unknown or missing.
 Units units_of(const std::string& names);
 
-/// The units that a deck's materials are in, judged by densities and stiffness of solids: SI where these are possible in
-/// it. Throws InputError with the units that fit, where SI does not.
+/// The units that a deck's materials are in, judged by densities and stiffness of solids: SI where these are possible
+/// in it. Throws InputError with the units that fit, where SI does not.
 Units guessed_units(const Deck& deck, const std::string& path);
 
 }  // namespace railwave::deck

@@ -9,27 +9,24 @@
 namespace railwave::deck {
 namespace {
 
-void write_material(Conversion& conversion, Number number, const std::string& name, bool plastic_allowed) {
+/// The name of a material's section, which is written when it is first asked for.
+std::string write_material(Conversion& conversion, Number number) {
+  std::string& name = conversion.materials[number];
+  if (!name.empty()) return name;
   const Material& material = conversion.deck.materials.at(number);
+  name = conversion.bodies.new_name(material.title, fmt::format("material_{}", number));
   const Units& units = conversion.units;
   CaseText& text = conversion.text;
   text.section("materials." + name);
   text.key("youngs_modulus", material.youngs_modulus * units.pressure());
   text.key("poissons_ratio", material.poissons_ratio);
   text.key("density", material.density * units.density());
-  const bool plastic = material.kind == Material::Kind::plastic && plastic_allowed;
-  if (plastic) {
+  if (material.kind == Material::Kind::plastic) {
     text.key("yield_stress", material.yield_stress * units.pressure());
     text.key("tangent_modulus", material.tangent_modulus * units.pressure());
     text.key("hardening_beta", material.hardening_beta);
   }
   conversion.report.add(Fate::taken, material.source, fmt::format("[materials.{}]", name));
-}
-
-std::string material_name(Conversion& conversion, std::map<Number, std::string>& names, Number number) {
-  auto& name = names[number];
-  if (name.empty())
-    name = conversion.bodies.new_name(conversion.deck.materials.at(number).title, fmt::format("material_{}", number));
   return name;
 }
 
@@ -62,11 +59,8 @@ void hold_points(Conversion& conversion) {
 }  // namespace
 
 void write_bodies(Conversion& conversion) {
-  std::map<Number, std::string> names;
   for (const Body& body : conversion.bodies.all()) {
-    const bool is_new = names.count(body.settings.material) == 0;
-    const std::string name = material_name(conversion, names, body.settings.material);
-    if (is_new) write_material(conversion, body.settings.material, name, true);
+    write_material(conversion, body.settings.material);
     if (conversion.deck.materials.at(body.settings.material).kind == Material::Kind::plastic)
       conversion.plastic.push_back(body.name);
   }
@@ -76,7 +70,7 @@ void write_bodies(Conversion& conversion) {
   text.key("path", toml(conversion.mesh_file));
   text.key("scale", conversion.units.length);
   for (const Body& body : conversion.bodies.all())
-    write_part(conversion, body, material_name(conversion, names, body.settings.material));
+    write_part(conversion, body, write_material(conversion, body.settings.material));
 }
 
 void write_points(Conversion& conversion) {
@@ -115,9 +109,10 @@ void write_points(Conversion& conversion) {
     if (point.ground) continue;
     if (!(point.mass > 0) && !point.beam)
       conversion.report.refuse_always(
-          point.source, fmt::format("node {} has no mass: it belongs to no hexahedron or beam, and is not held; give it an "
-                                    "*ELEMENT_MASS, or hold it in all directions",
-                                    deck.mesh.node_numbers()[n]));
+          point.source,
+          fmt::format("node {} has no mass: it belongs to no hexahedron or beam, and is not held; give it an "
+                      "*ELEMENT_MASS, or hold it in all directions",
+                      deck.mesh.node_numbers()[n]));
     conversion.text.section("points." + point.name);
     conversion.text.key("mass", point.mass * conversion.units.mass);
     conversion.text.key("position", scaled(conversion.units.length, conversion.bodies.mesh().nodes[n]));
@@ -131,10 +126,11 @@ void write_joints(Conversion& conversion) {
     conversion.text.section("ties." + name);
     conversion.text.key("slave", toml(conversion.mesh.surface(joint.tied, joint.tied_faces, "joint_" + owner.name)));
     conversion.text.key("master", toml(conversion.mesh.surface(joint.owner, joint.owner_faces, "joint_" + tied.name)));
-    conversion.report.add(Fate::replaced, conversion.deck.parts.at(tied.parts.front()).source,
-                          fmt::format("the nodes that it shares with part {}, of another material, are two each, tied by "
-                                      "[ties.{}]",
-                                      owner.parts.front(), name));
+    conversion.report.add(
+        Fate::replaced, conversion.deck.parts.at(tied.parts.front()).source,
+        fmt::format("the nodes that it shares with part {}, of another material, are two each, tied by "
+                    "[ties.{}]",
+                    owner.parts.front(), name));
   }
 }
 
@@ -177,19 +173,17 @@ std::optional<Vec3> orientation_of(const Conversion& conversion, const Beam& bea
 }  // namespace
 
 void write_beams(Conversion& conversion) {
-  std::map<Number, std::string> materials;
   const Units& units = conversion.units;
   for (const Beam& beam : conversion.deck.beams) {
     const Part* part = nullptr;
     const Section& section = section_of(conversion, beam.part, beam.source, Section::Kind::beam, &part);
     const Material& law = law_of(conversion, *part);
     if (law.kind != Material::Kind::elastic)
-      conversion.report.refuse(law.source, law.source.keyword + ".BEAM", "beams here are elastic whatever their material");
+      conversion.report.refuse(law.source, law.source.keyword + ".BEAM",
+                               "beams here are elastic whatever their material");
     const auto at = [&](int i) { return conversion.bodies.mesh().nodes[conversion.node(beam.nodes[i], beam.source)]; };
     if (!(length(difference(at(1), at(0))) > 0)) conversion.fail(beam.source, "the beam has no length; mend its nodes");
-    const bool is_new = materials.count(part->material) == 0;
-    const std::string material = material_name(conversion, materials, part->material);
-    if (is_new) write_material(conversion, part->material, material, false);
+    const std::string material = write_material(conversion, part->material);
     CaseText& text = conversion.text;
     text.section(fmt::format("beams.beam_{}", beam.number));
     text.key("from", toml(conversion.node_name(conversion.node(beam.nodes[0], beam.source))));
@@ -222,7 +216,8 @@ Vec3 direction_of(const Conversion& conversion, const Discrete& one) {
       conversion.fail(one.source, fmt::format("there is no *DEFINE_SD_ORIENTATION {}; define it", one.orientation));
     const Direction& given = found->second;
     if (given.option != 0 && given.option != 2)
-      conversion.fail(given.source, fmt::format("IOP {} isn't read, only 0 (a vector) and 2 (two nodes)", given.option));
+      conversion.fail(given.source,
+                      fmt::format("IOP {} isn't read, only 0 (a vector) and 2 (two nodes)", given.option));
     direction = given.option == 0 ? given.vector
                                   : difference(at(given.nodes[1], given.source), at(given.nodes[0], given.source));
   } else if (one.nodes[1] > 0) {
@@ -231,7 +226,8 @@ Vec3 direction_of(const Conversion& conversion, const Discrete& one) {
                           "it acts along the line that its nodes make at the start, which does not turn with them");
   }
   if (!(length(direction) > 0))
-    conversion.fail(one.source, "it has no direction: its ends are at one place; give it a *DEFINE_SD_ORIENTATION (VID)");
+    conversion.fail(one.source,
+                    "it has no direction: its ends are at one place; give it a *DEFINE_SD_ORIENTATION (VID)");
   return scaled(1 / length(direction), direction);
 }
 
@@ -256,7 +252,8 @@ void write_connectors(Conversion& conversion) {
     const Material& law = law_of(conversion, *part);
     const bool spring = law.kind == Material::Kind::spring;
     if (!spring && law.kind != Material::Kind::damper)
-      conversion.fail(law.source, "discrete elements have *MAT_SPRING_ELASTIC or *MAT_DAMPER_VISCOUS; give one of these");
+      conversion.fail(law.source,
+                      "discrete elements have *MAT_SPRING_ELASTIC or *MAT_DAMPER_VISCOUS; give one of these");
     if (one.offset != 0)
       conversion.report.refuse(one.source, "ELEMENT_DISCRETE.OFFSET", "an initial offset isn't read");
     const auto end = [&](Number number) -> std::string {

@@ -52,9 +52,7 @@ std::vector<Held> held_nodes(const Conversion& conversion) {
   return all;
 }
 
-bool any(const std::array<bool, 6>& fixed, int first) {
-  return fixed[first] || fixed[first + 1] || fixed[first + 2];
-}
+bool any(const std::array<bool, 6>& fixed, int first) { return fixed[first] || fixed[first + 1] || fixed[first + 2]; }
 
 }  // namespace
 
@@ -194,7 +192,8 @@ void write_motions(Conversion& conversion) {
                                 conversion.deck.mesh.node_numbers()[n]));
     const Target target = conversion.target(nodes);
     if (!target.points.empty())
-      conversion.report.refuse_always(source, "points, nodes of no hexahedron, can't be moved here; name nodes of bodies");
+      conversion.report.refuse_always(source,
+                                      "points, nodes of no hexahedron, can't be moved here; name nodes of bodies");
     for (const auto& [body, of_body] : target.of_body) {
       const std::string name = fmt::format("prescribed_motion.motion_{}", ++count);
       CaseText& text = conversion.text;
@@ -209,8 +208,7 @@ void write_motions(Conversion& conversion) {
         text.key("displacement", made.displacement);
         text.key("displacement_curve", toml(made.displacement_curve));
       }
-      for (const Motion* motion : group.motions)
-        conversion.report.add(Fate::taken, motion->source, "[" + name + "]");
+      for (const Motion* motion : group.motions) conversion.report.add(Fate::taken, motion->source, "[" + name + "]");
     }
     if (target.of_body.empty() && target.points.empty())
       conversion.report.add(Fate::dropped, source, "its nodes belong to nothing");
@@ -223,8 +221,7 @@ void write_non_reflecting(Conversion& conversion) {
     for (const auto& [body, faces] : conversion.by_body(conversion.faces_of_set(end.set, end.source))) {
       const std::string name = fmt::format("non_reflecting.end_{}", ++count);
       conversion.text.section(name);
-      conversion.text.key("target",
-                          toml(conversion.mesh.surface(body, faces, fmt::format("segments_{}", end.set))));
+      conversion.text.key("target", toml(conversion.mesh.surface(body, faces, fmt::format("segments_{}", end.set))));
       conversion.report.add(Fate::taken, end.source, "[" + name + "]");
     }
 }

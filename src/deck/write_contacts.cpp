@@ -66,9 +66,10 @@ std::vector<SideSurface> surfaces_of(Conversion& conversion, const Contact& cont
     faces = faces_among(conversion, side.number, source);
     name = fmt::format("nodes_{}_faces", side.number);
   } else {
-    conversion.fail(source, fmt::format("a side of type {} isn't read, only 0 (segments), 2 and 3 (parts), 4 (nodes) and "
-                                        "5 (all)",
-                                        side.type));
+    conversion.fail(source,
+                    fmt::format("a side of type {} isn't read, only 0 (segments), 2 and 3 (parts), 4 (nodes) and "
+                                "5 (all)",
+                                side.type));
   }
   if (faces.empty())
     conversion.fail(source, fmt::format("side {} (type {}) has no outside faces of hexahedra", side.number, side.type));
@@ -89,12 +90,13 @@ class Contacts {
       write_single(contact, slaves);
     } else {
       auto masters = surfaces_of(conversion_, contact, contact.master);
-      const bool both_ways = contact.source.keyword.find("ONE_WAY") == std::string::npos &&
-                             contact.kind == Contact::Kind::surfaces;
+      const bool both_ways =
+          contact.source.keyword.find("ONE_WAY") == std::string::npos && contact.kind == Contact::Kind::surfaces;
       if (both_ways && slaves.size() == 1 && masters.size() == 1 &&
           mean_area(conversion_, slaves[0].faces) > 1.001 * mean_area(conversion_, masters[0].faces)) {
         std::swap(slaves, masters);
-        conversion_.report.add(Fate::replaced, contact.source, "slave and master change places: the finer is the slave");
+        conversion_.report.add(Fate::replaced, contact.source,
+                               "slave and master change places: the finer is the slave");
       }
       for (const SideSurface& slave : slaves) write_pairs(contact, slave, masters);
     }
@@ -109,7 +111,8 @@ class Contacts {
       conversion_.report.refuse(contact.source, "CONTACT.SELF", "a body's contact with itself isn't here");
       return;
     }
-    conversion_.report.add(Fate::dropped, contact.source, "each body's contact with itself: none folds onto itself here");
+    conversion_.report.add(Fate::dropped, contact.source,
+                           "each body's contact with itself: none folds onto itself here");
     for (std::size_t i = 0; i < all.size(); ++i)
       for (std::size_t k = i + 1; k < all.size(); ++k) {
         if (conversion_.bodies.joined(all[i].body, all[k].body)) {
@@ -126,9 +129,10 @@ class Contacts {
     std::vector<SideSurface> others;
     for (const SideSurface& master : masters) {
       if (master.body == slave.body)
-        conversion_.report.refuse(contact.source, "CONTACT.SELF",
-                                  fmt::format("both sides are of [parts.{}], and a body's contact with itself isn't here",
-                                              conversion_.bodies.all()[slave.body].name));
+        conversion_.report.refuse(
+            contact.source, "CONTACT.SELF",
+            fmt::format("both sides are of [parts.{}], and a body's contact with itself isn't here",
+                        conversion_.bodies.all()[slave.body].name));
       else if (conversion_.bodies.joined(master.body, slave.body))
         conversion_.report.add(Fate::dropped, contact.source, "contact between bodies that are grown together");
       else
@@ -214,15 +218,16 @@ void write_run(Conversion& conversion) {
       add(conversion.mesh.node_set(body, of_body, conversion.name_of(nodes)));
     for (const int n : target.points)
       if (!conversion.points.at(n).ground) add(conversion.points.at(n).name);
-    conversion.report.add(Fate::taken, source, nodes.is_set ? "output.history_sets: the mean of the set" :
-                                                              "output.history_sets");
+    conversion.report.add(Fate::taken, source,
+                          nodes.is_set ? "output.history_sets: the mean of the set" : "output.history_sets");
   };
   for (const auto& [source, number] : deck.history_nodes) add_nodes({number, false}, source);
   for (const auto& [source, number] : deck.history_node_sets) add_nodes({number, true}, source);
   for (const auto& [source, number] : deck.history_solids) {
     const auto element = deck.mesh.find_element(number);
     if (!element) conversion.fail(source, fmt::format("there is no solid {}; mend the number", number));
-    add(conversion.mesh.element_set(conversion.bodies.of_element(*element), {*element}, fmt::format("solid_{}", number)));
+    add(conversion.mesh.element_set(conversion.bodies.of_element(*element), {*element},
+                                    fmt::format("solid_{}", number)));
     conversion.report.add(Fate::taken, source, "output.history_sets");
   }
   std::vector<std::string> bodies, fields{"displacement", "velocity", "stress", "mises"};

@@ -43,8 +43,9 @@ class NodalLoads {
       auto groups = of_equal_mass(nodes, mass_);
       if (groups.size() > most_shares) {
         groups = {nodes};
-        conversion_.report.add(Fate::replaced, load.source,
-                               fmt::format("the same force on each of {} nodes: their sum, shared by mass", nodes.size()));
+        conversion_.report.add(
+            Fate::replaced, load.source,
+            fmt::format("the same force on each of {} nodes: their sum, shared by mass", nodes.size()));
       }
       for (const auto& group : groups)
         write(conversion_.mesh.node_set(body, group, conversion_.name_of(load.nodes)),
@@ -52,11 +53,12 @@ class NodalLoads {
     }
     for (const int n : target.points)
       if (!conversion_.points.at(n).ground) write(conversion_.points.at(n).name, force, curve);
-    conversion_.report.add(count_ < first ? Fate::dropped : Fate::taken, load.source,
-                           count_ < first ? "its nodes belong to nothing"
-                           : count_ == first
-                               ? fmt::format("[loads.force_{}]", first)
-                               : fmt::format("[loads.force_{}] to [loads.force_{}]: nodes of equal mass each", first, count_));
+    conversion_.report.add(
+        count_ < first ? Fate::dropped : Fate::taken, load.source,
+        count_ < first ? "its nodes belong to nothing"
+        : count_ == first
+            ? fmt::format("[loads.force_{}]", first)
+            : fmt::format("[loads.force_{}] to [loads.force_{}]: nodes of equal mass each", first, count_));
   }
 
  private:
@@ -102,8 +104,7 @@ std::vector<Pressure> gathered(const std::vector<Pressure>& pressures) {
   std::vector<Pressure> all;
   for (const Pressure& one : pressures) {
     const auto same = std::find_if(all.begin(), all.end(), [&](const Pressure& other) {
-      return one.set == 0 && other.set == 0 && one.curve == other.curve && one.scale == other.scale &&
-             one.arrival == other.arrival;
+      return one.set == 0 && other.set == 0 && one.curve == other.curve && one.scale == other.scale;
     });
     if (same == all.end())
       all.push_back(one);
@@ -116,7 +117,7 @@ std::vector<Pressure> gathered(const std::vector<Pressure>& pressures) {
 void write_pressures(Conversion& conversion) {
   int count = 0;
   for (const Pressure& pressure : gathered(conversion.deck.pressures)) {
-    const std::string curve = conversion.use_curve(pressure.curve, pressure.source, pressure.arrival);
+    const std::string curve = conversion.use_curve(pressure.curve, pressure.source);
     for (const auto& [side, faces] : faces_of(conversion, pressure)) {
       const auto [body, outwards] = side;
       CaseText& text = conversion.text;
@@ -144,8 +145,8 @@ void write_body_loads(Conversion& conversion) {
   for (const BodyLoad& load : conversion.deck.body_loads) {
     const Curve& curve = conversion.curve(load.curve, load.source);
     const double first = curve.points.front()[1];
-    const bool constant = std::all_of(curve.points.begin(), curve.points.end(),
-                                      [&](const auto& point) { return point[1] == first; });
+    const bool constant =
+        std::all_of(curve.points.begin(), curve.points.end(), [&](const auto& point) { return point[1] == first; });
     if (constant) {
       gravity[load.direction] -= load.scale * first * conversion.units.acceleration();
       any = true;

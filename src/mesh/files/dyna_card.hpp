@@ -48,10 +48,12 @@ class DynaCard {
   const FilePlace& place() const { return line_.place; }
 
  private:
+  void take_columns(const std::vector<std::size_t>& widths);
   double number(int field, const char* name) const;
   const DynaReading& reading_;
   const DynaLine& line_;
   std::vector<std::string_view> fields_;
+  std::vector<char> cut_;  // fields whose number seems to go on beyond their columns
 };
 
 /// Whole numbers of eight columns, reals of sixteen: cards of *NODE and *ELEMENT.

@@ -101,9 +101,10 @@ void DynaLines::check_text(std::string_view line) const {
                       where(current_place_), byte));
   }
   if (line.substr(0, 14) == "-----BEGIN PGP")
-    throw InputError(fmt::format("{} the deck is encrypted from here on, which only LS-DYNA can read; ask whoever "
-                                 "made it for the plain text",
-                                 where(current_place_)));
+    throw InputError(
+        fmt::format("{} the deck is encrypted from here on, which only LS-DYNA can read; ask whoever "
+                    "made it for the plain text",
+                    where(current_place_)));
 }
 
 bool DynaLines::fill() {
@@ -129,9 +130,9 @@ std::optional<DynaKeyword> DynaLines::next() {
   while (fill()) {
     if (current_.empty() || current_[0] != '*') {
       if (!trim(current_).empty())
-        throw InputError(
-            fmt::format("{} '{}' stands where a keyword is expected; a keyword deck begins with a line such as *KEYWORD",
-                        where(current_place_), for_message(trim(current_))));
+        throw InputError(fmt::format(
+            "{} '{}' stands where a keyword is expected; a keyword deck begins with a line such as *KEYWORD",
+            where(current_place_), for_message(trim(current_))));
       filled_ = false;
       continue;
     }

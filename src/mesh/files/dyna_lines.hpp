@@ -38,10 +38,10 @@ struct DynaKeyword {
 /// What *INCLUDE_TRANSFORM does to the numbers in a file. Offsets hold those of the files around it too.
 struct DynaScope {
   enum Kind { node, element, part, material, set, curve, define, other, kinds };
-  int parent = -1;                            ///< the scope around it
-  std::array<std::int64_t, kinds> offset{};   ///< added to numbers, by Kind
-  std::int64_t transformation = 0;            ///< number of a *DEFINE_TRANSFORMATION of the parent's; 0: none
-  FilePlace place;                            ///< of the *INCLUDE_TRANSFORM
+  int parent = -1;                           ///< the scope around it
+  std::array<std::int64_t, kinds> offset{};  ///< added to numbers, by Kind
+  std::int64_t transformation = 0;           ///< number of a *DEFINE_TRANSFORMATION of the parent's; 0: none
+  FilePlace place;                           ///< of the *INCLUDE_TRANSFORM
 };
 
 /// The keywords of a deck and of the files that it includes, in the order in which LS-DYNA reads them.
@@ -54,6 +54,9 @@ class DynaLines {
   std::optional<DynaKeyword> next();
 
   const std::vector<DynaScope>& scopes() const { return scopes_; }
+
+  /// The file that included a file; -1: none.
+  int includer(int file) const { return opened_[file].from; }
 
   /// "path:line:".
   std::string where(const FilePlace& place) const;
@@ -88,7 +91,7 @@ class DynaLines {
 
   std::vector<std::string>& files_;
   std::vector<std::unique_ptr<std::string>> texts_;
-  std::vector<Opened> opened_;  // by number, as files_
+  std::vector<Opened> opened_;   // by number, as files_
   std::vector<Source> sources_;  // the innermost last
   std::vector<DynaScope> scopes_{1};
   std::vector<std::string> folders_;

@@ -125,11 +125,25 @@ class Expression {
       if (name == "mod") return std::fmod(a, b);
       if (name == "atan2") return std::atan2(a, b);
     } else {
-      static const std::map<std::string, double (*)(double)> all = {
-          {"sqrt", std::sqrt}, {"abs", std::fabs},  {"exp", std::exp},   {"log", std::log},    {"log10", std::log10},
-          {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan},   {"asin", std::asin},  {"acos", std::acos},
-          {"atan", std::atan}, {"sinh", std::sinh}, {"cosh", std::cosh}, {"tanh", std::tanh},  {"int", std::trunc},
-          {"aint", std::trunc}, {"nint", std::round}, {"anint", std::round}, {"float", [](double x) { return x; }}};
+      static const std::map<std::string, double (*)(double)> all = {{"sqrt", std::sqrt},
+                                                                    {"abs", std::fabs},
+                                                                    {"exp", std::exp},
+                                                                    {"log", std::log},
+                                                                    {"log10", std::log10},
+                                                                    {"sin", std::sin},
+                                                                    {"cos", std::cos},
+                                                                    {"tan", std::tan},
+                                                                    {"asin", std::asin},
+                                                                    {"acos", std::acos},
+                                                                    {"atan", std::atan},
+                                                                    {"sinh", std::sinh},
+                                                                    {"cosh", std::cosh},
+                                                                    {"tanh", std::tanh},
+                                                                    {"int", std::trunc},
+                                                                    {"aint", std::trunc},
+                                                                    {"nint", std::round},
+                                                                    {"anint", std::round},
+                                                                    {"float", [](double x) { return x; }}};
       const auto found = all.find(name);
       if (found != all.end()) return found->second(a);
     }
@@ -186,18 +200,20 @@ void DynaParameters::define(std::string_view head, std::string_view value, const
   const std::string name = lower_case(trim(head.substr(1)));
   const char type = lower_case(head.substr(0, 1))[0];
   if (name.empty() || (type != 'r' && type != 'i' && type != 'c'))
-    throw InputError(fmt::format("{} '{}' is no name of a parameter; write R (a number) or I (a whole number) and the "
-                                 "name",
-                                 where, for_message(head)));
+    throw InputError(
+        fmt::format("{} '{}' is no name of a parameter; write R (a number) or I (a whole number) and the "
+                    "name",
+                    where, for_message(head)));
   if (type == 'c') return;  // a text: where it is used, that field is refused
   double number = 0;
-  if (!value.empty() && (value[0] == '&' || value.substr(0, 2) == "-&")) {
+  if (is_use(value)) {
     number = this->value(value, place);
   } else {
     const auto read = parse_dyna_real(value);
     if (!read)
-      throw InputError(fmt::format("{} parameter {}: '{}' is no number; fields have ten columns, or commas between them",
-                                   where, for_message(name), for_message(value)));
+      throw InputError(
+          fmt::format("{} parameter {}: '{}' is no number; fields have ten columns, or commas between them", where,
+                      for_message(name), for_message(value)));
     number = *read;
   }
   if (type == 'i') number = std::trunc(number);
@@ -213,39 +229,45 @@ void DynaParameters::define_expression(const DynaLine& line, const DynaKeyword& 
   const auto end = free ? comma : std::min(width, line.text.size());
   const auto head = trim(line.text.substr(0, end));
   const auto text = trim(line.text.substr(std::min(end + (free ? 1 : 0), line.text.size())));
-  if (head.empty()) return;
+  if (!head.empty()) define(head, fmt::format("{}", evaluate(text, line.place)), keyword, line.place);
+}
+
+double DynaParameters::evaluate(std::string_view text, const FilePlace& place) const {
   double number = 0;
   try {
     number = Expression(text, [&](const std::string& name) {
-               const Parameter* known = find(name, line.place.file);
+               const Parameter* known = find(name, place.file);
                if (!known) throw fmt::format("there is no parameter {}", for_message(name));
                return known->value;
              }).value();
   } catch (const std::string& wrong) {
     throw InputError(fmt::format("{} the expression '{}' can't be read: {}; write the number itself",
-                                 lines_.where(line.place), for_message(text), wrong));
+                                 lines_.where(place), for_message(text), wrong));
   }
   if (!std::isfinite(number))
-    throw InputError(fmt::format("{} the expression '{}' gives no finite number; mend it", lines_.where(line.place),
-                                 for_message(text)));
-  define(head, fmt::format("{}", number), keyword, line.place);
+    throw InputError(
+        fmt::format("{} the expression '{}' gives no finite number; mend it", lines_.where(place), for_message(text)));
+  return number;
 }
 
 const DynaParameters::Parameter* DynaParameters::find(const std::string& name, int file) const {
-  for (const int scope : {file, everywhere})
+  // A local one holds in its file and in those that this includes.
+  for (int scope = file; scope != everywhere; scope = lines_.includer(scope))
     if (const auto found = values_.find({scope, name}); found != values_.end()) return &found->second;
-  return nullptr;
+  const auto found = values_.find({everywhere, name});
+  return found == values_.end() ? nullptr : &found->second;
 }
 
 double DynaParameters::value(std::string_view field, const FilePlace& place) const {
-  const bool negative = !field.empty() && field[0] == '-';
-  if (negative) field.remove_prefix(1);
-  field.remove_prefix(1);
+  if (field.front() == '<') return evaluate(trim(field.substr(1, field.size() - 2)), place);
+  const bool negative = field.front() == '-';
+  field.remove_prefix(negative ? 2 : 1);
   const std::string name = lower_case(trim(field));
   const Parameter* known = find(name, place.file);
   if (!known)
-    throw InputError(fmt::format("{} there is no parameter '{}' (of a number) before this line; define it by *PARAMETER",
-                                 lines_.where(place), for_message(name)));
+    throw InputError(
+        fmt::format("{} there is no parameter '{}' (of a number) before this line; define it by *PARAMETER",
+                    lines_.where(place), for_message(name)));
   return negative ? -known->value : known->value;
 }
 

@@ -18,7 +18,13 @@ class DynaParameters {
   /// Whether the keyword is one of those; its definitions are taken then. Throws InputError for one that can't be read.
   bool take(const DynaKeyword& keyword);
 
-  /// The number that a field "&name" or "-&name" stands for. Throws InputError where it is not defined.
+  /// Whether a field is "&name", "-&name" or "<expression>".
+  static bool is_use(std::string_view field) {
+    return !field.empty() &&
+           (field[0] == '&' || field.substr(0, 2) == "-&" || (field[0] == '<' && field.back() == '>'));
+  }
+
+  /// The number that such a field stands for. Throws InputError where it is not defined.
   double value(std::string_view field, const FilePlace& place) const;
 
   std::size_t size() const { return values_.size(); }
@@ -30,6 +36,7 @@ class DynaParameters {
   };
   void define(std::string_view head, std::string_view value, const DynaKeyword& keyword, const FilePlace& place);
   void define_expression(const DynaLine& line, const DynaKeyword& keyword);
+  double evaluate(std::string_view text, const FilePlace& place) const;
   const Parameter* find(const std::string& name, int file) const;
 
   const DynaLines& lines_;

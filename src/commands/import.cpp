@@ -1,12 +1,20 @@
 #include "commands/import.hpp"
 
+#include <fmt/format.h>
+#include <stdlib.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <ostream>
 
 #include "case/activity.hpp"
+#include "case/error.hpp"
+#include "case/read_case.hpp"
+#include "commands/threads.hpp"
 #include "deck/import_deck.hpp"
+#include "model/assembly.hpp"
+#include "model/model.hpp"
 #include "output/atomic_file.hpp"
 #include "output/output_place.hpp"
 
@@ -37,6 +45,52 @@ bool holds(const std::string& path, const std::string& text) {
   if (!fs::is_regular_file(path, trouble) || fs::file_size(path, trouble) != text.size()) return false;
   std::ifstream file(path, std::ios::binary);
   return std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
+/// A folder of its own for as long as this lives.
+struct PassingFolder {
+  std::string path = (fs::temp_directory_path() / "railwave-import-XXXXXX").string();
+  PassingFolder() {
+    if (mkdtemp(path.data()) == nullptr)
+      throw std::runtime_error(fmt::format("no folder can be made in {}; see whether it may be written",
+                                           fs::temp_directory_path().string()));
+  }
+  ~PassingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  std::string write(const std::string& name, const std::string& text) const {
+    const std::string file = path + "/" + name;
+    std::ofstream out(file, std::ios::binary);
+    if (!(out << text) || !out.flush())
+      throw std::runtime_error(fmt::format("{} cannot be written; free room there", file));
+    return file;
+  }
+};
+
+/// Refuses a deck whose case would be refused: as `railwave check` does, but for what concerns its results.
+/// @return warnings and notes
+std::vector<std::string> try_case(const ImportFiles& files, const deck::Import& import, const std::string& deck) {
+  const Activity checking("checking the case of " + deck);
+  const PassingFolder folder;
+  folder.write(fs::path(files.mesh).filename().string(), import.mesh);
+  const std::string path = folder.write(fs::path(files.text).filename().string(), import.text);
+  std::vector<std::string> notes;
+  try {
+    const scene::Scene scene = read_case(path, {}, &notes);
+    const KokkosScope kokkos;
+    Model model;
+    build_model(scene, assemble(scene, notes), model);
+  } catch (const InputError& error) {
+    std::string said = error.what();
+    for (auto at = said.find(folder.path + "/"); at != std::string::npos; at = said.find(folder.path + "/"))
+      said.erase(at, folder.path.size() + 1);
+    throw InputError(fmt::format("{}: its case would be refused, so nothing was written: {}", deck, said));
+  }
+  for (std::string& note : notes)
+    for (auto at = note.find(folder.path + "/"); at != std::string::npos; at = note.find(folder.path + "/"))
+      note.erase(at, folder.path.size() + 1);
+  return notes;
 }
 
 }  // namespace
@@ -80,10 +134,12 @@ void import_command(const ImportRequest& request, std::ostream& out) {
   const Activity reading("reading " + request.deck);
   const deck::Import import = deck::import_deck(request.deck, options);
   check(import.text);
+  const auto notes = try_case(files, import, request.deck);
   write_whole_file(files.mesh, import.mesh, mesh_kind());
   write_whole_file(files.report, import.report, report_kind());
   write_whole_file(files.text, import.text, case_kind());
-  for (const std::string& note : import.notes) out << "note: " << note << '\n';
+  for (const auto* some : {&import.notes, &notes})
+    for (const std::string& note : *some) out << "note: " << note << '\n';
   out << files.text << ": " << import.parts << (import.parts == 1 ? " part, " : " parts, ") << import.elements
       << " hexahedra in " << files.mesh << '\n'
       << files.report << ": " << import.taken << " entries taken, " << import.replaced << " replaced, "

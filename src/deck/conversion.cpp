@@ -63,7 +63,7 @@ const NumberSet& Conversion::part_set(Number number, const Source& source) const
   return found->second;
 }
 
-std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) const {
+std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) {
   if (!nodes.is_set) return {node(nodes.number, source)};
   const auto found = deck.node_sets.find(nodes.number);
   if (found == deck.node_sets.end())
@@ -76,9 +76,13 @@ std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) c
       result.push_back(node(range.first, set.source));
       continue;
     }
-    for (std::size_t n = 0; n < numbers.size(); ++n)
-      if (numbers[n] >= range.first && numbers[n] <= range.last && (numbers[n] - range.first) % range.step == 0)
-        result.push_back(static_cast<int>(n));
+    if (node_order.empty()) {
+      for (std::size_t n = 0; n < numbers.size(); ++n) node_order.emplace_back(numbers[n], static_cast<int>(n));
+      std::sort(node_order.begin(), node_order.end());
+    }
+    auto at = std::lower_bound(node_order.begin(), node_order.end(), std::make_pair(range.first, 0));
+    for (; at != node_order.end() && at->first <= range.last; ++at)
+      if ((at->first - range.first) % range.step == 0) result.push_back(at->second);
   }
   if (set.all)
     for (std::size_t n = 0; n < numbers.size(); ++n) result.push_back(static_cast<int>(n));

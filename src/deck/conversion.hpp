@@ -63,13 +63,15 @@ struct Conversion {
   std::map<std::string, std::string> curves;  ///< sections of curves that are used, by name
   std::vector<std::string> plastic;           ///< bodies whose material yields
   std::map<Number, std::string> materials;    ///< names of those that are written
+  std::vector<std::pair<Number, int>>
+      node_order{};  ///< numbers of nodes and their positions, ascending; made when asked
 
   /// @throws InputError "file:line: *KEYWORD: ..."
   [[noreturn]] void fail(const Source& source, const std::string& text) const;
 
   int node(Number number, const Source& source) const;  ///< position
   const NumberSet& part_set(Number number, const Source& source) const;
-  std::vector<int> members(const Nodes& nodes, const Source& source) const;
+  std::vector<int> members(const Nodes& nodes, const Source& source);
   Target target(const std::vector<int>& nodes) const;
   std::string name_of(const Nodes& nodes) const;
 

@@ -34,6 +34,14 @@ Handler handler_of(const std::string& name) {
   return nullptr;
 }
 
+/// Keywords that hold directions or places besides those of nodes.
+bool has_directions(const std::string& name) {
+  for (const char* beginning : {"INITIAL_", "LOAD_", "BOUNDARY_SPC", "BOUNDARY_PRESCRIBED", "DEFINE_COORDINATE_SYSTEM",
+                                "DEFINE_COORDINATE_VECTOR", "DEFINE_VECTOR", "DEFINE_SD_ORIENTATION"})
+    if (begins_with(name, beginning)) return true;
+  return false;
+}
+
 std::string unknown(const std::string& name) {
   if (begins_with(name, "ELEMENT_"))
     return "elements of this kind aren't read, only hexahedra (ELEMENT_SOLID), beams, discrete elements and point "
@@ -132,12 +140,22 @@ void DeckReader::include_transformed(const DynaKeyword& keyword) {
   lines.include(names, lines.add_scope(scope));
 }
 
+bool DeckReader::is_transformed(int scope) const {
+  for (int at = scope; at >= 0; at = lines.scopes()[at].parent)
+    if (lines.scopes()[at].transformation != 0) return true;
+  return false;
+}
+
 void DeckReader::take(const DynaKeyword& keyword) {
   const Source source{keyword.place, keyword.name};
   if (parameters.take(keyword)) return report.add(Fate::taken, source, "where fields name them");
   if (report.drops(keyword.name))
     return report.add(Fate::dropped, source, fmt::format("as --drop asks, {} lines", keyword.lines.size()));
   if (keyword.name == "INCLUDE_TRANSFORM") return include_transformed(keyword);
+  if (is_transformed(keyword.scope) && has_directions(keyword.name))
+    report.refuse(source, "INCLUDE_TRANSFORM." + keyword.name,
+                  "directions and places in a file that *INCLUDE_TRANSFORM moves aren't moved with its nodes; put this "
+                  "keyword into the deck itself");
   Call call{*this, {*this, keyword}, keyword.name, false};
   Handler handler = handler_of(call.name);
   for (const char* option : {"_TITLE", "_ID"})

@@ -31,6 +31,8 @@ class DeckReader {
   /// The number of a thing in a field, with the offset of *INCLUDE_TRANSFORM; 0: none.
   Number number(const DynaCard& card, int field, const char* name, DynaScope::Kind kind,
                 const DynaKeyword& keyword) const;
+  /// Whether *INCLUDE_TRANSFORM moves what stands in a scope.
+  bool is_transformed(int scope) const;
   Number offset(Number number, DynaScope::Kind kind, const DynaKeyword& keyword) const;
 
  private:

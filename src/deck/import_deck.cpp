@@ -144,6 +144,9 @@ std::map<Number, Settings> part_settings(const Deck& deck, Report& report) {
       report.refuse_always(law.source, fmt::format("part {}: {}", number,
                                                    law.refusal.empty() ? "its law is not one of solids" : law.refusal));
     for (const auto& more : law.more) report.refuse(law.source, more[1], more[0]);
+    const Number hourglass = part->second.hourglass;
+    if (hourglass != 0 && deck.hourglass.count(hourglass) == 0)
+      report.refuse_always(source, fmt::format("part {}: there is no *HOURGLASS {}; define it", number, hourglass));
     Settings& own = settings[number];
     own.material = part->second.material;
     if (unfit.empty()) set_hourglass(deck, part->second, own, report);

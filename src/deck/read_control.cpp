@@ -163,6 +163,7 @@ bool is_harmless(const std::string& name, std::string& why) {
       {"CONTROL_ALE", "there are no fluids"},
       {"CONTROL_SPH", "there are no particles"},
       {"CONTROL_RIGID", "there are no rigid bodies"},
+      {"CONTROL_STRUCTURED", "it concerns LS-DYNA's own files"},
       {"CONTROL_SUBCYCLE", "see solver.subcycling"},
       {"PARAMETER_DUPLICATION", "the first definition of a parameter holds"},
       {"PARAMETER_TYPE", "it concerns other programs"},

@@ -40,6 +40,9 @@ void read_nodes(Call& call) {
     if (held < 0 || held > 7 || turned < 0 || turned > 7)
       call.reader.fail(card.place(), "TC and RC are 0 to 7; mend them, see whether each field is in its columns");
     if (held == 0 && turned == 0) continue;
+    if (call.reader.is_transformed(call.cards.keyword().scope))
+      call.reader.report.refuse(call.cards.source(card), "INCLUDE_TRANSFORM.NODE",
+                                "TC and RC of nodes that *INCLUDE_TRANSFORM moves aren't turned with them");
     Constraint constraint{call.cards.source(card), {number, false}, 0, {}};
     const auto along = directions_of(held), about = directions_of(turned);
     for (int i = 0; i < 3; ++i) {

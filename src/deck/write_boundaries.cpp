@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "deck/conversion.hpp"
 #include "mesh/vectors.hpp"
@@ -31,7 +32,7 @@ struct Held {
   std::vector<int> nodes;
 };
 
-std::vector<Held> held_nodes(const Conversion& conversion) {
+std::vector<Held> held_nodes(Conversion& conversion) {
   std::vector<Held> all;
   std::map<std::tuple<std::string, std::array<bool, 6>, Number>, std::size_t> single;
   for (const Constraint& constraint : conversion.deck.constraints) {
@@ -88,22 +89,33 @@ void write_constraints(Conversion& conversion) {
 
 namespace {
 
-/// Motions that concern one node or set.
+/// Motions that concern one node or set, or several nodes alike.
 struct MotionGroup {
-  Nodes nodes;
+  std::string name;
   std::vector<const Motion*> motions;
+  std::vector<int> nodes;
 };
 
-std::vector<MotionGroup> motion_groups(const Deck& deck) {
+std::vector<MotionGroup> motion_groups(Conversion& conversion) {
+  std::map<std::pair<bool, Number>, std::vector<const Motion*>> of_target;
+  for (const Motion& motion : conversion.deck.motions)
+    of_target[{motion.nodes.is_set, motion.nodes.number}].push_back(&motion);
+  using Signature = std::vector<std::tuple<Number, Number, Number, double>>;
+  std::map<Signature, std::size_t> of_nodes;
   std::vector<MotionGroup> groups;
-  for (const Motion& motion : deck.motions) {
-    const auto same = std::find_if(groups.begin(), groups.end(), [&](const MotionGroup& group) {
-      return group.nodes.is_set == motion.nodes.is_set && group.nodes.number == motion.nodes.number;
-    });
-    if (same == groups.end())
-      groups.push_back({motion.nodes, {&motion}});
-    else
-      same->motions.push_back(&motion);
+  for (const auto& [target, motions] : of_target) {
+    const Nodes nodes{target.second, target.first};
+    const auto members = conversion.members(nodes, motions.front()->source);
+    if (!nodes.is_set) {
+      Signature signature;
+      for (const Motion* one : motions) signature.emplace_back(one->direction, one->kind, one->curve, one->scale);
+      const auto [entry, is_new] = of_nodes.emplace(signature, groups.size());
+      if (!is_new) {
+        groups[entry->second].nodes.push_back(members.front());
+        continue;
+      }
+    }
+    groups.push_back({conversion.name_of(nodes), motions, members});
   }
   return groups;
 }
@@ -177,20 +189,19 @@ bool add_motion(Conversion& conversion, const Motion& motion, CaseMotion& made) 
 
 void write_motions(Conversion& conversion) {
   int count = 0;
-  std::map<int, Number> moved;
-  for (const MotionGroup& group : motion_groups(conversion.deck)) {
+  std::set<int> moved;
+  for (const MotionGroup& group : motion_groups(conversion)) {
     const Source& source = group.motions.front()->source;
     CaseMotion made;
     bool good = true;
     for (const Motion* motion : group.motions) good = add_motion(conversion, *motion, made) && good;
     if (!good) continue;
-    const auto nodes = conversion.members(group.nodes, source);
-    for (const int n : nodes)
-      if (!moved.emplace(n, group.nodes.number).second)
+    for (const int n : group.nodes)
+      if (!moved.insert(n).second)
         return conversion.report.refuse_always(
             source, fmt::format("node {} has a motion of another set already; name sets without common nodes",
                                 conversion.deck.mesh.node_numbers()[n]));
-    const Target target = conversion.target(nodes);
+    const Target target = conversion.target(group.nodes);
     if (!target.points.empty())
       conversion.report.refuse_always(source,
                                       "points, nodes of no hexahedron, can't be moved here; name nodes of bodies");
@@ -198,7 +209,7 @@ void write_motions(Conversion& conversion) {
       const std::string name = fmt::format("prescribed_motion.motion_{}", ++count);
       CaseText& text = conversion.text;
       text.section(name);
-      text.key("target", toml(conversion.mesh.node_set(body, of_body, conversion.name_of(group.nodes))));
+      text.key("target", toml(conversion.mesh.node_set(body, of_body, group.name)));
       text.key("directions", directions_text({made.directions[0], made.directions[1], made.directions[2]}, 0));
       if (!made.curve.empty()) {
         text.key("velocity", made.velocity);
@@ -230,7 +241,7 @@ namespace {
 
 using Of = InitialVelocity::Of;
 
-std::vector<int> nodes_of(const Conversion& conversion, const InitialVelocity& initial) {
+std::vector<int> nodes_of(Conversion& conversion, const InitialVelocity& initial) {
   std::vector<int> nodes;
   if (initial.of == Of::node || initial.of == Of::node_set)
     return conversion.members({initial.number, initial.of == Of::node_set}, initial.source);

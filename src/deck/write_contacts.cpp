@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "deck/conversion.hpp"
+#include "deck/tied_faces.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave::deck {
@@ -26,7 +27,7 @@ double mean_area(const Conversion& conversion, const std::vector<Face>& faces) {
 }
 
 /// Outside faces with all nodes in a set.
-std::vector<Face> faces_among(const Conversion& conversion, Number set, const Source& source) {
+std::vector<Face> faces_among(Conversion& conversion, Number set, const Source& source) {
   const auto nodes = conversion.members({set, true}, source);
   std::vector<Face> faces;
   std::set<int> covered;
@@ -140,8 +141,29 @@ class Contacts {
     }
     if (others.empty()) return;
     if (!tied(contact)) return write_section(contact, slave, others);
-    for (const SideSurface& other : others) write_section(contact, slave, {other});
+    for (const SideSurface& other : others) write_tie(contact, slave, other);
   }
+
+  /// Of the slave, what lies on the master is tied.
+  void write_tie(const Contact& contact, const SideSurface& slave, const SideSurface& master) {
+    std::size_t left_out = 0;
+    SideSurface near = slave;
+    near.faces = faces_on(conversion_.bodies.mesh(), slave.faces, master.faces, left_out);
+    if (left_out > 0)
+      conversion_.report.add(Fate::dropped, contact.source,
+                             fmt::format("{} nodes on the master that are corners of no face on it", left_out));
+    if (near.faces.empty()) {
+      conversion_.report.add(
+          Fate::dropped, contact.source,
+          fmt::format("no face of [parts.{}] lies on [parts.{}]", body_name(slave), body_name(master)));
+      return;
+    }
+    if (near.faces.size() < slave.faces.size())
+      near.name = conversion_.mesh.surface(slave.body, near.faces, fmt::format("on_{}", body_name(master)));
+    write_section(contact, near, {master});
+  }
+
+  const std::string& body_name(const SideSurface& side) const { return conversion_.bodies.all()[side.body].name; }
 
   void write_section(const Contact& contact, const SideSurface& slave, const std::vector<SideSurface>& masters) {
     CaseText& text = conversion_.text;
@@ -172,6 +194,9 @@ class Contacts {
   }
 
   void summarise(const Contact& contact) {
+    if (names_.size() == first_ && tied(contact))
+      conversion_.report.refuse(contact.source, "CONTACT.TIED",
+                                "it ties nothing: no face of the slave lies on the master");
     if (names_.size() == first_) return;
     const char* section = tied(contact) ? "ties" : "contacts";
     std::string said = fmt::format("[{}.{}]", section, names_[first_]);

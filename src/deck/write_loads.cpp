@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "deck/conversion.hpp"
 #include "mesh/vectors.hpp"
@@ -28,7 +29,24 @@ class NodalLoads {
  public:
   explicit NodalLoads(Conversion& conversion) : conversion_(conversion), mass_(conversion.node_masses()) {}
 
-  void write(const NodalLoad& load) {
+  /// All loads; those of single nodes that are alike go together.
+  void write() {
+    std::map<std::tuple<Number, Number, Number, double>, std::pair<const NodalLoad*, std::vector<int>>> single;
+    for (const NodalLoad& load : conversion_.deck.nodal_loads) {
+      const auto nodes = conversion_.members(load.nodes, load.source);
+      if (load.nodes.is_set) {
+        write(load, nodes);
+        continue;
+      }
+      auto& alike = single[{load.direction, load.curve, load.axes, load.scale}];
+      if (alike.first == nullptr) alike.first = &load;
+      alike.second.push_back(nodes.front());
+    }
+    for (const auto& [kind, alike] : single) write(*alike.first, alike.second);
+  }
+
+ private:
+  void write(const NodalLoad& load, const std::vector<int>& nodes) {
     if (load.direction < 1 || load.direction > 3)
       return conversion_.report.refuse_always(
           load.source, fmt::format("DOF {} isn't read, only forces along 1, 2 and 3", load.direction));
@@ -36,16 +54,16 @@ class NodalLoads {
     direction[load.direction - 1] = 1;
     if (load.axes != 0) direction = conversion_.axes(load.axes, load.source)[load.direction - 1];
     const Vec3 force = scaled(load.scale * conversion_.units.force(), direction);
-    const Target target = conversion_.target(conversion_.members(load.nodes, load.source));
+    const Target target = conversion_.target(nodes);
     const std::string curve = conversion_.use_curve(load.curve, load.source);
     const int first = count_ + 1;
-    for (const auto& [body, nodes] : target.of_body) {
-      auto groups = of_equal_mass(nodes, mass_);
+    for (const auto& [body, of_body] : target.of_body) {
+      auto groups = of_equal_mass(of_body, mass_);
       if (groups.size() > most_shares) {
-        groups = {nodes};
+        groups = {of_body};
         conversion_.report.add(
             Fate::replaced, load.source,
-            fmt::format("the same force on each of {} nodes: their sum, shared by mass", nodes.size()));
+            fmt::format("the same force on each of {} nodes: their sum, shared by mass", of_body.size()));
       }
       for (const auto& group : groups)
         write(conversion_.mesh.node_set(body, group, conversion_.name_of(load.nodes)),
@@ -61,7 +79,6 @@ class NodalLoads {
             : fmt::format("[loads.force_{}] to [loads.force_{}]: nodes of equal mass each", first, count_));
   }
 
- private:
   void write(const std::string& target, const Vec3& force, const std::string& curve) {
     CaseText& text = conversion_.text;
     text.section(fmt::format("loads.force_{}", ++count_));
@@ -101,15 +118,15 @@ std::map<std::pair<int, int>, std::vector<Face>> faces_of(const Conversion& conv
 
 /// Pressures of single segments that follow one curve go together.
 std::vector<Pressure> gathered(const std::vector<Pressure>& pressures) {
+  std::map<std::pair<Number, double>, std::size_t> single;
   std::vector<Pressure> all;
   for (const Pressure& one : pressures) {
-    const auto same = std::find_if(all.begin(), all.end(), [&](const Pressure& other) {
-      return one.set == 0 && other.set == 0 && one.curve == other.curve && one.scale == other.scale;
-    });
-    if (same == all.end())
+    const auto [entry, is_new] = one.set == 0 ? single.emplace(std::make_pair(one.curve, one.scale), all.size())
+                                              : std::make_pair(single.end(), true);
+    if (is_new)
       all.push_back(one);
     else
-      same->segments.insert(same->segments.end(), one.segments.begin(), one.segments.end());
+      all[entry->second].segments.insert(all[entry->second].segments.end(), one.segments.begin(), one.segments.end());
   }
   return all;
 }
@@ -183,7 +200,7 @@ void write_body_loads(Conversion& conversion) {
 void write_loads(Conversion& conversion) {
   if (!conversion.deck.nodal_loads.empty()) {
     NodalLoads loads(conversion);
-    for (const NodalLoad& load : conversion.deck.nodal_loads) loads.write(load);
+    loads.write();
   }
   write_pressures(conversion);
   write_body_loads(conversion);

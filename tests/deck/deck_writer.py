@@ -24,9 +24,8 @@ class Deck:
             code = held(*index) if held else 0
             self.nodes.append((numbers[index], *places[index], code))
         for i, j, k in np.ndindex(*(n - 1 for n in shape)):
-            low = [numbers[i, j, k], numbers[i + 1, j, k], numbers[i + 1, j + 1, k], numbers[i, j + 1, k]]
-            high = [numbers[i, j, k + 1], numbers[i + 1, j, k + 1], numbers[i + 1, j + 1, k + 1], numbers[i, j + 1, k + 1]]
-            self.solids.append((len(self.solids) + 1, part, *low, *high))
+            corners = [numbers[i + a, j + b, k + c] for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            self.solids.append((len(self.solids) + 1, part, *corners))
         return numbers
 
     def block(self, part, low, high, divisions, held=None):

@@ -163,7 +163,8 @@ DynaKeyword DynaLines::read_keyword() {
   keyword.format = sources_.back().format;
   filled_ = false;
   const std::string_view line = trim(current_.substr(1));
-  const auto end = std::min(line.find_first_of(" \t,(+%-"), line.size());
+  auto end = std::min(line.find_first_of(" \t,("), line.size());
+  while (end > 0 && std::string_view("+-%").find(line[end - 1]) != std::string_view::npos) --end;
   keyword.name = upper_case(line.substr(0, end));
   set_format(keyword, line.substr(end));
   return keyword;

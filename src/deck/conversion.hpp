@@ -101,6 +101,12 @@ struct Conversion {
   std::vector<double> node_masses() const;  ///< likewise, by node, of all bodies together
 };
 
+/// Of a slave's faces those that lie on the master: all of whose corners are within 5 % of the shorter diagonal of a
+/// master's face, as LS-DYNA ties them (*CONTACT_TIED, remark on tolerances of solids [LSTC 2021]).
+/// @param left_out how many nodes lie so near, but are corners of no such face
+std::vector<Face> faces_on(const Mesh& mesh, const std::vector<Face>& slave, const std::vector<Face>& master,
+                           std::size_t& left_out);
+
 void write_bodies(Conversion& conversion);
 void write_points(Conversion& conversion);
 void write_joints(Conversion& conversion);

@@ -1,5 +1,3 @@
-#include "deck/tied_faces.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -7,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "deck/conversion.hpp"
 #include "mesh/nearest_on_triangle.hpp"
 #include "mesh/vectors.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "deck/conversion.hpp"
-#include "deck/tied_faces.hpp"
 #include "mesh/vectors.hpp"
 
 namespace railwave::deck {

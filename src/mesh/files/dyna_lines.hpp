@@ -11,7 +11,7 @@
 #include "mesh/files/numbered_mesh.hpp"
 
 /// The lines of an LS-DYNA keyword deck. Format: LS-DYNA Keyword User's Manual, volume I, "Getting started" and
-/// *INCLUDE [LSTC-2021].
+/// *INCLUDE [LSTC 2021].
 namespace railwave {
 
 struct DynaLine {

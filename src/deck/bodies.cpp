@@ -7,12 +7,19 @@
 #include <numeric>
 
 #include "case/error.hpp"
+#include "mesh/files/text_file.hpp"
 #include "mesh/hexahedron.hpp"
 
 namespace railwave::deck {
 namespace {
 
-/// Letters, digits, _ and -, as names of a case are; "" where nothing of a title is left.
+int root_of(std::vector<int>& parent, int i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+
+}  // namespace
+
 std::string fit_name(const std::string& title) {
   constexpr std::size_t longest = 40;
   std::string name;
@@ -28,13 +35,6 @@ std::string fit_name(const std::string& title) {
   const bool has_letter = std::any_of(name.begin(), name.end(), [](char c) { return c > '9'; });
   return has_letter ? name : "";
 }
-
-int root_of(std::vector<int>& parent, int i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-}  // namespace
 
 Bodies::Bodies(const Deck& deck, const std::map<Number, Settings>& settings, Report& report)
     : mesh_(deck.mesh.connect()) {
@@ -110,6 +110,7 @@ void Bodies::group(const Deck& deck, const std::map<Number, Settings>& settings,
   }
   for (Body& body : bodies_) {
     body.element_set = fmt::format("{}_{}", body.parts.size() == 1 ? "part" : "parts", fmt::join(body.parts, "_"));
+    if (deck.of_abaqus) body.element_set = lower_case(body.name);
     if (body.element_set.size() > 80) body.element_set = fmt::format("parts_{}_and_more", body.parts.front());
     for (const Number number : body.parts) {
       const Source& source = deck.parts.at(number).source;

@@ -10,6 +10,9 @@
 
 namespace railwave::deck {
 
+/// A title as names of a case are: letters, digits, _ and -; "" where nothing of it is left.
+std::string fit_name(const std::string& title);
+
 /// What sets a part's elements apart from those of others, besides their places.
 struct Settings {
   Number material = 0;

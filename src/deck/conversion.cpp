@@ -107,7 +107,10 @@ Target Conversion::target(const std::vector<int>& nodes) const {
 }
 
 std::string Conversion::name_of(const Nodes& nodes) const {
-  return fmt::format("{}_{}", nodes.is_set ? "nodes" : "node", nodes.number);
+  if (!nodes.is_set) return fmt::format("node_{}", nodes.number);
+  const auto set = deck.node_sets.find(nodes.number);
+  const std::string title = set == deck.node_sets.end() ? "" : fit_name(set->second.title);
+  return title.empty() ? fmt::format("nodes_{}", nodes.number) : title;
 }
 
 std::string Conversion::node_name(int node) {
@@ -167,6 +170,12 @@ std::vector<Face> Conversion::faces_of_set(Number number, const Source& source) 
   return faces;
 }
 
+std::string Conversion::name_of_segments(Number number) const {
+  const auto set = deck.segment_sets.find(number);
+  const std::string title = set == deck.segment_sets.end() ? "" : fit_name(set->second.title);
+  return title.empty() ? fmt::format("segments_{}", number) : title;
+}
+
 std::map<int, std::vector<Face>> Conversion::by_body(const std::vector<Face>& faces) const {
   std::map<int, std::vector<Face>> result;
   for (const Face& face : faces) result[bodies.of_element(face.element)].push_back(face);
@@ -200,8 +209,9 @@ std::string Conversion::use_curve(Number number, const Source& source) {
   const Curve& of_deck = curve(number, source);
   const std::string name = fmt::format("curve_{}", number);
   if (curves.count(name) != 0) return name;
-  report.add(Fate::taken, of_deck.source, fmt::format("[curves.{}]", name));
   const auto& last = of_deck.points.back();
+  if (of_deck.source.keyword == "STEP") return add_curve(name, of_deck.points);  // what holds without an amplitude
+  report.add(Fate::taken, of_deck.source, fmt::format("[curves.{}]", name));
   if (deck.control.end && last[0] < *deck.control.end)
     report.add(Fate::replaced, of_deck.source,
                fmt::format("the curve ends at {}, before the run: here its last value, {}, holds from then on", last[0],

@@ -73,7 +73,8 @@ struct Conversion {
   const NumberSet& part_set(Number number, const Source& source) const;
   std::vector<int> members(const Nodes& nodes, const Source& source);
   Target target(const std::vector<int>& nodes) const;
-  std::string name_of(const Nodes& nodes) const;
+  std::string name_of(const Nodes& nodes) const;      ///< for a set of the mesh: the title, or the number
+  std::string name_of_segments(Number number) const;  ///< likewise
 
   /// One node as a case names it: a set of a body, or a point.
   std::string node_name(int node);

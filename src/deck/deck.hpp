@@ -224,6 +224,7 @@ struct Control {
 
 struct Deck {
   std::string title;
+  bool of_abaqus = false;             ///< numbers stand for names
   NumberedMesh mesh;                  ///< all nodes; hexahedra
   std::vector<int> node_scopes;       ///< by position of the node, see DynaScope
   std::vector<Number> element_parts;  ///< by position of the element

@@ -7,8 +7,10 @@
 #include <filesystem>
 
 #include "case/error.hpp"
+#include "deck/abaqus_deck.hpp"
 #include "deck/conversion.hpp"
 #include "deck/deck_reader.hpp"
+#include "mesh/files/text_file.hpp"
 
 namespace railwave::deck {
 namespace {
@@ -54,7 +56,10 @@ void set_hourglass(const Deck& deck, const Part& part, Settings& settings, Repor
   if (type > 5) settings.hourglass = usual_stiffness;
   if (settings.hourglass > 1) settings.hourglass = 1;
   const char* kind = settings.stiffness ? "stiffness" : "viscous";
-  if (type == 2 || type == 1 || type == 3)
+  if (deck.of_abaqus)
+    report.add(Fate::replaced, source,
+               fmt::format("hourglass = \"{}\", {}, in place of Abaqus' own", kind, settings.hourglass));
+  else if (type == 2 || type == 1 || type == 3)
     report.add(type == 2 ? Fate::taken : Fate::replaced, source,
                fmt::format("hourglass = \"{}\", {} (IHQ {})", kind, settings.hourglass, type));
   else
@@ -171,10 +176,17 @@ Import import_deck(const std::string& path, const ImportOptions& options) {
   Report report(options.drop);
   std::optional<Units> units;
   if (!options.units.empty()) units = units_of(options.units);
-  read_deck(path, deck, report);
+  const bool abaqus = lower_case(std::filesystem::path(path).extension().string()) == ".inp";
+  deck.of_abaqus = abaqus;
+  if (abaqus)
+    read_abaqus_deck(path, deck, report);
+  else
+    read_deck(path, deck, report);
   if (!deck.control.end || !(*deck.control.end > 0)) {
-    const Source nowhere{deck.control.end ? deck.control.end_source.place : FilePlace{0, 1}, "CONTROL_TERMINATION"};
-    report.refuse_always(nowhere, "the deck has no end time; give it by ENDTIM of *CONTROL_TERMINATION");
+    const Source nowhere{deck.control.end ? deck.control.end_source.place : FilePlace{0, 1},
+                         abaqus ? "STEP" : "CONTROL_TERMINATION"};
+    report.refuse_always(nowhere, abaqus ? "the deck has no step with a time; give it *DYNAMIC, EXPLICIT"
+                                         : "the deck has no end time; give it by ENDTIM of *CONTROL_TERMINATION");
   }
   const auto settings = part_settings(deck, report);
   report.check(deck.mesh.files);

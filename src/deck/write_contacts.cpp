@@ -58,7 +58,7 @@ std::vector<SideSurface> surfaces_of(Conversion& conversion, const Contact& cont
     name = "skin";
   } else if (side.type == 0) {
     faces = conversion.faces_of_set(side.number, source);
-    name = fmt::format("segments_{}", side.number);
+    name = conversion.name_of_segments(side.number);
   } else if (side.type == 2 || side.type == 3) {
     faces = conversion.skin_of(conversion.parts_of(side.number, side.type == 2, source));
     name = fmt::format("{}_{}_skin", side.type == 2 ? "parts" : "part", side.number);

@@ -168,7 +168,7 @@ void write_body_loads(Conversion& conversion) {
       gravity[load.direction] -= load.scale * first * conversion.units.acceleration();
       any = true;
       conversion.report.add(Fate::taken, load.source, "[gravity], against the direction of the base's acceleration");
-      conversion.report.add(Fate::taken, curve.source, "it is constant: [gravity]");
+      if (curve.source.keyword != "STEP") conversion.report.add(Fate::taken, curve.source, "it is constant: [gravity]");
       continue;
     }
     const std::string name = conversion.use_curve(load.curve, load.source);

@@ -37,7 +37,10 @@ std::string WrittenMesh::keep(std::map<std::string, Set>& sets, int body, Set se
     const auto other_kind = [&](const auto& others) {
       return static_cast<const void*>(&others) != static_cast<const void*>(&sets) && others.count(candidate) != 0;
     };
-    return other_kind(node_sets_) || other_kind(element_sets_) || other_kind(surfaces_);
+    const auto& all = bodies_.all();
+    const bool of_body =
+        std::any_of(all.begin(), all.end(), [&](const Body& one) { return one.element_set == candidate; });
+    return of_body || other_kind(node_sets_) || other_kind(element_sets_) || other_kind(surfaces_);
   };
   for (int n = 2;; ++n) {
     const auto known = sets.find(own);

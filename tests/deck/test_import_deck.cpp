@@ -25,20 +25,21 @@ const std::string cube = "*KEYWORD\n" + nodes + solid + steel + part + end;
 
 class Decks {
  public:
-  deck::Import take(const std::string& text, const std::string& units = "", std::vector<std::string> drop = {}) {
+  deck::Import take(const std::string& text, const std::string& units = "", std::vector<std::string> drop = {},
+                    const std::string& name = "deck.k") {
     deck::ImportOptions options;
     options.units = units;
     options.drop = std::move(drop);
-    return deck::import_deck(folder_.write("deck.k", text), options);
+    return deck::import_deck(folder_.write(name, text), options);
   }
   /// Why it is refused, without the folder's name; "" when it is taken.
-  std::string refusal(const std::string& text, std::vector<std::string> drop = {}) {
+  std::string refusal(const std::string& text, std::vector<std::string> drop = {}, const std::string& name = "deck.k") {
     try {
-      take(text, "", std::move(drop));
+      take(text, "", std::move(drop), name);
       return "";
     } catch (const InputError& error) {
       const std::string said = error.what();
-      const auto begin = said.find("deck.k:");
+      const auto begin = said.find(name + ":");
       return begin == std::string::npos ? said : said.substr(begin);
     }
   }
@@ -274,10 +275,62 @@ TEST_CASE("a rigid part is refused with a mend; one without elements does no har
 }
 
 TEST_CASE("a deck cut short anywhere is refused or taken, never worse") {
-  const std::string whole = text_of(std::string(source_folder) + "/tests/deck/data/everything.k");
+  const std::string name = GENERATE("deck.k", "deck.inp");
+  const std::string whole = text_of(std::string(source_folder) + "/tests/deck/data/everything" + name.substr(4));
   Decks decks;
   int refused = 0, taken = 0;
   for (std::size_t length = 0; length < whole.size(); length += 7)
-    (decks.refusal(whole.substr(0, length)).empty() ? taken : refused)++;
+    (decks.refusal(whole.substr(0, length), {}, name).empty() ? taken : refused)++;
   CHECK(refused > 100);
+}
+
+TEST_CASE("an Abaqus input of an explicit step becomes a case, names and all") {
+  Decks decks;
+  const auto import =
+      decks.take(text_of(std::string(source_folder) + "/tests/deck/data/everything.inp"), "mm,t,s", {}, "deck_.inp");
+  const auto scene = decks.scene_of(import);
+  REQUIRE(scene.parts.size() == 3);
+  CHECK(scene.parts[1].name == "upper");
+  CHECK(scene.parts[0].mass_damping == 50);
+  CHECK(scene.parts[0].quadratic_bulk_viscosity == 1.0);  // b2^2
+  CHECK(scene.materials[1].yield_stress == 250e6);
+  CHECK(std::abs(scene.materials[1].tangent_modulus / (210e9 * 1e9 / 211e9) - 1) < 1e-12);
+  CHECK(scene.constraints[0].target == "lower.lower_floor");
+  CHECK(scene.prescribed_motions[0].displacement[1] == 1e-5);
+  CHECK(scene.initial_motions[0].velocity[0] == 5e-3);
+  CHECK(scene.initial_motions[0].velocity[2] == -0.5);
+  CHECK(scene.loads[0].force[0] == 4);  // 2 N on each of two nodes
+  CHECK(scene.loads[1].pressure == 1.5e6);
+  CHECK(scene.loads[2].pressure == 0.5e6);
+  CHECK(scene.gravity[2] == -9.81);
+  CHECK(scene.contacts[0].friction == 0.3);
+  CHECK(scene.ties[0].name == "glue");
+  CHECK(scene.time.end == 1e-6);
+  CHECK(scene.output.field_interval == 5e-7);
+  CHECK(scene.output.history_sets[0] == "upper.upper_edge");
+}
+
+TEST_CASE("what of Abaqus would change the result is refused with its line") {
+  const std::string cube_of_abaqus =
+      "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+      "*ELEMENT, TYPE=C3D8R, ELSET=E\n1,1,2,3,4,5,6,7,8\n*MATERIAL, NAME=M\n*DENSITY\n7800\n*ELASTIC\n2.1e11,.3\n";
+  const std::string section = "*SOLID SECTION, ELSET=E, MATERIAL=M\n", step = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-4\n";
+  struct Row {
+    std::string text, expected;
+  };
+  const Row row = GENERATE_COPY(
+      Row{cube_of_abaqus + step, "is in no *SOLID SECTION"}, Row{cube_of_abaqus + section, "no step with a time"},
+      Row{cube_of_abaqus + section + "*STEP\n*STATIC\n", "*STATIC"},
+      Row{cube_of_abaqus + section + "*RIGID BODY, REF NODE=1, ELSET=E\n" + step, "deck.inp:18: *RIGIDBODY"},
+      Row{cube_of_abaqus + section + step + "*BOUNDARY\n1,1,1,0.5\n", "jumps at the start"},
+      Row{cube_of_abaqus + section + step + "*BOUNDARY\nnowhere,1\n", "there is no node set 'nowhere'"},
+      Row{cube_of_abaqus + section + step + "*CLOAD\n99,1,2\n", "there is no node 99"},
+      Row{cube_of_abaqus + section + step + "*CLOAD, AMPLITUDE=A\n1,1,2\n", "there is no curve"},
+      Row{cube_of_abaqus + section + step + "*DLOAD\nE,CENTRIF,1\n", "load 'centrif' isn't read"},
+      Row{cube_of_abaqus + section + step + "*CONTACT PAIR\na,b\n", "there is no surface 'a'"},
+      Row{cube_of_abaqus + "*USER MATERIAL, CONSTANTS=1\n1\n" + section + step, "*USERMATERIAL"},
+      Row{cube_of_abaqus + section + step + step, "second step"});
+  Decks decks;
+  CAPTURE(row.text);
+  CHECK_THAT(decks.refusal(row.text, {}, "deck.inp"), ContainsSubstring(row.expected));
 }

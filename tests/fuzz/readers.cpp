@@ -80,8 +80,8 @@ void feed_abaqus(std::string_view bytes) { feed_mesh<read_abaqus_file>(bytes, "c
 void feed_gmsh(std::string_view bytes) { feed_mesh<read_gmsh_file>(bytes, "case.msh"); }
 
 /// A deck that is taken gives a mesh and a case that are read again.
-void feed_deck(std::string_view bytes) {
-  const auto path = folder().write("case.k", bytes);
+void feed_model(std::string_view bytes, const char* name) {
+  const auto path = folder().write(name, bytes);
   deck::ImportOptions options;
   options.mesh_file = "imported.inp";
   try {
@@ -104,6 +104,9 @@ void feed_deck(std::string_view bytes) {
     check(std::strlen(error.what()) > 10, "a message that says nothing");
   }
 }
+
+void feed_deck(std::string_view bytes) { feed_model(bytes, "case.k"); }
+void feed_abaqus_model(std::string_view bytes) { feed_model(bytes, "case.inp"); }
 
 /// Height maps, and the same bytes as the file of a curve.
 void feed_tables(std::string_view bytes) {

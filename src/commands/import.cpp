@@ -37,7 +37,12 @@ ImportFiles files_of(const ImportRequest& request) {
   const fs::path text =
       request.out.empty() ? fs::path(request.deck).filename().replace_extension(".toml") : fs::path(request.out);
   fs::path mesh = text, report = text;
-  return {text.string(), mesh.replace_extension(".inp").string(), report.replace_extension(".import.txt").string()};
+  mesh.replace_extension(".inp");
+  // Beside an Abaqus input of that name.
+  std::error_code ignored;
+  if (fs::weakly_canonical(mesh, ignored) == fs::weakly_canonical(request.deck, ignored))
+    mesh.replace_filename(text.stem().string() + "_mesh.inp");
+  return {text.string(), mesh.string(), report.replace_extension(".import.txt").string()};
 }
 
 bool holds(const std::string& path, const std::string& text) {
@@ -96,8 +101,11 @@ std::vector<std::string> try_case(const ImportFiles& files, const deck::Import& 
 }  // namespace
 
 void add_import_command(CLI::App& app, ImportRequest& request, const std::function<void()>& run) {
-  CLI::App* command = app.add_subcommand("import", "make a mesh and a case of an LS-DYNA keyword deck");
-  command->add_option("deck", request.deck, "keyword deck (.k, .key, .dyn); docs/decks.md lists its keywords")
+  CLI::App* command =
+      app.add_subcommand("import", "make a mesh and a case of an LS-DYNA keyword deck or an Abaqus input");
+  command
+      ->add_option("deck", request.deck,
+                   "keyword deck (.k, .key, .dyn ...) or Abaqus input (.inp); docs/decks.md lists their keywords")
       ->required();
   command->add_option("--out", request.out,
                       "case file to write; its mesh (.inp) and a report (.import.txt), line by line what was taken, "

@@ -253,17 +253,15 @@ void AbaqusDeckReader::finish() {
   for (const auto& [contact, interaction] : interactions_)
     if (const auto found = friction_.find(interaction); found != friction_.end())
       deck.contacts[contact].friction = found->second;
-  for (const auto& [number, part] : deck.parts) {
-    const auto add = [&](const std::map<Number, double>& values, bool by_mass) {
+  for (const auto& [number, part] : deck.parts)
+    for (const bool by_mass : {true, false}) {
+      const auto& values = by_mass ? mass_damping_ : stiffness_damping_;
       const auto found = values.find(part.material);
-      if (found == values.end() || found->second == 0) return;
-      Damping damping{{part.source.place, "DAMPING"},          by_mass, number, false, 0,
-                      by_mass ? found->second : -found->second};
-      deck.dampings.push_back(damping);
-    };
-    add(mass_damping_, true);
-    add(stiffness_damping_, false);
-  }
+      if (found == values.end() || found->second == 0) continue;
+      // Below 0 the second kind is Rayleigh's beta.
+      const double value = by_mass ? found->second : -found->second;
+      deck.dampings.push_back({{part.source.place, "DAMPING"}, by_mass, number, false, 0, value});
+    }
   for (std::size_t e = 0; e < deck.element_parts.size(); ++e)
     if (deck.element_parts[e] == 0)
       fail(deck.mesh.place_of_element(static_cast<int>(e)),

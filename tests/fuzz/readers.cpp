@@ -133,7 +133,8 @@ void feed_tables(std::string_view bytes) {
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all{
-      {"case", feed_case}, {"abaqus", feed_abaqus}, {"gmsh", feed_gmsh}, {"tables", feed_tables}, {"deck", feed_deck},
+      {"case", feed_case},     {"abaqus", feed_abaqus}, {"gmsh", feed_gmsh},
+      {"tables", feed_tables}, {"deck", feed_deck},     {"abaqus_model", feed_abaqus_model},
   };
   return all;
 }

@@ -49,6 +49,9 @@ void read_abaqus_boundary(AbaqusDeckReader& reader, const AbaqusKeyword& keyword
   if (!type.empty() && type != "displacement" && type != "velocity" && type != "acceleration")
     reader.report.refuse(reader.source(keyword), "BOUNDARY.TYPE",
                          "TYPE is read of DISPLACEMENT, VELOCITY, ACCELERATION");
+  if (keyword.value("OP") == "new")
+    reader.report.refuse(reader.source(keyword), "BOUNDARY.OP",
+                         "OP=NEW takes conditions away that stand before the step; leave these out instead");
   while (reader.lines.has_data()) {
     std::vector<std::string> fields;
     for (const auto field : reader.lines.take_fields()) fields.push_back(lower_case(field));

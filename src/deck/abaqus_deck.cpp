@@ -200,6 +200,10 @@ void AbaqusDeckReader::read_node_output(const AbaqusKeyword& keyword) {
 void AbaqusDeckReader::take(const AbaqusKeyword& keyword) {
   const std::string& name = keyword.name;
   if (of_mesh(name)) {
+    if (const std::string type = keyword.value("TYPE"); name == "ELEMENT")
+      report.add(type == "c3d8r" ? Fate::taken : Fate::replaced, source(keyword),
+                 type == "c3d8r" ? "one-point hexahedra, the elements here"
+                                 : "one-point hexahedra with hourglass control by stiffness");
     if (keyword.has("INPUT") && is_among(name, {"NODE", "ELEMENT", "NSET", "ELSET"})) lines.include(keyword);
     return skip();
   }

@@ -30,7 +30,8 @@ Handler handler_of(const std::string& name) {
   const auto found = handlers().find(name);
   if (found != handlers().end()) return found->second;
   if (begins_with(name, "CONTACT_") && !begins_with(name, "CONTACT_FORCE_TRANSDUCER")) return read_contact;
-  if (begins_with(name, "MAT_") && !begins_with(name, "MAT_ADD_")) return read_other_material;
+  if (begins_with(name, "MAT_") && !begins_with(name, "MAT_ADD_") && !begins_with(name, "MAT_THERMAL"))
+    return read_other_material;
   return nullptr;
 }
 

@@ -190,7 +190,9 @@ Import import_deck(const std::string& path, const ImportOptions& options) {
   }
   const auto settings = part_settings(deck, report);
   report.check(deck.mesh.files);
-  if (!units) units = guessed_units(deck, path);
+  std::set<Number> materials;
+  for (const auto& [number, of_part] : settings) materials.insert(of_part.material);
+  if (!units) units = guessed_units(deck, materials, path);
   report_unused(deck, settings, report);
   Bodies bodies(deck, settings, report);
   report.check(deck.mesh.files);

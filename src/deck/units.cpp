@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "case/error.hpp"
@@ -45,12 +46,9 @@ bool fits(const Material& material, const Units& units) {
   return density > 5 && density < 30000 && modulus > 1e4 && modulus < 2e12;
 }
 
-bool fit(const Deck& deck, const Units& units) {
-  for (const auto& [number, material] : deck.materials) {
-    const bool solid = material.kind == Material::Kind::elastic || material.kind == Material::Kind::plastic;
-    if (solid && !fits(material, units)) return false;
-  }
-  return true;
+bool fit(const Deck& deck, const std::set<Number>& materials, const Units& units) {
+  return std::all_of(materials.begin(), materials.end(),
+                     [&](Number number) { return fits(deck.materials.at(number), units); });
 }
 
 }  // namespace
@@ -75,15 +73,15 @@ Units units_of(const std::string& names) {
                   for_message(names)));
 }
 
-Units guessed_units(const Deck& deck, const std::string& path) {
+Units guessed_units(const Deck& deck, const std::set<Number>& materials, const std::string& path) {
   const Units si;
-  if (fit(deck, si)) return si;
+  if (fit(deck, materials, si)) return si;
   std::vector<std::string> fitting;
   for (const char* names : {"mm,t,s", "mm,kg,ms", "mm,g,ms", "cm,g,us", "in,slinch,s", "cm,g,s", "m,kg,ms", "mm,kg,s"})
-    if (fit(deck, units_of(names))) fitting.push_back(std::string("--units ") + names);
-  for (const auto& [number, material] : deck.materials) {
-    const bool solid = material.kind == Material::Kind::elastic || material.kind == Material::Kind::plastic;
-    if (!solid || fits(material, si)) continue;
+    if (fit(deck, materials, units_of(names))) fitting.push_back(std::string("--units ") + names);
+  for (const Number number : materials) {
+    const Material& material = deck.materials.at(number);
+    if (fits(material, si)) continue;
     throw InputError(
         fmt::format("{}:{}: *{}: material {} with a density of {} and a Young's modulus of {} is none in SI units; {}",
                     deck.mesh.files[material.source.place.file], material.source.place.position,

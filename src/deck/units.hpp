@@ -26,6 +26,7 @@ Units units_of(const std::string& names);
 
 /// The units that a deck's materials are in, judged by densities and stiffness of solids: SI where these are possible
 /// in it. Throws InputError with the units that fit, where SI does not.
-Units guessed_units(const Deck& deck, const std::string& path);
+/// @param materials of parts of solids
+Units guessed_units(const Deck& deck, const std::set<Number>& materials, const std::string& path);
 
 }  // namespace railwave::deck

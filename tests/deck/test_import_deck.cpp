@@ -213,6 +213,7 @@ TEST_CASE("what would change the result is refused with its line, and --drop lea
   const Row row = GENERATE(
       Row{"*MAT_ADD_EROSION\n1,0.3\n", "deck.k:22: *MAT_ADD_EROSION", "MAT_ADD_EROSION"},
       Row{"*RIGIDWALL_PLANAR\n0\n0,0,0,0,0,1\n", "rigid walls", "RIGIDWALL_PLANAR"},
+      Row{"*SET_NODE_LIST\n1\n1\n*SET_NODE_LIST_COLLECT\n1\n2\n", "SET_NODE_LIST_COLLECT", "SET_NODE_LIST_COLLECT"},
       Row{"*BLABLA\n", "may change what is computed", "BLABLA"},
       Row{"*ELEMENT_SHELL\n2,1,1,2,3,4\n", "elements of this kind", "ELEMENT_SHELL"},
       Row{"*CONTROL_IMPLICIT_GENERAL\n1,.1\n", "implicitly", "CONTROL_IMPLICIT_GENERAL"},
@@ -271,6 +272,7 @@ TEST_CASE("a rigid part is refused with a mend; one without elements does no har
   std::string text = cube;
   text.replace(text.find("MAT_ELASTIC"), 11, "MAT_RIGID");
   CHECK_THAT(decks.refusal(text), ContainsSubstring("no rigid bodies") && ContainsSubstring("BOUNDARY_SPC_SET"));
+  CHECK(decks.refusal(cube + "*MAT_THERMAL_ISOTROPIC\n1,0,0,0\n0,0\n*MAT_ELASTIC\n3,1,1,0\n").empty());
   CHECK(decks.refusal(cube + "*PART\nunused\n2,1,2\n*MAT_RIGID\n2,7800,2e11,.3\n\n\n").empty());
 }
 
@@ -324,6 +326,7 @@ TEST_CASE("what of Abaqus would change the result is refused with its line") {
       Row{cube_of_abaqus + section + "*RIGID BODY, REF NODE=1, ELSET=E\n" + step, "deck.inp:18: *RIGIDBODY"},
       Row{cube_of_abaqus + section + step + "*BOUNDARY\n1,1,1,0.5\n", "jumps at the start"},
       Row{cube_of_abaqus + section + step + "*BOUNDARY\nnowhere,1\n", "there is no node set 'nowhere'"},
+      Row{cube_of_abaqus + section + step + "*BOUNDARY, OP=NEW\n1,1\n", "OP=NEW"},
       Row{cube_of_abaqus + section + step + "*CLOAD\n99,1,2\n", "there is no node 99"},
       Row{cube_of_abaqus + section + step + "*CLOAD, AMPLITUDE=A\n1,1,2\n", "there is no curve"},
       Row{cube_of_abaqus + section + step + "*DLOAD\nE,CENTRIF,1\n", "load 'centrif' isn't read"},

@@ -85,7 +85,7 @@ std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) {
       if ((at->first - range.first) % range.step == 0) result.push_back(at->second);
   }
   if (set.all)
-    for (std::size_t n = 0; n < numbers.size(); ++n) result.push_back(static_cast<int>(n));
+    for (std::size_t n = 0; n < deck.own_nodes; ++n) result.push_back(static_cast<int>(n));
   if (!set.parts.empty())
     for (const int e : elements_of({set.parts.begin(), set.parts.end()}))
       for (const int n : bodies.mesh().elements[e]) result.push_back(n);

@@ -195,6 +195,14 @@ struct NonReflecting {
   Number set = 0;
 };
 
+/// A plane that nodes do not pass.
+struct Wall {
+  Source source;
+  Number set = 0;                     ///< of nodes; 0: all
+  Vec3 tail{0, 0, 0}, head{0, 0, 0};  ///< a point of the plane, and one on the side where bodies are
+  double friction = 0;
+};
+
 struct Damping {
   Source source;
   bool by_mass = true;
@@ -249,6 +257,8 @@ struct Deck {
   std::vector<InitialVelocity> velocities;
   std::vector<Contact> contacts;
   std::vector<NonReflecting> non_reflecting;
+  std::vector<Wall> walls;
+  std::size_t own_nodes = 0, own_elements = 0;  ///< without those of walls, which come last
   std::vector<Damping> dampings;
   std::vector<std::pair<Source, Number>> history_nodes, history_node_sets, history_solids;
   Control control;

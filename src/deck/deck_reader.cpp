@@ -37,8 +37,9 @@ Handler handler_of(const std::string& name) {
 
 /// Keywords that hold directions or places besides those of nodes.
 bool has_directions(const std::string& name) {
-  for (const char* beginning : {"INITIAL_", "LOAD_", "BOUNDARY_SPC", "BOUNDARY_PRESCRIBED", "DEFINE_COORDINATE_SYSTEM",
-                                "DEFINE_COORDINATE_VECTOR", "DEFINE_VECTOR", "DEFINE_SD_ORIENTATION"})
+  for (const char* beginning :
+       {"INITIAL_", "LOAD_", "BOUNDARY_SPC", "BOUNDARY_PRESCRIBED", "RIGIDWALL", "DEFINE_COORDINATE_SYSTEM",
+        "DEFINE_COORDINATE_VECTOR", "DEFINE_VECTOR", "DEFINE_SD_ORIENTATION"})
     if (begins_with(name, beginning)) return true;
   return false;
 }
@@ -48,7 +49,8 @@ std::string unknown(const std::string& name) {
     return "elements of this kind aren't read, only hexahedra (ELEMENT_SOLID), beams, discrete elements and point "
            "masses; model the part with these";
   if (begins_with(name, "RIGIDWALL"))
-    return "there are no rigid walls here; model the wall by hexahedra that a *BOUNDARY_SPC holds, and a contact";
+    return "rigid walls are read of RIGIDWALL_PLANAR, infinite and at rest; model others by hexahedra that a "
+           "*BOUNDARY_SPC holds or a *BOUNDARY_PRESCRIBED_MOTION moves, and a contact";
   if (begins_with(name, "CONSTRAINED_NODAL_RIGID") || begins_with(name, "CONSTRAINED_EXTRA") ||
       begins_with(name, "CONSTRAINED_RIGID"))
     return "there are no rigid bodies here; tie the parts by *CONTACT_TIED, or make the rigid part of stiff hexahedra";

@@ -13,6 +13,9 @@ namespace railwave::deck {
 /// what must not be left out, as a refusal. Throws InputError "file:line: what, how to mend" for what can't be read.
 void read_deck(const std::string& path, Deck& deck, Report& report);
 
+/// Makes a held hexahedron of each rigid wall, and a contact with it.
+void make_walls(Deck& deck, Report& report);
+
 /// What readers of keywords work on, and with.
 class DeckReader {
  public:

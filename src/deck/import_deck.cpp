@@ -188,6 +188,7 @@ Import import_deck(const std::string& path, const ImportOptions& options) {
     report.refuse_always(nowhere, abaqus ? "the deck has no step with a time; give it *DYNAMIC, EXPLICIT"
                                          : "the deck has no end time; give it by ENDTIM of *CONTROL_TERMINATION");
   }
+  make_walls(deck, report);
   const auto settings = part_settings(deck, report);
   report.check(deck.mesh.files);
   std::set<Number> materials;

@@ -65,6 +65,27 @@ void read_non_reflecting(Call& call) {
   }
 }
 
+void read_wall(Call& call) {
+  while (call.cards.more()) {
+    if (call.titled) call.cards.title();
+    const DynaCard card = call.cards.take(), plane = call.cards.take();
+    Wall wall;
+    wall.source = call.cards.source(card);
+    wall.set = call.number(card, 0, "NSID", Kind::set);
+    if (card.whole(1, "NSIDEX") != 0 || card.whole(2, "BOXID") != 0)
+      call.reader.report.refuse(wall.source, "RIGIDWALL_PLANAR.NSIDEX",
+                                "exempted nodes (NSIDEX) and boxes (BOXID) aren't read; name the nodes by NSID");
+    refuse_times(call, wall.source, card.real(4, "BIRTH"), card.real(5, "DEATH"));
+    wall.tail = {plane.real(0, "XT"), plane.real(1, "YT"), plane.real(2, "ZT")};
+    wall.head = {plane.real(3, "XH"), plane.real(4, "YH"), plane.real(5, "ZH")};
+    wall.friction = plane.real(6, "FRIC");
+    if (wall.friction >= 1 || wall.friction < 0)
+      call.reader.report.refuse_always(
+          wall.source, "FRIC is read as a coefficient from 0 to below 1; nodes here aren't welded to walls");
+    call.reader.deck.walls.push_back(wall);
+  }
+}
+
 Vec3 vector_of(const DynaCard& card, int first) {
   return {card.real(first, "VX"), card.real(first + 1, "VY"), card.real(first + 2, "VZ")};
 }
@@ -186,6 +207,7 @@ const std::vector<HandlerEntry>& action_handlers() {
                                                 {"BOUNDARY_PRESCRIBED_MOTION_NODE", read_motion},
                                                 {"BOUNDARY_PRESCRIBED_MOTION_SET", read_motion},
                                                 {"BOUNDARY_NON_REFLECTING", read_non_reflecting},
+                                                {"RIGIDWALL_PLANAR", read_wall},
                                                 {"INITIAL_VELOCITY", read_initial_velocity},
                                                 {"INITIAL_VELOCITY_NODE", read_node_velocity},
                                                 {"INITIAL_VELOCITY_GENERATION", read_generated_velocity},

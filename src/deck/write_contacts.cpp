@@ -54,7 +54,8 @@ std::vector<SideSurface> surfaces_of(Conversion& conversion, const Contact& cont
   std::vector<Face> faces;
   std::string name;
   if (side.number == 0 || side.type == 5) {
-    faces = conversion.bodies.exterior();
+    for (const Face& face : conversion.bodies.exterior())
+      if (static_cast<std::size_t>(face.element) < conversion.deck.own_elements) faces.push_back(face);
     name = "skin";
   } else if (side.type == 0) {
     faces = conversion.faces_of_set(side.number, source);

@@ -13,7 +13,7 @@ std::vector<int> nodes_of(Conversion& conversion, const InitialVelocity& initial
   if (initial.of == Of::node || initial.of == Of::node_set)
     return conversion.members({initial.number, initial.of == Of::node_set}, initial.source);
   if (initial.of == Of::all) {
-    for (std::size_t n = 0; n < conversion.deck.mesh.node_count(); ++n) nodes.push_back(static_cast<int>(n));
+    for (std::size_t n = 0; n < conversion.deck.own_nodes; ++n) nodes.push_back(static_cast<int>(n));
     return nodes;
   }
   const auto parts = conversion.parts_of(initial.number, initial.of == Of::part_set, initial.source);

@@ -73,6 +73,35 @@ class Bars(unittest.TestCase):
         self.assertLess(balance / given, 1e-3)
 
 
+class Wall(unittest.TestCase):
+    """One such bar strikes a rigid wall: the force is twice that between two bars, and it comes back."""
+
+    def test_wave_theory(self):
+        deck = Deck("a bar on a wall")
+        deck.block(1, (0, 0, 0.01), (10, 10, 500.01), (2, 2, 100))
+        deck.part(1, "bar", 1)
+        deck.add("*MAT_ELASTIC", card(1, 7.85e-6, 210.0, 0.0), "*RIGIDWALL_PLANAR", card(0, 0, 0))
+        deck.add(card(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0), "*INITIAL_VELOCITY", "", card(0.0, 0.0, -10.0))
+        deck.add("*CONTROL_TERMINATION", card(0.3), "*DATABASE_RCFORC", card(1e-4))
+        with tempfile.TemporaryDirectory() as folder, imported(
+            folder, "wall", deck, "--units", "mm,kg,ms"
+        ) as results:
+            time = results["history/time"][:]
+            force = np.abs(results["history/contact/rigid_wall_1_contact/normal_force"][:, 2])
+            speed = results["fields/bar/velocity"][-1][:, 2].mean()
+            wall = np.abs(results["fields/rigid_wall_1/velocity"][-1]).max()
+        wave = np.sqrt(210e9 / 7850)
+        expected = 7850 * wave * 1e-4 * 10.0
+        plateau = force[(time > 0.25 / wave) & (time < 0.75 / wave)].mean()
+        begin, end = contact_times(time, force, 0.01)
+        print(f"wall: force {plateau:.0f} N, theory {expected:.0f}; contact {1e6 * (end - begin):.1f} us, theory"
+              f" {1e6 / wave:.1f}; velocity after it {speed:.3f} m/s")
+        self.assertAlmostEqual(plateau / expected, 1, delta=0.02)
+        self.assertAlmostEqual((end - begin) * wave, 1, delta=0.05)
+        self.assertAlmostEqual(speed / 10, 1, delta=0.05)
+        self.assertEqual(wall, 0)
+
+
 class Balls(unittest.TestCase):
     """Two equal steel balls of 10 mm radius meet at 5 m/s, quarters of them behind planes of symmetry. In mm, t, s.
     Theory: Johnson, Contact Mechanics, section 11.4."""

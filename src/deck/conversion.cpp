@@ -60,6 +60,7 @@ const NumberSet& Conversion::part_set(Number number, const Source& source) const
   const auto found = deck.part_sets.find(number);
   if (found == deck.part_sets.end())
     fail(source, fmt::format("there is no part set {}; define it, or mend the number", number));
+  report.use(found->second.source, "its parts, where something names them");
   return found->second;
 }
 
@@ -69,6 +70,7 @@ std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) {
   if (found == deck.node_sets.end())
     fail(source, fmt::format("there is no node set {}; define it, or mend the number", nodes.number));
   const NumberSet& set = found->second;
+  report.use(set.source, fmt::format("set '{}' of the mesh, where something names it", name_of(nodes)));
   std::vector<int> result;
   const auto& numbers = deck.mesh.node_numbers();
   for (const Range& range : set.ranges) {
@@ -159,6 +161,8 @@ std::vector<Face> Conversion::faces_of_set(Number number, const Source& source) 
   const auto found = deck.segment_sets.find(number);
   if (found == deck.segment_sets.end())
     fail(source, fmt::format("there is no segment set {}; define it, or mend the number", number));
+  report.use(found->second.source,
+             fmt::format("surface '{}' of the mesh, where something names it", name_of_segments(number)));
   std::vector<Face> faces;
   int outwards = 1;
   for (const Segment& segment : found->second.segments)
@@ -225,6 +229,7 @@ std::array<Vec3, 3> Conversion::axes(Number number, const Source& source) const 
     fail(source,
          fmt::format("there are no axes {} (of *DEFINE_COORDINATE_SYSTEM, _VECTOR or _NODES); define them", number));
   const Axes& given = found->second;
+  report.use(given.source, "axes of what names them");
   if (!given.nodes) return given.axes;
   const auto at = [&](int i) { return bodies.mesh().nodes[node((*given.nodes)[i], given.source)]; };
   const Vec3 along = difference(at(1), at(0)), across = cross(along, difference(at(2), at(0)));

@@ -168,7 +168,10 @@ void DeckReader::take(const DynaKeyword& keyword) {
       handler = handler_of(call.name);
       break;
     }
-  if (handler != nullptr) return handler(call);
+  if (handler != nullptr) {
+    report.add_block(source, keyword.lines.empty() ? keyword.place.position : keyword.lines.back().place.position);
+    return handler(call);
+  }
   std::string why;
   if (is_harmless(call.name, why)) return report.add(Fate::dropped, source, why);
   report.refuse(source, keyword.name, unknown(keyword.name));
@@ -186,6 +189,7 @@ void DeckReader::transform_nodes() {
           fail(at->place, fmt::format("the deck has no *DEFINE_TRANSFORMATION {}; define it, or mend the number",
                                       at->transformation));
         chain.push_back(&found->second);
+        report.use(found->second.source, "nodes of *INCLUDE_TRANSFORM");
       }
       if (at->parent < 0) break;
     }

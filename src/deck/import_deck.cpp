@@ -206,6 +206,7 @@ Import import_deck(const std::string& path, const ImportOptions& options) {
         write_non_reflecting, write_velocities, write_loads, write_contacts, write_run})
     write(conversion);
   report.check(deck.mesh.files);
+  report.close();
 
   Import import;
   import.text = conversion.text.text();

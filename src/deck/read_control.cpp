@@ -34,6 +34,7 @@ void read_timestep(Call& call) {
   const DynaCard card = call.cards.take();
   const Source source = call.cards.source(card);
   call.reader.deck.control.step_scale = card.real(1, "TSSFAC");
+  call.reader.report.add(Fate::taken, source, "TSSFAC: time.step_scale");
   if (card.real(4, "DT2MS") != 0)
     call.reader.report.add(Fate::dropped, source,
                            "DT2MS: no mass is added, and steps are as short as the elements need: results are those "
@@ -46,12 +47,14 @@ void read_hourglass_control(Call& call) {
   const DynaCard card = call.cards.take();
   call.reader.deck.control.hourglass_type = card.whole(0, "IHQ");
   call.reader.deck.control.hourglass_coefficient = card.real(1, "QH");
+  call.reader.report.add(Fate::taken, call.cards.source(card), "of parts without a *HOURGLASS of their own");
 }
 
 void read_bulk_viscosity(Call& call) {
   const DynaCard card = call.cards.take();
   call.reader.deck.control.quadratic_viscosity = card.real(0, "Q1");
   call.reader.deck.control.linear_viscosity = card.real(1, "Q2");
+  call.reader.report.add(Fate::taken, call.cards.source(card), "of parts without a *HOURGLASS of their own");
 }
 
 void read_implicit(Call& call) {

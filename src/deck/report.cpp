@@ -46,6 +46,19 @@ void Report::add(Fate fate, const Source& source, const std::string& text) {
         entry->text == text)
       return;
   entries_.push_back({fate, source, text});
+  places_.insert({source.place.file, source.place.position});
+}
+
+void Report::use(const Source& source, const std::string& text) {
+  if (places_.count({source.place.file, source.place.position}) == 0) add(Fate::taken, source, text);
+}
+
+void Report::close() {
+  for (const Block& block : blocks_) {
+    const auto first = places_.lower_bound({block.source.place.file, block.source.place.position});
+    if (first == places_.end() || *first > std::make_pair(block.source.place.file, block.last_line))
+      add(Fate::dropped, block.source, "nothing that is taken uses it");
+  }
 }
 
 bool Report::drops(const std::string& key) {

@@ -43,7 +43,20 @@ class Report {
 
   std::size_t count(Fate fate) const;
 
+  /// The same of a thing that is used, if nothing has been said of it.
+  void use(const Source& source, const std::string& text);
+
+  /// A keyword with its cards, of which the report is to say something.
+  void add_block(const Source& source, std::int64_t last_line) { blocks_.push_back({source, last_line}); }
+
+  /// Says of each block of which nothing has been said that nothing uses it.
+  void close();
+
  private:
+  struct Block {
+    Source source;
+    std::int64_t last_line;
+  };
   struct Entry {
     Fate fate;
     Source source;
@@ -56,6 +69,8 @@ class Report {
   std::vector<std::pair<std::string, bool>> drop_;  // word, whether it met something
   std::vector<Entry> entries_;
   std::vector<Refusal> refusals_;
+  std::vector<Block> blocks_;
+  std::set<std::pair<int, std::int64_t>> places_;  // file and line of the entries
 };
 
 }  // namespace railwave::deck

@@ -148,6 +148,8 @@ const Section& section_of(const Conversion& conversion, Number part_number, cons
   if (!section->second.refusal.empty()) conversion.fail(section->second.source, section->second.refusal);
   if (section->second.kind != kind)
     conversion.fail(section->second.source, "it is not a section of the elements that part has");
+  conversion.report.use(section->second.source, "its elements");
+  conversion.report.use(found->second.source, "its elements");
   return section->second;
 }
 
@@ -156,6 +158,8 @@ const Material& law_of(const Conversion& conversion, const Part& part) {
   if (found == conversion.deck.materials.end())
     conversion.fail(part.source, fmt::format("there is no material {} that is read", part.material));
   if (!found->second.refusal.empty()) conversion.fail(found->second.source, found->second.refusal);
+  if (found->second.kind == Material::Kind::spring || found->second.kind == Material::Kind::damper)
+    conversion.report.use(found->second.source, "stiffness or damping of connectors");
   return found->second;
 }
 
@@ -215,6 +219,7 @@ Vec3 direction_of(const Conversion& conversion, const Discrete& one) {
     if (found == deck.orientations.end())
       conversion.fail(one.source, fmt::format("there is no *DEFINE_SD_ORIENTATION {}; define it", one.orientation));
     const Direction& given = found->second;
+    conversion.report.use(given.source, "direction of connectors");
     if (given.option != 0 && given.option != 2)
       conversion.fail(given.source,
                       fmt::format("IOP {} isn't read, only 0 (a vector) and 2 (two nodes)", given.option));

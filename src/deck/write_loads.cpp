@@ -109,6 +109,7 @@ std::map<std::pair<int, int>, std::vector<Face>> faces_of(const Conversion& conv
   if (set == conversion.deck.segment_sets.end())
     conversion.fail(pressure.source, fmt::format("there is no segment set {}; define it", pressure.set));
   add(set->second.segments, set->second.source);
+  conversion.report.use(set->second.source, "surface of the pressure");
   const auto& parts = set->second.parts;
   if (!parts.empty())
     for (const Face& face : conversion.skin_of({parts.begin(), parts.end()}))

@@ -4,6 +4,7 @@ that it writes passes `railwave check` and runs. scripts/try_decks on a folder o
 import csv
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -43,6 +44,18 @@ class Import(unittest.TestCase):
         report = (self.path / "long.import.txt").read_text(encoding="utf-8").splitlines()
         self.assertTrue(all(line.startswith(str(DATA / "long.k")) for line in report[1:]))
         self.assertTrue(any("*SECTION_SOLID: replaced: ELFORM 2" in line for line in report))
+
+    def test_the_report_has_every_keyword(self):
+        done = self.call("import", DATA / "everything.k", "--units", UNITS["everything.k"])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = (self.path / "everything.import.txt").read_text(encoding="utf-8")
+        said = {int(line) for line in re.findall(r"everything\.k:(\d+): ", report)}
+        lines = (DATA / "everything.k").read_text(encoding="ascii").splitlines()
+        keywords = [number for number, line in enumerate(lines, 1) if line.startswith("*")]
+        for begin, end in zip(keywords, keywords[1:]):
+            with self.subTest(keyword=lines[begin - 1]):
+                self.assertTrue(said & set(range(begin, end)))
+        self.assertIn("*SET_PART_LIST: dropped: nothing that is taken uses it", report)
 
     def test_a_case_that_was_edited_stays(self):
         self.assertEqual(self.call("import", DATA / "long.k").returncode, 0)

@@ -212,7 +212,7 @@ TEST_CASE("what would change the result is refused with its line, and --drop lea
   };
   const Row row = GENERATE(
       Row{"*MAT_ADD_EROSION\n1,0.3\n", "deck.k:22: *MAT_ADD_EROSION", "MAT_ADD_EROSION"},
-      Row{"*RIGIDWALL_PLANAR\n0\n0,0,0,0,0,1\n", "rigid walls", "RIGIDWALL_PLANAR"},
+      Row{"*RIGIDWALL_GEOMETRIC_SPHERE\n0\n0,0,0,0,0,1\n", "rigid walls", "RIGIDWALL*"},
       Row{"*SET_NODE_LIST\n1\n1\n*SET_NODE_LIST_COLLECT\n1\n2\n", "SET_NODE_LIST_COLLECT", "SET_NODE_LIST_COLLECT"},
       Row{"*BLABLA\n", "may change what is computed", "BLABLA"},
       Row{"*ELEMENT_SHELL\n2,1,1,2,3,4\n", "elements of this kind", "ELEMENT_SHELL"},

@@ -12,6 +12,8 @@ namespace railwave::deck {
 namespace {
 
 constexpr std::size_t most_refusals = 20;
+// No deck of people has as many; what has more is only counted.
+constexpr std::size_t most_entries = 200000, most_kept_refusals = 10000;
 
 const char* called(Fate fate) {
   return fate == Fate::taken ? "taken" : fate == Fate::replaced ? "replaced" : "dropped";
@@ -45,6 +47,10 @@ void Report::add(Fate fate, const Source& source, const std::string& text) {
     if (entry->source.place.file == source.place.file && entry->source.place.position == source.place.position &&
         entry->text == text)
       return;
+  if (entries_.size() == most_entries) {
+    ++more_entries_;
+    return;
+  }
   entries_.push_back({fate, source, text});
   places_.insert({source.place.file, source.place.position});
 }
@@ -54,6 +60,7 @@ void Report::use(const Source& source, const std::string& text) {
 }
 
 void Report::close() {
+  if (more_entries_ > 0) return;
   for (const Block& block : blocks_) {
     const auto first = places_.lower_bound({block.source.place.file, block.source.place.position});
     if (first == places_.end() || *first > std::make_pair(block.source.place.file, block.last_line))
@@ -73,11 +80,16 @@ bool Report::refuse(const Source& source, const std::string& key, const std::str
     add(Fate::dropped, source, "as --drop asks, though " + text);
     return true;
   }
-  refusals_.push_back({source, fmt::format("{}; mend the deck, or leave that out by --drop {}", text, key)});
+  refuse_always(source, fmt::format("{}; mend the deck, or leave that out by --drop {}", text, key));
   return false;
 }
 
-void Report::refuse_always(const Source& source, const std::string& text) { refusals_.push_back({source, text}); }
+void Report::refuse_always(const Source& source, const std::string& text) {
+  if (refusals_.size() == most_kept_refusals)
+    ++more_refusals_;
+  else
+    refusals_.push_back({source, text});
+}
 
 void Report::check(const std::vector<std::string>& files) const {
   if (refusals_.empty()) return;
@@ -97,9 +109,9 @@ void Report::check(const std::vector<std::string>& files) const {
   }
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (more[i] > 0) lines[i] += fmt::format(" (and {} more like it)", more[i]);
-  if (lines.size() > most_refusals) {
-    const std::size_t rest = lines.size() - most_refusals;
-    lines.resize(most_refusals);
+  if (lines.size() > most_refusals || more_refusals_ > 0) {
+    const std::size_t kept = std::min(lines.size(), most_refusals), rest = lines.size() - kept + more_refusals_;
+    lines.resize(kept);
     lines.push_back(fmt::format("and {} more; nothing was written", rest));
   }
   throw InputError(lines);
@@ -128,6 +140,7 @@ std::string Report::text(const std::vector<std::string>& files) const {
   for (const Entry* entry : ordered)
     text += fmt::format("{}:{}: *{}: {}: {}\n", files[entry->source.place.file], entry->source.place.position,
                         entry->source.keyword, called(entry->fate), entry->text);
+  if (more_entries_ > 0) text += fmt::format("and {} more\n", more_entries_);
   return text;
 }
 

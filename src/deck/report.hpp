@@ -69,6 +69,7 @@ class Report {
   std::vector<std::pair<std::string, bool>> drop_;  // word, whether it met something
   std::vector<Entry> entries_;
   std::vector<Refusal> refusals_;
+  std::size_t more_entries_ = 0, more_refusals_ = 0;  // that are only counted
   std::vector<Block> blocks_;
   std::set<std::pair<int, std::int64_t>> places_;  // file and line of the entries
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/error.hpp"
+#include "mesh/files/mesh_file.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/vectors.hpp"
 
@@ -22,13 +23,14 @@ std::string toml(const Vec3& value) {
 }
 
 std::string toml(const std::string& text) {
+  const bool readable = is_utf8(text);  // titles of decks are in any encoding
   std::string result = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (c == '"' || c == '\\')
       result += std::string("\\") + c;
     else
-      result += byte < 0x20 || byte >= 0x7f ? ' ' : c;  // decks are in any encoding
+      result += byte < 0x20 || byte == 0x7f || (byte > 0x7f && !readable) ? ' ' : c;
   }
   return result + '"';
 }

@@ -53,6 +53,10 @@ class Cards {
 
   bool left() const { return at_ < keyword_.lines.size(); }
 
+  bool next_begins_with(char c) const {
+    return left() && !keyword_.lines[at_].text.empty() && keyword_.lines[at_].text[0] == c;
+  }
+
   /// Passes over empty lines; whether there is another after them.
   bool more();
 

@@ -88,7 +88,10 @@ void read_contact(Call& call) {
     contact.number = head.whole(0, "CID");
     contact.title = std::string(head.text(1));
   }
-  if (mpp) call.cards.take();
+  if (mpp) {
+    call.cards.take();
+    if (call.cards.next_begins_with('&')) call.cards.take();
+  }
   using Type = Contact::Kind;
   static const std::map<std::string, Type> known = {{"SURFACE_TO_SURFACE", Type::surfaces},
                                                     {"AUTOMATIC_SURFACE_TO_SURFACE", Type::surfaces},

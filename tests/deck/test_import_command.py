@@ -69,6 +69,14 @@ class Import(unittest.TestCase):
         self.assertEqual(self.call("import", DATA / "long.k", "--overwrite").returncode, 0)
         self.assertNotIn("# mine", case.read_text())
 
+    def test_names_and_titles_of_any_letters(self):
+        text = (DATA / "long.k").read_bytes()
+        (self.path / "träger 1.k").write_bytes(text.replace(b"a cube", b"W\xfcrfel"))  # the title in Latin 1
+        done = self.call("import", "träger 1.k")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("träger 1.inp", (self.path / "träger 1.toml").read_text(encoding="utf-8"))
+        self.assertEqual(self.call("check", "träger 1.toml").returncode, 0)
+
     def test_files_of_others_stay(self):
         (self.path / "long.inp").write_text("*NODE\n")
         done = self.call("import", DATA / "long.k")

@@ -44,6 +44,9 @@ Mesh read_gmsh_file(const std::string& path, std::vector<std::string>* notes = n
 /// and the name is cut to 100 bytes.
 std::string fit_set_name(const std::string& name);
 
+/// Whether all of a text is UTF-8.
+bool is_utf8(const std::string& text);
+
 /// Renames all sets of a mesh read from a file by fit_set_name(); `notes`, when given, receives a line for each that
 /// was changed. Throws InputError where two sets would have one name.
 void fit_set_names(Mesh& mesh, const std::string& path, std::vector<std::string>* notes);

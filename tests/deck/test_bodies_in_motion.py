@@ -1,9 +1,11 @@
 """What each keyword does to a body, against what it should: one deck of free cubes, a cube a keyword. In mm, t, s."""
 
+import csv
 import os
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 import h5py
@@ -135,6 +137,42 @@ class Bodies(unittest.TestCase):
         rate = np.sqrt(1e3 / 1e-3)
         expected = -9.81 / rate**2 * (1 - np.cos(rate * self.time))
         np.testing.assert_allclose(self.swing, expected, atol=2e-3 * np.abs(expected).max())
+
+
+class Cantilever(unittest.TestCase):
+    """A beam of 500 mm, 20 mm high along s, 10 mm wide along t, clamped at one end: its frequencies are Euler's and
+    Bernoulli's, but for some per mille of shear."""
+
+    def test_frequencies_in_both_planes(self):
+        deck, count, length = Deck("a cantilever"), 20, 500.0
+        deck.block(1, (0, 100, 0), (10, 110, 10), (1, 1, 1))  # a case needs a body
+        deck.part(1, "cube", 1)
+        for i in range(count + 1):
+            deck.nodes.append((1000 + i, length * i / count, 0.0, 0.0, 0))
+        deck.nodes.append((2000, 0.0, 100.0, 0.0, 0))  # s is y
+        deck.add("*ELEMENT_BEAM")
+        deck.add(*("".join(f"{n:8d}" for n in (100 + i, 2, 1000 + i, 1001 + i, 2000)) for i in range(count)))
+        deck.add("*BOUNDARY_SPC_NODE", card(1000, 0, 1, 1, 1, 1, 1, 1), "*PART", "beam", card(2, 2, 1))
+        deck.add("*SECTION_BEAM", card(2, 1, 0.0, 0.0, 0.0), card(20.0, 20.0, 10.0, 10.0))
+        deck.add("*MAT_ELASTIC", f"{1:10d}{7.85e-9:10.3e}{2.1e5:10.3e}{0.3:10.3f}", "*CONTROL_TERMINATION", card(1e-5))
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "beam.k"), "w", encoding="ascii") as file:
+                file.write(deck.text())
+            modes = ["modes", "beam.toml", "--up-to", "100", "--csv", "modes.csv"]
+            for command in (["import", "beam.k", "--units", "mm,t,s"], modes):
+                done = subprocess.run([PROGRAM, *command], cwd=folder, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            with open(os.path.join(folder, "beam.toml"), "rb") as file:
+                beam = tomllib.load(file)["beams"]["beam_100"]
+            with open(os.path.join(folder, "modes.csv"), encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+        column = next(name for name in rows[0] if "frequency" in name.lower() or "Hz" in name)
+        found = [float(row[column]) for row in rows if float(row[column]) > 1]
+        self.assertEqual((beam["height"], beam["width"], beam["orientation"]), (0.02, 0.01, [0, 1, 0]))
+        expected = [
+            1.87510407**2 / (2 * np.pi * 0.5**2) * np.sqrt(2.1e11 * height**2 / (12 * 7850)) for height in (0.01, 0.02)
+        ]
+        np.testing.assert_allclose(found, expected, rtol=5e-3)
 
 
 if __name__ == "__main__":

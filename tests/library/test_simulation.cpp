@@ -23,9 +23,7 @@ constexpr double mass = 7.8;  // kg
 struct Block {
   TemporaryFolder folder;
   std::string path;
-  Block() : path((folder.path() / "block.toml").string()) {
-    std::ofstream(path) << verify::driven_block;
-  }
+  Block() : path((folder.path() / "block.toml").string()) { std::ofstream(path) << verify::driven_block; }
 };
 
 /// Velocities of so many windows, the force growing from one to the next.

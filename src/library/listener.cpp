@@ -1,4 +1,4 @@
-#include "library/history_names.hpp"
+#include "library/listener.hpp"
 
 #include "output/histories/history_values.hpp"
 
@@ -52,6 +52,21 @@ std::vector<NamedHistory> named_histories(const Model& model) {
     if (set.motion()) add_motion(names, set, moving++);
   for (std::size_t l = 0; l < model.scene.loads.size(); ++l) add_load(names, model.scene.loads[l], l);
   return names;
+}
+
+std::vector<AskedField> asked_fields(const scene::Output& output, const std::vector<OutputSet>& sets) {
+  std::vector<AskedField> fields;
+  for (const OutputSet& set : sets)
+    for (const std::string& name : output.fields)
+      if (const FieldRow& row = field_named(name); !set.is_beam() && set.has(row)) fields.push_back({&row, &set, {}});
+  return fields;
+}
+
+void Listener::history(const Model& model, const HistorySample& latest) {
+  sample = latest;
+  ++samples;
+  for (AskedField& field : fields)
+    field.values = output_field(model, model, model.ties, *field.row, field.set->numbers(*field.row)).values;
 }
 
 }  // namespace railwave

@@ -122,7 +122,7 @@ void Simulation::drive(const std::string& curve, double value) {
     const double now = time(), present = curve_value(&one, now);
     while (!one.points.empty() && one.points.back()[0] >= now) one.points.pop_back();
     one.points.push_back({now, present});
-    one.points.push_back({now + window(), value});
+    one.points.push_back({run_->loop->next_history(), value});
     run_->loop->inputs_changed();
     return;
   }

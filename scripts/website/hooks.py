@@ -64,14 +64,14 @@ def on_files(files, config):
     folder = pathlib.Path(config.site_dir).with_name(pathlib.Path(config.site_dir).name + "-pages")
     shutil.rmtree(folder, ignore_errors=True)
 
-    def add(name, text):
+    def add(name, content):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text, encoding="utf-8")
+        (folder / name).write_bytes(content)
         files.append(File(name, str(folder), config.site_dir, config.use_directory_urls))
 
     files.remove(files.get_file_from_path("index.md"))
     for path, name in pages.RENAMED.items():
-        add(name, (pages.ROOT / path).read_text(encoding="utf-8"))
+        add(name, (pages.ROOT / path).read_bytes())
     wanted = []
     for file in files.documentation_pages():
         text = pathlib.Path(file.abs_src_path).read_text(encoding="utf-8")
@@ -82,10 +82,14 @@ def on_files(files, config):
     done = set()
     while wanted:
         place = wanted.pop()
-        if place not in done:
-            done.add(place)
+        if place in done:
+            continue
+        done.add(place)
+        if place.is_picture:
+            add(place.site, (pages.ROOT / place.repository).read_bytes())
+        else:
             text, more = pages.source_page(place)
-            add(place.site, text)
+            add(place.site, text.encode())
             wanted += more
     return files
 

@@ -67,6 +67,8 @@ class Site:
             for address in page.loads:
                 if OUTSIDE.match(address):
                     self.faults.append(f"{where}: loads {address} from another host")
+                elif address.endswith(".html"):
+                    self.faults.append(f"{where}: loads the page {address} as if it were a picture")
                 elif not address.startswith("data:"):
                     self.follow(where, base, address)
             for address in page.links:

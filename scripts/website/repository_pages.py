@@ -13,6 +13,7 @@ RENAMED = {
 }
 # What a page names in `` becomes a link when it lies in one of these.
 LINKED = ("cases/", "studies/", "scripts/", "data/", "python/", "benchmarks/", "src/", "kernels/", "tests/")
+PICTURES = (".png", ".gif", ".jpg", ".svg")
 LINES = 400  # of a file's text that its page shows
 FENCE = re.compile(r"^\s*(```|~~~)")
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\])\(([^)\s]+)\)")
@@ -33,7 +34,12 @@ class Place:
 
     @property
     def is_source(self):
+        """Whether it is shown as it is, as text or picture, and is no page of the documentation."""
         return self.site.startswith("source/")
+
+    @property
+    def is_picture(self):
+        return self.repository.endswith(PICTURES)
 
 
 def place_of(path):
@@ -44,7 +50,7 @@ def place_of(path):
         return Place(path, RENAMED[path])
     if path.startswith("docs/") and (ROOT / path).is_file():
         return Place(path, path[len("docs/"):])
-    return Place(path, f"source/{path}.md")
+    return Place(path, f"source/{path}" if path.endswith(PICTURES) else f"source/{path}.md")
 
 
 def repository_path(site):

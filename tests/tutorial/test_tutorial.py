@@ -50,7 +50,8 @@ class Tutorial(DeskTest):
             self.assertGreater(image.width, 1000)
 
     def test_study_agrees_with_theory_and_with_the_page(self):
-        rows = [[float(value) for value in row.split()] for row in self.compared.splitlines() if re.match(r"\s+\d", row)]
+        lines = [line for line in self.compared.splitlines() if re.match(r"\s+\d", line)]
+        rows = [[float(value) for value in line.split()] for line in lines]
         self.assertEqual(len(rows), 8)
         for velocity, modulus, stress, theory, _ in rows:
             self.assertAlmostEqual(theory, velocity * math.sqrt(1e9 * modulus * 7800) * 1e-6, delta=0.01)

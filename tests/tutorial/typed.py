@@ -1,5 +1,5 @@
-"""Types what a page of docs says, docs/first-steps.md unless a test names another, in a folder of its own: blocks marked
-sh are commands, blocks marked python or toml are files whose name is their first line."""
+"""Types what a page of docs says, docs/first-steps.md unless a test names another, in a folder of its own: blocks
+marked sh are commands, blocks marked python or toml are files whose name is their first line."""
 
 import os
 import re

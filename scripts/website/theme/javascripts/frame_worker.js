@@ -1,4 +1,5 @@
-// Browsers start no worker from a folder (file://). The search's worker runs in a hidden frame then, by the same messages.
+// Browsers start no worker from a folder (file://). The search's worker runs in a hidden frame then, by the same
+// messages.
 class FrameWorker extends EventTarget {
   constructor(address) {
     super()

@@ -12,6 +12,7 @@
 #include "commands/command_line.hpp"
 #include "commands/ensemble.hpp"
 #include "commands/follow.hpp"
+#include "commands/import.hpp"
 #include "commands/process.hpp"
 #include "commands/standard_output.hpp"
 #include "commands/threads.hpp"
@@ -46,6 +47,7 @@ struct Arguments {
   DecayRequest decay;
   ReportRequest report;
   ModesRequest modes;
+  ImportRequest import;
   sweep::SweepRequest sweep;
   std::optional<std::string> mesh_file;  ///< none: mesh.h5 in the case's own folder
   bool markdown = false, schema = false;
@@ -273,6 +275,7 @@ int dispatch(int argc, char** argv) {
                    "results/NAME/mesh.h5, NAME being the case file's");
   add_overwrite_option(mesh, arguments.overwrite);
   mesh->callback([&] { code = write_mesh(arguments); });
+  add_import_command(app, arguments.import, [&] { import_command(arguments.import, std::cout); });
   CLI::App* modes = app.add_subcommand("modes", "frequencies and shapes of a case's free vibrations");
   add_case(modes);
   add_modes_options(modes, arguments.modes);

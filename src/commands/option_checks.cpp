@@ -99,6 +99,7 @@ constexpr FileOption file_options[] = {
     {"case", "a case file", "cases/rolling.toml"},
     {"results", "a results file", "results.h5"},
     {"study", "a study file", "studies/rolling_grid/rolling_grid.toml"},
+    {"deck", "a keyword deck", "impact.k"},
     {"--out", "a file", "mesh.h5"},
     {"--csv", "a file", "table.csv"},
     {"--hdf5", "a file", "more.h5"},

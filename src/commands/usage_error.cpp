@@ -101,11 +101,12 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error, const
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
     const std::string text = error.what();
     const bool missing_case = text.rfind("case ", 0) == 0, missing_results = text.rfind("results ", 0) == 0,
-               missing_study = text.rfind("study ", 0) == 0;
+               missing_study = text.rfind("study ", 0) == 0, missing_deck = text.rfind("deck ", 0) == 0;
     return fmt::format("{}{} is missing{}{}", before(at.called),
                        missing_case      ? "a case file"
                        : missing_results ? "a results file"
                        : missing_study   ? "a study file"
+                       : missing_deck    ? "a keyword deck"
                                          : text.substr(0, text.find(' ')),
                        missing_case ? fmt::format("; give one, such as {} cases/rolling.toml", at.called) : "", more);
   }

@@ -8,37 +8,14 @@
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
-#include "library/history_names.hpp"
+#include "library/listener.hpp"
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
-#include "model/fields.hpp"
 #include "output/output_sets.hpp"
 #include "output/settled_file.hpp"
 #include "solve/stepped_run.hpp"
 
 namespace railwave {
-
-/// A field of a set, as output.fields and output.field_sets ask for it.
-struct AskedField {
-  const FieldRow* row;
-  const OutputSet* set;
-  std::vector<double> values;
-};
-
-/// Keeps the last sample, and the fields of its instant.
-class Listener : public RunObserver {
- public:
-  void history(const Model& model, const HistorySample& latest) override {
-    sample = latest;
-    ++samples;
-    for (AskedField& field : fields)
-      field.values = output_field(model, model, model.ties, *field.row, field.set->numbers(*field.row)).values;
-  }
-
-  HistorySample sample;
-  long samples = 0;
-  std::vector<AskedField> fields;
-};
 
 namespace {
 
@@ -47,14 +24,6 @@ void begin_kokkos() {
   if (Kokkos::is_initialized()) return;
   setenv("KOKKOS_DISABLE_WARNINGS", "1", 0);
   Kokkos::initialize();
-}
-
-std::vector<AskedField> asked_fields(const scene::Output& output, const std::vector<OutputSet>& sets) {
-  std::vector<AskedField> fields;
-  for (const OutputSet& set : sets)
-    for (const std::string& name : output.fields)
-      if (const FieldRow& row = field_named(name); !set.is_beam() && set.has(row)) fields.push_back({&row, &set, {}});
-  return fields;
 }
 
 std::string among(const std::vector<std::string>& names) {
@@ -153,7 +122,7 @@ void Simulation::drive(const std::string& curve, double value) {
     const double now = time(), present = curve_value(&one, now);
     while (!one.points.empty() && one.points.back()[0] >= now) one.points.pop_back();
     one.points.push_back({now, present});
-    one.points.push_back({now + window(), value});
+    one.points.push_back({run_->loop->next_history(), value});
     run_->loop->inputs_changed();
     return;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "case/activity.hpp"
 #include "case/complaints.hpp"
@@ -63,7 +64,7 @@ Mesh submesh(const Mesh& mesh, const std::vector<int>& kept) {
   return result;
 }
 
-Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std::string>& notes) {
+Mesh whole_mesh(const scene::Scene& scene, const scene::Part& part, std::vector<std::string>& notes) {
   const scene::MeshSource* source = find_entry(scene.meshes, part.mesh);
   const Activity making(fmt::format("{} the mesh of part {}, about {} elements",
                                     source->type == scene::MeshType::file ? "reading" : "making", part.name,
@@ -76,7 +77,17 @@ Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::vector<std
           describe(seam, open_seam(seam, fmt::format("{}:{}: [seams.{}]", scene.path, seam.line, seam.name), mesh)));
   for (std::string& note : own)
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(std::move(note));
-  if (part.element_set.empty()) return mesh;
+  return mesh;
+}
+
+/// A part's own mesh.
+/// @param shared meshes of several element sets, by name: each is read or made once
+Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::map<std::string, Mesh>& shared,
+             std::vector<std::string>& notes) {
+  if (part.element_set.empty()) return whole_mesh(scene, part, notes);
+  const auto known = shared.find(part.mesh);
+  const Mesh& mesh =
+      known != shared.end() ? known->second : shared.emplace(part.mesh, whole_mesh(scene, part, notes)).first->second;
   const auto set = mesh.element_sets.find(part.element_set);
   if (set == mesh.element_sets.end())
     throw InputError(unknown_set(scene, part, "element_set", part.element_set, names_of(mesh.element_sets)));
@@ -288,8 +299,9 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
   const Activity assembling("putting the parts together");
   Assembly assembly;
   expect_memory_for_parts(scene);
+  std::map<std::string, Mesh> shared;
   for (const scene::Part& part : scene.parts) {
-    Mesh mesh = mesh_of(scene, part, notes);
+    Mesh mesh = mesh_of(scene, part, shared, notes);
     if (part.mirror) mirror(mesh);
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += part.position[i];
@@ -310,6 +322,7 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
     assembly.parts.push_back(range);
     append(assembly, mesh, part.name);
   }
+  shared.clear();
   for (const scene::PointMass& point : scene.points) {
     assembly.point_nodes.push_back(static_cast<int>(assembly.nodes.size()));
     assembly.node_sets[point.name] = {assembly.point_nodes.back()};

@@ -35,6 +35,9 @@ class OutputSchedule {
     return due_now;
   }
 
+  /// The present step, or the first to come, at which histories are due.
+  long next_history() const { return std::min(history_.next(nodal_.step), sizes_.step_count); }
+
   /// Whether something can be due at a step to come, the step size staying as it is.
   bool any(long step) const {
     return step >= sizes_.step_count || history_.due(step) || fields_.due(step) ||

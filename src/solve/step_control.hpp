@@ -80,6 +80,8 @@ class EverySoOften {
   /// @param start s: due first at the first cycle that begins then or later
   EverySoOften(double interval, double step, long cycle = 1, double start = 0);
   bool due(long step) const { return step >= next_ && (step - next_) % every_ == 0; }
+  /// The first step from the given one on at which it is due.
+  long next(long step) const { return step <= next_ ? next_ : step + (every_ - (step - next_) % every_) % every_; }
   /// From `step` on; what is due at that very step stays due.
   void step_changed(long step, double old_size, double new_size);
 

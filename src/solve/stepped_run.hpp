@@ -27,6 +27,9 @@ class SteppedRun {
   /// To be called when curves or other inputs of the steps to come have been changed.
   void inputs_changed();
 
+  /// s, of the next instant of which observers get a history, should the step stay as it is.
+  double next_history() const;
+
   /// Of a run that has ended.
   RunSummary summary();
 

@@ -145,6 +145,8 @@ class TimeLoop {
 
   void inputs_changed() { recording_.forget(); }
 
+  double next_history() const { return memory_.control.time_of(memory_.due.next_history()); }
+
   /// Of a run that has ended.
   RunSummary summary() {
     const std::string trouble = keeping_.checkpoints ? keeping_.checkpoints->trouble() : std::string();
@@ -369,6 +371,8 @@ void SteppedRun::take_up(const RunState& state) {
 }
 
 void SteppedRun::inputs_changed() { loop_->inputs_changed(); }
+
+double SteppedRun::next_history() const { return loop_->next_history(); }
 
 RunSummary SteppedRun::summary() { return loop_->summary(); }
 

@@ -56,6 +56,8 @@ WORDS = {
     "--member",
     "--members",
     "--job",
+    "--units",
+    "--drop",
 }
 FLAGS = {"--restart", "--keep-state", "--overwrite", "--average", "--markdown", "--schema", "--help", "--version"}
 FLAGS |= {"--collect", "--dry-run", "--no-pictures", "--snakemake"}

@@ -5,6 +5,7 @@
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
+#include "deck/import_deck.hpp"
 #include "mesh/files/mesh_file.hpp"
 #include "mesh/height_map.hpp"
 #include "tests/temporary_folder.hpp"
@@ -19,6 +20,10 @@ struct Folder : TemporaryFolder {
           "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
           "*ELEMENT, TYPE=C3D8\n1,1,2,3,4,5,6,7,8\n");
     write("nodes.inp", "1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n");
+    write("part.k",
+          "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+          "*ELEMENT_SOLID\n1,1,1,2,3,4,5,6,7,8\n*PART\nbody\n1,1,1\n*SECTION_SOLID\n1,1\n"
+          "*MAT_ELASTIC\n1,7800,2.1e11,.3\n");
     write("curve.csv", "time,force\n0,0\n1e-3,2\n");
   }
 };
@@ -74,6 +79,36 @@ void feed_mesh(std::string_view bytes, const char* name) {
 void feed_abaqus(std::string_view bytes) { feed_mesh<read_abaqus_file>(bytes, "case.inp"); }
 void feed_gmsh(std::string_view bytes) { feed_mesh<read_gmsh_file>(bytes, "case.msh"); }
 
+/// A deck that is taken gives a mesh and a case that are read again.
+void feed_model(std::string_view bytes, const char* name) {
+  const auto path = folder().write(name, bytes);
+  deck::ImportOptions options;
+  options.mesh_file = "imported.inp";
+  if (bytes.size() % 4 != 0) options.units = "mm,t,s";  // else they are judged by the materials
+  try {
+    const deck::Import import = deck::import_deck(path, options);
+    check(import.elements > 0, "a deck without elements is taken");
+    const auto mesh = folder().write("imported.inp", import.mesh);
+    const auto text = folder().write("imported.toml", import.text);
+    std::vector<std::string> notes;
+    try {
+      check_sound(read_abaqus_file(mesh, &notes));
+    } catch (const InputError& error) {
+      throw std::logic_error(std::string("the mesh of a deck is refused: ") + error.what());
+    }
+    try {
+      read_case(text);
+    } catch (const InputError& error) {
+      check_message(error.what(), text);
+    }
+  } catch (const InputError& error) {
+    check(std::strlen(error.what()) > 10, "a message that says nothing");
+  }
+}
+
+void feed_deck(std::string_view bytes) { feed_model(bytes, "case.k"); }
+void feed_abaqus_model(std::string_view bytes) { feed_model(bytes, "case.inp"); }
+
 /// Height maps, and the same bytes as the file of a curve.
 void feed_tables(std::string_view bytes) {
   const auto path = folder().write("table.csv", bytes);
@@ -99,10 +134,8 @@ void feed_tables(std::string_view bytes) {
 
 const std::vector<Reader>& readers() {
   static const std::vector<Reader> all{
-      {"case", feed_case},
-      {"abaqus", feed_abaqus},
-      {"gmsh", feed_gmsh},
-      {"tables", feed_tables},
+      {"case", feed_case},     {"abaqus", feed_abaqus}, {"gmsh", feed_gmsh},
+      {"tables", feed_tables}, {"deck", feed_deck},     {"abaqus_model", feed_abaqus_model},
   };
   return all;
 }

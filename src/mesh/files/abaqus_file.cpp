@@ -26,6 +26,20 @@ class AbaqusReader {
       : notes_(notes), lines_(path, numbered_.files) {}
 
   Mesh read() {
+    read_all();
+    return finish();
+  }
+
+  AbaqusNumbers read_numbers() {
+    read_all();
+    Mesh mesh = connect(true);
+    for (auto& [name, faces] : mesh.surfaces) sort_unique(faces);
+    numbered_.move_nodes([&](std::size_t i, const Vec3&) { return mesh.nodes[i]; });
+    return {numbered_, std::move(mesh)};
+  }
+
+ private:
+  void read_all() {
     while (lines_.has_line()) {
       if (lines_.has_data()) {
         const auto field = std::string(lines_.take_fields()[0]);
@@ -35,10 +49,8 @@ class AbaqusReader {
       }
       read_block(lines_.take_keyword());
     }
-    return finish();
   }
 
- private:
   enum class Scope { flat, part, assembly };
 
   struct SurfaceEntry {
@@ -293,7 +305,8 @@ class AbaqusReader {
     assembly_noted_ = true;
   }
 
-  Mesh finish() {
+  /// All nodes and elements by position, with their sets.
+  Mesh connect(bool with_internal) {
     Mesh mesh = numbered_.connect();
     for (Vec3& node : mesh.nodes)
       for (int i = 0; i < 3; ++i) node[i] += translation_[i];
@@ -303,9 +316,14 @@ class AbaqusReader {
       for (int element : element_sets_.positions(element_set, place))
         for (int node : mesh.elements[element]) node_sets_.add_number(node_set, numbered_.node_numbers()[node], place);
     }
-    mesh.node_sets = node_sets_.all();
-    mesh.element_sets = element_sets_.all();
-    make_surfaces(mesh);
+    mesh.node_sets = node_sets_.all(with_internal);
+    mesh.element_sets = element_sets_.all(with_internal);
+    make_surfaces(mesh, with_internal);
+    return mesh;
+  }
+
+  Mesh finish() {
+    Mesh mesh = connect(false);
     numbered_.complete(mesh, notes_);
     if (!skipped_.empty()) {
       std::vector<std::string> names;
@@ -317,9 +335,9 @@ class AbaqusReader {
     return mesh;
   }
 
-  void make_surfaces(Mesh& mesh) {
+  void make_surfaces(Mesh& mesh, bool with_internal) {
     for (const auto& [name, surface] : surfaces_) {
-      if (surface.internal) continue;
+      if (surface.internal && !with_internal) continue;
       auto& faces = mesh.surfaces[name];
       for (const SurfaceEntry& entry : surface.entries) {
         add_faces(mesh, entry, faces);
@@ -375,6 +393,11 @@ class AbaqusReader {
 Mesh read_abaqus_file(const std::string& path, std::vector<std::string>* notes) {
   std::vector<std::string> unread;
   return AbaqusReader(path, notes ? *notes : unread).read();
+}
+
+AbaqusNumbers read_abaqus_numbers(const std::string& path) {
+  std::vector<std::string> unread;
+  return AbaqusReader(path, unread).read_numbers();
 }
 
 }  // namespace railwave

@@ -62,10 +62,10 @@ const std::vector<int>& AbaqusSets::positions(const std::string& name, const Fil
   return *entry->second.positions;
 }
 
-std::map<std::string, std::vector<int>> AbaqusSets::all() {
+std::map<std::string, std::vector<int>> AbaqusSets::all(bool with_internal) {
   std::map<std::string, std::vector<int>> result;
   for (auto& [name, set] : sets_) {
-    if (set.internal) continue;
+    if (set.internal && !with_internal) continue;
     resolve(name, set, 0);
     result[name] = *set.positions;
   }

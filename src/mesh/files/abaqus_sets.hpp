@@ -32,8 +32,8 @@ class AbaqusSets {
   /// that contain themselves.
   const std::vector<int>& positions(const std::string& name, const FilePlace& place);
 
-  /// Positions of all sets but internal ones.
-  std::map<std::string, std::vector<int>> all();
+  /// Positions of all sets; of internal ones only where these are asked for.
+  std::map<std::string, std::vector<int>> all(bool with_internal = false);
 
  private:
   struct Number {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/files/numbered_mesh.hpp"
 #include "mesh/mesh.hpp"
 
 /// Readers of mesh files, by format, and the names that their sets may have.
@@ -17,6 +18,15 @@ namespace railwave {
 /// Keywords that don't describe the mesh (*MATERIAL, *STEP, ...) are passed over; `notes`, when given, lists them.
 /// Throws InputError "file:line: what, how to mend".
 Mesh read_abaqus_file(const std::string& path, std::vector<std::string>* notes = nullptr);
+
+/// An Abaqus file's mesh as the file has it: no node is left out, and there are no sets but the file's own.
+struct AbaqusNumbers {
+  NumberedMesh numbered;
+  Mesh mesh;  ///< its sets by the positions of `numbered`; internal sets too
+};
+
+/// The same as read_abaqus_file(), for what goes on with the file's numbers; elements' shapes are not checked.
+AbaqusNumbers read_abaqus_numbers(const std::string& path);
 
 /// Reads a Gmsh mesh file of version 4.1, ASCII or binary, in the file's own unit of length.
 ///
@@ -33,6 +43,9 @@ Mesh read_gmsh_file(const std::string& path, std::vector<std::string>* notes = n
 /// no UTF-8 are replaced by '_'; blanks at the ends are dropped, an empty name or one of dots alone becomes 'unnamed',
 /// and the name is cut to 100 bytes.
 std::string fit_set_name(const std::string& name);
+
+/// Whether all of a text is UTF-8.
+bool is_utf8(const std::string& text);
 
 /// Renames all sets of a mesh read from a file by fit_set_name(); `notes`, when given, receives a line for each that
 /// was changed. Throws InputError where two sets would have one name.

@@ -38,6 +38,15 @@ class NumberedMesh {
   const std::vector<std::int64_t>& node_numbers() const { return node_numbers_; }
   const std::vector<std::int64_t>& element_numbers() const { return element_numbers_; }
 
+  const FilePlace& place_of_element(int element) const { return element_places_[element]; }
+  const std::vector<Vec3>& nodes() const { return nodes_; }
+
+  /// Puts each node where `moved(position of the node, its place)` says.
+  template <class Moved>
+  void move_nodes(const Moved& moved) {
+    for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = moved(i, nodes_[i]);
+  }
+
   /// Position of a node or element number, nothing if the file doesn't define it.
   std::optional<int> find_node(std::int64_t number) const;
   std::optional<int> find_element(std::int64_t number) const;

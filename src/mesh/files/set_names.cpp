@@ -52,6 +52,15 @@ void fit(std::map<std::string, Set>& sets, const char* kind, const std::string& 
 
 }  // namespace
 
+bool is_utf8(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t letter = letter_at(text, at);
+    if (letter == 0) return false;
+    at += letter;
+  }
+  return true;
+}
+
 std::string fit_set_name(const std::string& name) {
   std::string fit;
   for (std::size_t at = 0; at < name.size();) {

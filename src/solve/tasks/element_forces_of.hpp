@@ -21,10 +21,10 @@ void forces_together(const NodalState& nodal, const ElementBlocks& blocks, const
   const int set_teams = launch.sets != nullptr ? 1 : 0;
   // Multipliers have a launch of their own. How many nodes can touch is known on the device only; should they be more,
   // teams take several turns.
-  const int contact_teams =
-      pair.has_springs()
-          ? std::min(most_contact_teams, (pair.window.bound() + Together::slaves_of_team - 1) / Together::slaves_of_team)
-          : 0;
+  const int contact_teams = pair.has_springs()
+                                ? std::min(most_contact_teams, (pair.window.bound() + Together::slaves_of_team - 1) /
+                                                                   Together::slaves_of_team)
+                                : 0;
   SetLoads sets{};  // CUDA 13.0's compiler crashes on a conditional expression inside the functor's braces
   if (launch.sets != nullptr) sets = set_loads(nodal, *launch.sets, instant, launch.kind, 0);
   launch_teams(set_teams + contact_teams + blocks.count, Block::scratch_size(blocks),

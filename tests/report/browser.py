@@ -39,10 +39,12 @@ class Page:
     """A report that is open. Everything that the page writes to the console, and every address that it asks for, is
     kept."""
 
+    flags = FLAGS
+
     def __init__(self, path, width=1280, height=900, dark=False):
         options = Options()
         options.binary_location = shutil.which("chromium")
-        for flag in FLAGS:
+        for flag in self.flags:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(service=Service(shutil.which("chromedriver")), options=options)

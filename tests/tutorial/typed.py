@@ -1,5 +1,5 @@
-"""Types what docs/first-steps.md says, in a folder of its own: blocks marked sh are commands, blocks marked python are
-files whose name is their first line."""
+"""Types what a page of docs says, docs/first-steps.md unless a test names another, in a folder of its own: blocks
+marked sh are commands, blocks marked python or toml are files whose name is their first line."""
 
 import os
 import re
@@ -27,7 +27,8 @@ def sections(path=PAGE):
 class Desk:
     """A copy of what a user needs of the repository, with the built programs in build/release/bin."""
 
-    def __init__(self):
+    def __init__(self, page=PAGE):
+        self.page = page
         self._folder = tempfile.TemporaryDirectory(prefix="railwave-first-steps-")
         self.folder = os.path.join(self._folder.name, "railwave")
         shutil.copytree(
@@ -77,10 +78,10 @@ class Desk:
         """All blocks of a section. Returns what they print; throws AssertionError when a command ends with another code
         than `ends`."""
         said = ""
-        for language, text in sections()[section]:
-            if language == "python":
-                name = re.match(r"# (\S+\.py)", text).group(1)
-                with open(self.path(name), "w", encoding="utf-8") as file:
+        for language, text in sections(self.page)[section]:
+            named = re.match(r"# (\S+\.(py|toml))\n", text)
+            if language == "python" or (language == "toml" and named):
+                with open(self.path(named.group(1)), "w", encoding="utf-8") as file:
                     file.write(text)
             elif language == "sh":
                 said += self.command(text, ends)
@@ -108,10 +109,11 @@ class DeskTest(unittest.TestCase):
     """Tests that type at one desk, beside whose results/ nothing is left but `made`."""
 
     made = set()
+    page = PAGE
 
     @classmethod
     def setUpClass(cls):
-        cls.desk = Desk()
+        cls.desk = Desk(cls.page)
         cls.addClassCleanup(cls.desk.close)
         cls.before = set(os.listdir(cls.desk.folder))
 

@@ -39,6 +39,13 @@ def numbers(text, count, option, example, parser):
     return values
 
 
+def program_of(root):
+    """The railwave that belongs to these scripts: PREFIX/bin where they are PREFIX/share/railwave/scripts, else the
+    one built in their source tree."""
+    installed = root.parent.parent / "bin" / "railwave"
+    return installed if installed.is_file() else root / "build" / "release" / "bin" / "railwave"
+
+
 def make_parser(root):
     parser = argparse.ArgumentParser(
         prog="picture", description=DESCRIPTION, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -128,7 +135,7 @@ def make_parser(root):
     files.add_argument("--overwrite", action="store_true", help="replace files that this script did not write, too")
     files.add_argument(
         "--program",
-        default=str(root / "build" / "release" / "bin" / "railwave"),
+        default=str(program_of(root)),
         help="the railwave that finds the contact solution",
     )
     files.add_argument(

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/shared_files.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/results_writer.hpp"
 #include "output/run_places.hpp"
@@ -40,9 +41,9 @@ void report_next_steps(const scene::Scene& scene, bool completed, std::ostream& 
     next("railwave run " + typed(scene.path) + " --restart",
          "go on from the last checkpoint; with the same --set as before");
   if (page::has_page_template()) next("railwave report " + name, "all of it as one page for a browser");
-  next("scripts/picture " + name, scene.contacts.empty()
-                                      ? "pictures of energies, beside the results"
-                                      : "pictures of contact patches, forces, energies, beside the results");
+  next(script_command("picture") + " " + name,
+       scene.contacts.empty() ? "pictures of energies, beside the results"
+                              : "pictures of contact patches, forces, energies, beside the results");
   if (!scene.contacts.empty()) next("railwave contact " + name, "patches, pressure, slip, creepages as a table");
   if (!scene.hammers.empty()) next("railwave frf " + name, "frequency responses and resonances");
   if (std::filesystem::exists(xdmf_path(results), failed))

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <string>
 
+#include "case/shared_files.hpp"
 #include "commands/command_line.hpp"
 #include "commands/process.hpp"
 
@@ -34,7 +35,8 @@ void add_sweep_command(CLI::App& app, sweep::SweepRequest& request, const std::f
 }
 
 void draw_sweep(const std::string& table) {
-  std::string script = RAILWAVE_SCRIPTS_DIR "/picture", option = "--sweep", file = table;
+  std::string script = first_present(places_of("scripts/picture", RAILWAVE_PICTURE_SCRIPT));
+  std::string option = "--sweep", file = table;
   char* const words[] = {script.data(), option.data(), file.data(), nullptr};
   std::cout.flush();
   posix_spawnattr_t attributes;
@@ -51,7 +53,8 @@ void draw_sweep(const std::string& table) {
   while (started && waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (started && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-  std::cout << "note: no pictures were drawn; the tables are whole. Where the scripts are: scripts/picture --sweep "
+  std::cout << "note: no pictures were drawn; the tables are whole. "
+            << (there ? "To draw them: " : "Where the scripts are: ") << script_command("picture") << " --sweep "
             << table << std::endl;
 }
 

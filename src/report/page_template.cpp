@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "case/error.hpp"
+#include "case/shared_files.hpp"
 
 namespace railwave::page {
 namespace {
@@ -18,14 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* place_of_data = "<!--railwave-data-->";
 
 /// Where the template may lie, in the order in which it is looked for.
-std::vector<fs::path> places() {
-  std::vector<fs::path> found;
-  std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) found.push_back(program.parent_path().parent_path() / "share" / "railwave" / "report.html");
-  found.emplace_back(RAILWAVE_REPORT_TEMPLATE);
-  return found;
-}
+std::vector<std::string> places() { return places_of("report.html", RAILWAVE_REPORT_TEMPLATE); }
 
 /// Without the hash that ends the name of a sweep's member (-0123456789ab), where all have one and differ
 /// without it.
@@ -43,24 +37,20 @@ std::vector<std::string> without_hashes(const std::vector<std::string>& names) {
 
 }  // namespace
 
-bool has_page_template() {
-  const std::vector<fs::path> all = places();
-  std::error_code failed;
-  return std::any_of(all.begin(), all.end(), [&](const fs::path& path) { return fs::exists(path, failed); });
-}
+bool has_page_template() { return !first_present(places()).empty(); }
 
 std::string page_template() {
-  for (const fs::path& path : places()) {
+  for (const std::string& path : places()) {
     std::ifstream file(path, std::ios::binary);
     if (!file) continue;
     const std::string page{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     if (page.find(place_of_data) == std::string::npos)
-      throw InputError(fmt::format("{} is no page that a report can be made of; scripts/setup --report makes it again",
-                                   path.string()));
+      throw InputError(
+          fmt::format("{} is no page that a report can be made of; scripts/setup --report makes it again", path));
     return page;
   }
   std::string looked;
-  for (const fs::path& path : places()) looked += (looked.empty() ? "" : " and ") + path.string();
+  for (const std::string& path : places()) looked += (looked.empty() ? "" : " and ") + path;
   throw InputError(
       fmt::format("the page that a report is made of is not there (looked for {}): scripts/setup --report makes it, "
                   "with libraries from npm",

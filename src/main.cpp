@@ -28,6 +28,7 @@
 #include "output/run_places.hpp"
 #include "output/settled_file.hpp"
 #include "post/contact_command.hpp"
+#include "solve/statics/settle.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {
@@ -136,6 +137,7 @@ int check_case(const Arguments& arguments) {
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
   report("note", notes, std::cout);
+  refuse_moving_held_nodes(model, model.nodes.reference);
   ResultsFile results(model.scene, model.assembly, RAILWAVE_VERSION);  // checks the output section, writes nothing
   results.check_disk_space(model, model);
   describe_run(model, std::cout);

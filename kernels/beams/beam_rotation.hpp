@@ -51,8 +51,8 @@ struct BeamKineticEnergy {
   BeamNodeMoment node;
   double lag, step;
   KOKKOS_INLINE_FUNCTION void operator()(int n, double* sum) const {
-    const Vector3 a = node.acceleration(n), w = row(node.beams.spin, n) + lag * a;
-    sum[0] += 0.5 * node.beams.inertia(n) * (dot(w, w) - 0.25 * step * step * dot(a, a));
+    const Vector3 a = node.acceleration(n), stored = row(node.beams.spin, n);
+    sum[0] += 0.5 * node.beams.inertia(n) * dot(stored + (lag - 0.5 * step) * a, stored + (lag + 0.5 * step) * a);
   }
 };
 

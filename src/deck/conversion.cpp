@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/error.hpp"
+#include "case/number_text.hpp"
 #include "mesh/files/mesh_file.hpp"
 #include "mesh/hexahedron.hpp"
 #include "mesh/vectors.hpp"
@@ -202,7 +203,7 @@ std::string Conversion::add_curve(const std::string& name, const std::vector<std
   double before = -1e300;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     // Points that are one after rounding stay two.
-    double time = std::stod(fmt::format("{:.15g}", pairs[i][0] * units.time));
+    double time = *parse_real(fmt::format("{:.15g}", pairs[i][0] * units.time));
     if (time <= before) time = std::nextafter(before, 1e300);
     before = time;
     section += (i == 0 ? "" : i % 6 == 0 ? ",\n  " : ", ") + fmt::format("[{}, {}]", time, toml(pairs[i][1]));

@@ -25,6 +25,8 @@ POSITIVE = {
     "--threads",
     "--slurm",
     "--ranks",
+    "--instants",
+    "--size",
 }
 NUMERIC = POSITIVE | {
     "--retries",

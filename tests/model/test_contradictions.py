@@ -67,6 +67,14 @@ AGAIN = surface("again", "lower", [-1, -1, -1], [1, 1, 1])
 # What: sections besides the two blocks, what is said: "refused: ..." exits with 2, "warned: ..." warns, "" says nothing
 # of it.
 TABLE = {
+    "initial motion across a constraint": (
+        fixed() + initial("lower", velocity=[1, 0, 0]),
+        "refused: [constraints.hold] holds the node at .* along (1, 0, 0), in which an initial motion gives it 1 m/s",
+    ),
+    "initial motion along what a constraint leaves free": (
+        fixed(directions=("y",)) + initial("lower", velocity=[1, 0, 0]),
+        "",
+    ),
     "prescribed motion across a constraint": (
         fixed() + prescribed("lower.z_min", velocity=[1, 0, 0]),
         (

@@ -223,3 +223,18 @@ TEST_CASE("what only travels is no error: bodies in flight, spun and in free fal
     CHECK(said_of_energy(run_with(scene, {})) == "");
   }
 }
+
+TEST_CASE("what a load begins to move has no energy of rounding") {
+  // Soft and in one element: a step is so long that the load's first share is felt at once.
+  scene::Scene scene = block_scene({0.4, 0.4, 0.4}, {1, 1, 1}, 0.2);
+  scene.materials[0].youngs_modulus = 1e7;
+  scene.materials[0].density = 1000;
+  hold(scene, "block.z_min", {false, false, true});
+  add_pressure(scene, "block.z_max", 1e6, "rise");
+  scene::Curve rise;
+  rise.name = "rise";
+  rise.type = scene::CurveType::table;
+  rise.points = {{0, 0}, {0.4, 1}};
+  scene.curves.push_back(rise);
+  CHECK(said_of_energy(run_with(scene, {})) == "");
+}

@@ -11,7 +11,8 @@
 namespace railwave {
 namespace {
 
-/// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2 = m (|v_n|^2 - |step a/2|^2)/2, and minus the work of gravity.
+/// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2, and minus the work of gravity. From the two velocities, not from
+/// m (|v_n|^2 - |step a/2|^2)/2: of nodes that begin to move nothing but rounding would be left.
 struct NodalEnergy {
   static constexpr int values = 2;
   SubcycledAcceleration acceleration;
@@ -21,8 +22,8 @@ struct NodalEnergy {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
     const double steps = acceleration.levels.steps(n);
     const Vector3 a = steps * acceleration(n);
-    const Vector3 v = row(nodes.velocity, n) + lag * a;
-    sum[0] += 0.5 * nodes.mass(n) * (dot(v, v) - 0.25 * step * step * dot(a, a));
+    const Vector3 stored = row(nodes.velocity, n);
+    sum[0] += 0.5 * nodes.mass(n) * dot(stored + (lag - 0.5 * step) * a, stored + (lag + 0.5 * step) * a);
     sum[1] += nodes.mass(n) * dot(acceleration.plain.gravity, row(nodes.position, n) - row(nodes.reference, n));
   }
 };

@@ -1,5 +1,7 @@
 #include "commands/follow.hpp"
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <iostream>
 #include <stdexcept>
@@ -18,6 +20,11 @@ namespace {
 
 constexpr int done = 0, failed = 1, wrong_input = 2;
 
+/// In one piece: launchers of MPI put their own words between what comes in several.
+void complain(int rank, const std::exception& error) {
+  std::cerr << fmt::format("railwave: rank {}: {}\n", rank, error.what()) << std::flush;
+}
+
 /// Whoever reads sees what rank 0 says; it says the same of the case.
 int build(const std::string& case_file, const std::vector<std::string>& overrides, Model& model) {
   try {
@@ -30,7 +37,7 @@ int build(const std::string& case_file, const std::vector<std::string>& override
   } catch (const InputError&) {
     return wrong_input;
   } catch (const std::exception& error) {
-    std::cerr << "railwave: rank " << rank_of_process() << ": " << error.what() << std::endl;
+    complain(rank_of_process(), error);
     return failed;
   }
 }
@@ -50,7 +57,7 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   try {
     follow_rank_0(model, *transport);
   } catch (const std::exception& error) {
-    std::cerr << "railwave: rank " << transport->rank() << ": " << error.what() << std::endl;
+    complain(transport->rank(), error);
     transport->end_all();
   }
   return done;

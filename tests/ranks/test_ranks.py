@@ -166,7 +166,7 @@ class Refusals(Ranks):
                               "other.toml"], cwd=self.folder, text=True, capture_output=True, env=ENVIRONMENT,
                              timeout=PATIENCE, check=False)
         self.assertNotEqual(run.returncode, 0)
-        self.assertIn("rank 1: this process has another model than rank 0", run.stderr)
+        self.assertIn("1: this process has another model than rank 0", run.stderr)
 
 
 class Ensembles(Ranks):

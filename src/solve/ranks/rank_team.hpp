@@ -46,7 +46,7 @@ struct RankOrder {
   double elapsed = 0;       ///< s, since the instant before
   double time = 0;          ///< s, at the present instant
   double velocity_lag = 0;  ///< s, see NodalState
-  std::uint64_t model = 0;  ///< when it is dealt out: what tells it from others
+  std::uint64_t model = 0;  ///< when it is dealt out: a number by which models differ
 };
 
 /// Rank 0's side.

@@ -84,8 +84,8 @@ DynaCard Cards::take(std::initializer_list<DynaCard::Width> widths) {
 
 std::string Cards::title() { return left() ? std::string(trim(keyword_.lines[at_++].text)) : std::string(); }
 
-DeckReader::DeckReader(const std::string& path, Deck& into, Report& told)
-    : deck(into), report(told), lines(path, into.mesh.files) {}
+DeckReader::DeckReader(const std::string& path, Deck& into, Report& of_import)
+    : deck(into), report(of_import), lines(path, into.mesh.files) {}
 
 void DeckReader::fail(const FilePlace& place, const std::string& text) const {
   throw InputError(lines.where(place) + " " + text);

@@ -138,15 +138,21 @@ void add_refusal(Material& material, const std::string& key, const std::string& 
   material.more.push_back({text, key});
 }
 
+/// The same with what all materials of solids have on their first card.
+Material begin_solid_material(Call& call, const std::string& title, const DynaCard& card, Material::Kind kind) {
+  Material material = begin_material(call, title, card);
+  material.kind = kind;
+  material.density = card.real(1, "RO");
+  material.youngs_modulus = card.real(2, "E");
+  material.poissons_ratio = card.real(3, "PR");
+  return material;
+}
+
 void read_elastic(Call& call) {
   while (call.cards.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
-    Material material = begin_material(call, title, card);
-    material.kind = Material::Kind::elastic;
-    material.density = card.real(1, "RO");
-    material.youngs_modulus = card.real(2, "E");
-    material.poissons_ratio = card.real(3, "PR");
+    Material material = begin_solid_material(call, title, card, Material::Kind::elastic);
     if (card.real(4, "DA") != 0 || card.real(5, "DB") != 0)
       add_refusal(material, "MAT_ELASTIC.DA", "DA and DB, the damping of beams, aren't read");
     define(call, call.reader.deck.materials, call.number(card, 0, "MID", Kind::material), "material", material);
@@ -157,11 +163,7 @@ void read_kinematic(Call& call) {
   while (call.cards.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
-    Material material = begin_material(call, title, card);
-    material.kind = Material::Kind::plastic;
-    material.density = card.real(1, "RO");
-    material.youngs_modulus = card.real(2, "E");
-    material.poissons_ratio = card.real(3, "PR");
+    Material material = begin_solid_material(call, title, card, Material::Kind::plastic);
     material.yield_stress = card.real(4, "SIGY");
     material.tangent_modulus = card.real(5, "ETAN");
     material.hardening_beta = card.real(6, "BETA");
@@ -183,11 +185,7 @@ void read_piecewise(Call& call) {
   while (call.cards.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
-    Material material = begin_material(call, title, card);
-    material.kind = Material::Kind::plastic;
-    material.density = card.real(1, "RO");
-    material.youngs_modulus = card.real(2, "E");
-    material.poissons_ratio = card.real(3, "PR");
+    Material material = begin_solid_material(call, title, card, Material::Kind::plastic);
     material.yield_stress = card.real(4, "SIGY");
     material.tangent_modulus = card.real(5, "ETAN");
     const std::string name = "MAT_PIECEWISE_LINEAR_PLASTICITY";

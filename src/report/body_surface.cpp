@@ -1,5 +1,6 @@
 #include "report/body_surface.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>

@@ -57,15 +57,15 @@ struct BoxBoxes {
   }
 };
 
-/// @param interval s, @param sudden m, until the next check
-inline void update_boxes(const ContactProjection& surface, const Array<const double* [3]>& velocity, double interval,
-                         double sudden) {
+/// @param space in whose order, @param interval s, @param sudden m, until the next check
+inline void update_boxes(const ExecutionSpace& space, const ContactProjection& surface,
+                         const Array<const double* [3]>& velocity, double interval, double sudden) {
   const SegmentBoxes& boxes = surface.contact.boxes;
-  Kokkos::parallel_for("segment_boxes", SpreadRange(0, boxes.segment_count()),
+  Kokkos::parallel_for("segment_boxes", SpreadRange(space, 0, boxes.segment_count()),
                        BoxSegments{surface, velocity, interval, sudden});
-  Kokkos::parallel_for("leaf_boxes", SpreadRange(0, boxes.leaf_count()),
+  Kokkos::parallel_for("leaf_boxes", SpreadRange(space, 0, boxes.leaf_count()),
                        BoxBoxes{boxes.segment, boxes.leaf, SegmentBoxes::leaf_size});
-  Kokkos::parallel_for("branch_boxes", SpreadRange(0, boxes.branch_count()),
+  Kokkos::parallel_for("branch_boxes", SpreadRange(space, 0, boxes.branch_count()),
                        BoxBoxes{boxes.leaf, boxes.branch, SegmentBoxes::branch_size});
 }
 

@@ -52,9 +52,10 @@ struct OneAWarp {
   }
 };
 
+/// @param space in whose order
 template <class Kernel>
-void apart_parallel_for(const char* label, int count, const Kernel& kernel) {
-  Kokkos::parallel_for(label, SpreadRange(0, count * OneAWarp<Kernel>::lanes), OneAWarp<Kernel>{kernel});
+void apart_parallel_for(const ExecutionSpace& space, const char* label, int count, const Kernel& kernel) {
+  Kokkos::parallel_for(label, SpreadRange(space, 0, count * OneAWarp<Kernel>::lanes), OneAWarp<Kernel>{kernel});
 }
 
 /// An uninitialised array; for arrays that a kernel or a copy fills whole.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,19 @@ void build_member(Member& member) {
   member.progress = std::make_unique<Progress>(member.log);
 }
 
+/// What all members' elements came to in the time of the one that took longest.
+void report_speed(const std::vector<RunOutcome>& outcomes, std::ostream& out) {
+  double element_steps = 0, seconds = 0;
+  for (const RunOutcome& outcome : outcomes) {
+    if (!outcome.summary) continue;
+    element_steps += outcome.summary->element_steps_per_second * outcome.summary->wall_seconds;
+    seconds = std::max(seconds, outcome.summary->wall_seconds);
+  }
+  if (seconds > 0)
+    out << fmt::format("{} members together: {:.2f} million element-steps per second\n", outcomes.size(),
+                       1e-6 * element_steps / seconds);
+}
+
 EnsembleEnd report_ends(const std::vector<std::unique_ptr<Member>>& members, const std::vector<RunOutcome>& outcomes,
                         std::ostream& out) {
   EnsembleEnd end;
@@ -97,6 +111,7 @@ EnsembleEnd report_ends(const std::vector<std::unique_ptr<Member>>& members, con
       out << where << "completed\n";
     }
   }
+  if (outcomes.size() > 1) report_speed(outcomes, out);
   return end;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kernels/support/milestone.hpp"
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "solve/launch_graph.hpp"
@@ -127,12 +128,13 @@ struct StepRecording::Recordings {
     return model.relative.active();
   }
 
-  /// Before launches in the default space, and after them.
+  /// Before launches in the default space.
   void finish() {
     if (own && launched) space.fence();
     launched = false;
     others_launched = true;
   }
+  /// Before launches in the own one.
   void begin() {
     if (own && others_launched) ExecutionSpace().fence();
     others_launched = false;
@@ -155,8 +157,16 @@ struct StepRecording::Recordings {
     return steps;
   }
 
-  /// A stage's lanes begin when all lanes of the stage before are done.
+  void run_recordable(const Instant& instant) const {
+    for (const Task& task : recordable)
+      if (task.due(model.step)) task.run(instant);
+  }
+
+  /// A stage's lanes begin when all lanes of the stage before are done. In a space of its own one task comes after the
+  /// other: what the others of that device launch fills it, and a graph with lanes takes the host 20 times as long to
+  /// launch.
   LaunchGraph::Node record_step(const LaunchGraph::Node& begin, const Instant& instant) const {
+    if (own) return LaunchGraph::after(begin, [this, &instant] { run_recordable(instant); });
     LaunchGraph::Node ready = begin;
     for (std::size_t first = 0, end = 0; first < recordable.size(); first = end) {
       std::map<int, std::vector<const Task*>> lanes;
@@ -197,6 +207,7 @@ struct StepRecording::Recordings {
   StepValues<double> load_values;
   StepValues<RigidPlace> places;
   std::map<Key, LaunchGraph> graphs;
+  Milestone last_graph;
   State recorded_in;  ///< of all of them
 };
 
@@ -224,13 +235,15 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   // The first steps know another time before them.
   const bool regular = instant.elapsed == instant.step && model.velocity_lag == 0.5 * instant.step;
   if (all.most == 0 || quiet < 1 || !regular) return 0;
+  all.begin();
   if (all.plain_due()) {
-    all.finish();
-    run_tasks(all.plain, instant, model.step);
+    Instant here = instant;
+    if (all.own) here.own_space = &all.space;
+    run_tasks(all.plain, here, model.step);
   }
   const long steps = all.steps_of_graph(quiet);
   if (auto now = all.state(); now != all.recorded_in) {
-    all.finish();
+    all.space.fence();
     all.graphs.clear();
     all.recorded_in = std::move(now);
   }
@@ -241,12 +254,14 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps};
   auto found = all.graphs.find(key);
   if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
-  all.begin();
   all.load_values.take(all.space, model.step, steps, instant.step, value);
   all.places.take(all.space, model.step, steps, instant.step, place);
   found->second.launch(all.space);
+  if (all.own) all.last_graph.put(all.space);
   return steps;
 }
+
+bool StepRecording::busy() const { return recordings_->own && !recordings_->last_graph.reached(); }
 
 #else
 
@@ -256,6 +271,7 @@ StepRecording::~StepRecording() = default;
 void StepRecording::finish() {}
 void StepRecording::forget() {}
 int StepRecording::most() const { return 0; }
+bool StepRecording::busy() const { return false; }
 long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
 
 #endif

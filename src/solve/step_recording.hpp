@@ -27,6 +27,9 @@ class StepRecording {
   /// @return how many were launched; 0: this step must be plain
   long advance(const Instant& instant, long quiet, const std::function<double(long)>& time);
 
+  /// Whether graphs of a space of their own are at work: what comes next would wait for them.
+  bool busy() const;
+
   /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
   void finish();
 

@@ -30,6 +30,10 @@ struct Instant {
   /// prescribed set, its place at the next instant. See solve/step_recording.hpp.
   const double* load_values = nullptr;
   const RigidPlace* places = nullptr;
+  /// In whose order tasks that are not recorded launch; null: the default one's, as all others do.
+  const ExecutionSpace* own_space = nullptr;
+
+  ExecutionSpace space() const { return own_space == nullptr ? ExecutionSpace() : *own_space; }
 
   StepValue<double> value_of(const LoadArrays& load) const {
     return {load_value(load, time), load_values == nullptr ? nullptr : load_values + load.number};
@@ -147,8 +151,8 @@ bool has_friction(const scene::Scene& scene, const ContactPair& pair, StepKind k
 /// next hundreds or thousands of steps; it is laid out on the host, anew when the surfaces have moved far enough. Out
 /// of it the nodes that can touch in the next few dozen steps are picked on the device, nothing returning to the host.
 /// All others are surely apart, so the result does not depend on how often either is done.
-/// @param step s to the next instant
-void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, double step, StepKind kind);
+void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, const Instant& instant,
+                 StepKind kind);
 
 /// A line for each pair of which that was not true: bodies so fast out of nothing that nodes began to touch unforeseen;
 /// and for each of which nodes are in the other body without having come in through its surface.

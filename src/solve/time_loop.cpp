@@ -100,11 +100,12 @@ class TimeLoop {
     if (keeping.from) take_up(*keeping.from);
     summary_.first_step = model.step;
     if (leader_) leader_->begin();
-    since_first_step_.restart();
   }
 
   /// Takes a step, or the steps of a graph. @return false: the run has ended
   bool go_on() {
+    if (!begun_) since_first_step_.restart();
+    begun_ = true;
     begin_step();
     checkpoint_if_due();
     plan_step();
@@ -144,6 +145,8 @@ class TimeLoop {
   }
 
   void inputs_changed() { recording_.forget(); }
+
+  bool busy() const { return recording_.busy(); }
 
   double next_history() const { return memory_.control.time_of(memory_.due.next_history()); }
 
@@ -338,6 +341,7 @@ class TimeLoop {
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;
+  bool begun_ = false;
   bool first_ = false;     ///< of all steps of the run, not of one that goes on from a checkpoint
   bool stopping_ = false;  ///< after this step
   DueFields fields_due_;
@@ -397,12 +401,13 @@ std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members)
     any = false;
     for (std::size_t m = 0; m < members.size(); ++m) {
       if (!loops[m]) continue;
+      any = true;
+      if (loops[m]->busy()) continue;
       unless_it_fails(m, [&] {
         if (loops[m]->go_on()) return;
         outcomes[m].summary = loops[m]->summary();
         loops[m].reset();
       });
-      any = any || loops[m];
     }
   }
   return outcomes;

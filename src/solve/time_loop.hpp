@@ -46,7 +46,7 @@ struct RunOutcome {
 
 /// Runs several models, each with its own clock, observers and end: it becomes what it would by itself, bit for bit,
 /// and what goes wrong with one ends no other. They settle one after the other; then each takes a step, or the steps of
-/// a graph, in turn. On a GPU graphs of different members run side by side, as far as one leaves room for others.
+/// a graph, in turn. On a GPU graphs of different members run side by side, and who has one at work is passed over.
 std::vector<RunOutcome> run_together(const std::vector<EnsembleMember>& members);
 
 /// Asks the running time loop to stop after the present step. Safe in a signal handler.

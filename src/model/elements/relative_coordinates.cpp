@@ -145,7 +145,7 @@ void begin_relative_nodes(const AssembledScene& assembled, const std::vector<Ele
   relative.block_time = relative.block_size = 0;
 }
 
-void compute_frame_steps(NodalState& nodal, double step) {
+void compute_frame_steps(const ExecutionSpace& space, NodalState& nodal, double step) {
   RelativeNodes& relative = nodal.relative;
   if (relative.block_size == step && nodal.step < relative.block_step + steps_of_block) return;
   relative.block_time = relative.time_of(nodal.step);
@@ -153,7 +153,7 @@ void compute_frame_steps(NodalState& nodal, double step) {
   relative.block_size = step;
   const int frames = static_cast<int>(relative.range.size());
   Kokkos::parallel_for(
-      "frame_steps", Range(0, steps_of_block * frames),
+      "frame_steps", Range(space, 0, steps_of_block * frames),
       ComputeFrameSteps{relative.motion, relative.steps, frames, relative.block_time, 2 * nodal.velocity_lag, step});
 }
 

@@ -50,7 +50,7 @@ void begin_relative_nodes(const AssembledScene& assembled, const std::vector<Ele
 
 /// Has the frames' values on the device for the step from the present instant to the next, of size `step`
 /// (s).
-void compute_frame_steps(NodalState& nodal, double step);
+void compute_frame_steps(const ExecutionSpace& space, NodalState& nodal, double step);
 
 /// Brings the nodes in double precision to the present instant.
 void update_absolute_nodes(const NodalState& nodal);

@@ -1,5 +1,6 @@
 #include "solve/ranks/row_exchange.hpp"
 
+#include "kernels/support/milestone.hpp"
 #include "kernels/support/packed_rows.hpp"
 #include "kernels/support/team.hpp"
 #include "solve/launch_graph.hpp"
@@ -26,34 +27,6 @@ struct PrecisionBuffers {
 
   PrecisionBuffers(const RankShare& share, bool used)
       : sent(used ? share.sent.extent(0) : 0), received(used ? share.received.extent(0) : 0) {}
-};
-
-struct ReachMilestone {
-  PinnedArray<long*> reached;
-  long number;
-  KOKKOS_INLINE_FUNCTION void operator()(const int) const { reached(0) = number; }
-};
-
-/// A word of the host's that the device counts up when it has come to a place in the order of its launches: a fence
-/// would wait for all that was launched after that place, too.
-class Milestone {
- public:
-  Milestone() : reached_("milestone", 1) {}
-
-  /// The place after all that has been launched.
-  void put() {
-    ++wanted_;
-    Kokkos::parallel_for("milestone", SpreadRange(0, 1), ReachMilestone{reached_, wanted_});
-  }
-  void wait() const {
-    const volatile long& reached = reached_(0);
-    while (reached < wanted_) {
-    }
-  }
-
- private:
-  PinnedArray<long*> reached_;
-  long wanted_ = 0;
 };
 
 struct RowExchange::Buffers {
@@ -132,7 +105,7 @@ Task RowExchange::send_task() {
                 pack(rows, buffers, share_);
                 // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
                 if constexpr (on_device)
-                  buffers_->packed.put();
+                  buffers_->packed.put(ExecutionSpace());
                 else
                   start_messages(buffers, share_, buffers_->copies, transport_);
               });

@@ -145,7 +145,7 @@ void StaticContact::press() {
   for (std::size_t p = 0; p < multiplier_.size(); ++p) {
     ContactPair& pair = contacts_[p];
     if (pair.has_springs()) continue;
-    keep_window(scene_, nodal_, pair, 1, StepKind::settling);
+    keep_window(scene_, nodal_, pair, Instant{0, 1}, StepKind::settling);
     const bool friction = has_friction(scene_, pair, StepKind::settling);
     if (pair.contact->normals == scene::ContactNormals::smooth)
       press_pair<SmoothNormalsOfMultipliers>(nodal_, pair, friction, multiplier_[p]);

@@ -129,7 +129,7 @@ MultiplierTasks multiplier_tasks(const scene::Scene& scene, const NodalState& no
   if (sweeps == 0) return {};
   Task search{"search of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {
                 for (ContactPair& pair : contacts)
-                  if (!pair.has_springs()) keep_window(scene, nodal, pair, instant.step, kind);
+                  if (!pair.has_springs()) keep_window(scene, nodal, pair, instant, kind);
               }};
   search.recordable = false;
   const Task begin{"location of" + names, "d", [&scene, &nodal, &contacts, kind](const Instant& instant) {

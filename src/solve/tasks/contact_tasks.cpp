@@ -10,7 +10,7 @@ namespace {
 Task search_task(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, StepKind kind) {
   Task task{
       "search of contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : ""), "d",
-      [&scene, &nodal, &pair, kind](const Instant& instant) { keep_window(scene, nodal, pair, instant.step, kind); }};
+      [&scene, &nodal, &pair, kind](const Instant& instant) { keep_window(scene, nodal, pair, instant, kind); }};
   task.recordable = false;
   return task;
 }

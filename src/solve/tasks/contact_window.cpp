@@ -240,6 +240,15 @@ bool renew_window(const NodalState& nodal, ContactPair& pair, double step, doubl
   return anew;
 }
 
+/// In the default space, after what has been launched in another and before what will be.
+bool renew_window_between(const ExecutionSpace& space, const NodalState& nodal, ContactPair& pair, double step,
+                          double sudden) {
+  space.fence();
+  const bool anew = renew_window(nodal, pair, step, sudden);
+  ExecutionSpace().fence();
+  return anew;
+}
+
 /// m in a step.
 double sudden_motion(const scene::Scene& scene, const ContactPair& pair, double step, StepKind kind) {
   // Settling scales masses such that a wave travels a share of each element in a step.
@@ -251,7 +260,10 @@ double sudden_motion(const scene::Scene& scene, const ContactPair& pair, double 
 
 }  // namespace
 
-void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, double step, StepKind kind) {
+void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, const Instant& instant,
+                 StepKind kind) {
+  const double step = instant.step;
+  const ExecutionSpace space = instant.space();
   const bool settling = kind == StepKind::settling;
   const bool check = nodal.step >= pair.next_check;
   const bool near_check = check || nodal.step >= pair.next_near_check;
@@ -260,17 +272,17 @@ void keep_window(const scene::Scene& scene, const NodalState& nodal, ContactPair
   const long steps = settling ? steps_between_near_checks_settling : steps_between_near_checks;
   const double interval = static_cast<double>(steps) * step, sudden_until_then = static_cast<double>(steps) * sudden;
   const bool first = pair.layouts == 0 || settling;
-  const bool laid_out = check && renew_window(nodal, pair, step, sudden);
+  const bool laid_out = check && renew_window_between(space, nodal, pair, step, sudden);
   const ContactSearch search{{pair.arrays, nodal.nodes.position}};
-  update_boxes(search, nodal.nodes.velocity, interval, sudden_until_then);
+  update_boxes(space, search, nodal.nodes.velocity, interval, sudden_until_then);
   pair.boxed = true;
   // A checkpoint has no boxes. Made anew they differ, but not what is found with them.
   if (!near_check) return;
   pair.next_near_check = nodal.step + steps;
   pair.near_checked_at = nodal.step;
-  Kokkos::deep_copy(ExecutionSpace(), pair.window.near_count, 0);
-  if (pair.counted.extent(0) != 0) Kokkos::deep_copy(ExecutionSpace(), pair.uncounted, 0);
-  apart_parallel_for("near_nodes", pair.window.count,
+  Kokkos::deep_copy(space, pair.window.near_count, 0);
+  if (pair.counted.extent(0) != 0) Kokkos::deep_copy(space, pair.uncounted, 0);
+  apart_parallel_for(space, "near_nodes", pair.window.count,
                      FindNearNodes{search, pair.window, nodal.nodes.velocity, interval, sudden_until_then, first,
                                    first || laid_out, pair.missed, pair.counted, pair.uncounted});
 }

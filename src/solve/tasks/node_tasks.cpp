@@ -83,11 +83,13 @@ Task corotating_frames_task(const AssembledScene& assembled, const std::vector<E
                             StepKind kind) {
   Task task{"co-rotating frames of nodes in single precision", "j",
             [&assembled, &groups, &nodal, kind](const Instant& instant) {
-              if (!nodal.relative.begun)
+              if (!nodal.relative.begun) {
                 begin_relative_nodes(assembled, groups, nodal);
-              else if (kind == StepKind::sampled)
+                ExecutionSpace().fence();
+              } else if (kind == StepKind::sampled) {
                 update_absolute_nodes(nodal);
-              compute_frame_steps(nodal, instant.step);
+              }
+              compute_frame_steps(instant.space(), nodal, instant.step);
             }};
   task.recordable = false;
   return task;

@@ -13,8 +13,9 @@ namespace {
 
 /// Between regular checks: a 32nd of the run, but within these bounds; powers of two, whole cycles of any levels.
 constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_of_run = 32;
-/// At the energies alone, at least: a broken account must not waste more than a twentieth of a run.
-constexpr long energy_checks_of_run = 24;
+/// At the energies alone, at least: a broken account must not waste more than a twentieth of a run. Long runs have
+/// twice as many, each in half the time: a check of a GPU takes as long as ten steps.
+constexpr long energy_checks_of_run = 24, most_energy_checks = 48;
 constexpr long steps_when_odd = 32;
 static_assert(fewest_between_checks % (1L << (most_levels - 1)) == 0);
 /// Smallest Jacobian at a corner, over the mean.
@@ -121,6 +122,7 @@ bool Monitor::due(long step) const { return whole_due(step) || (arrays_ && energ
 bool Monitor::energies_due(long step) const {
   long between = fewest_between_checks;
   while (between > steps_when_odd && between * energy_checks_of_run > sizes_.step_count) between /= 2;
+  while (between < most_between_checks && 2 * between * most_energy_checks <= sizes_.step_count) between *= 2;
   return step % between == 0;
 }
 

@@ -24,7 +24,7 @@ class Monitor {
   /// Whether a check is due at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every
   /// 4096; at the first powers of two; every 32 while something odd grows; after the ends of contacts were checked and
   /// one had come to an end of its surface; and at the energies alone 24 times at least, but no oftener than every 32
-  /// steps.
+  /// steps, and 48 to 96 times in a long run.
   bool due(long step) const;
 
   /// Where a sample's part energies are wanted; null: nowhere.

@@ -22,13 +22,14 @@ class Milestone {
     Kokkos::parallel_for("milestone", SpreadRange(space, 0, 1), ReachMilestone{reached_, wanted_});
   }
 
-  bool reached() const {
+  /// Places that the device has still to come to.
+  long ahead() const {
     const volatile long& reached = reached_(0);
-    return reached >= wanted_;
+    return wanted_ - reached;
   }
 
   void wait() const {
-    while (!reached()) {
+    while (ahead() > 0) {
     }
   }
 

@@ -150,6 +150,7 @@ void ProgressTable::end(const RunSummary& summary) {
   for (const std::string& line : summary.swings) out_ << "  " << line << '\n';
   for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';
   for (const std::string& line : summary.subcycling) out_ << "  subcycling: " << line << '\n';
+  if (!summary.ranks.empty()) out_ << "  " << summary.ranks << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n",
                       duration_text(summary.wall_seconds), 1e-6 * summary.element_steps_per_second,
                       plan_.element_count);

@@ -37,6 +37,7 @@ struct RunSummary {
   int step_renewals = 0;                       ///< of the global estimate of the stable step
   std::vector<std::string> step_estimates;     ///< what each estimate of the stable step allows, and which one counts
   std::vector<std::string> subcycling;  ///< how many elements are of which level, and what that saves; none without it
+  std::string ranks;                    ///< over how many the run went, and how their rows; empty: one process
   double wall_seconds = 0;
   double element_steps_per_second = 0;  ///< of the element updates that were made
   std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated

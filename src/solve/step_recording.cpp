@@ -207,7 +207,7 @@ struct StepRecording::Recordings {
   StepValues<double> load_values;
   StepValues<RigidPlace> places;
   std::map<Key, LaunchGraph> graphs;
-  Milestone last_graph;
+  Milestone graph_ends;
   State recorded_in;  ///< of all of them
 };
 
@@ -257,11 +257,11 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   all.load_values.take(all.space, model.step, steps, instant.step, value);
   all.places.take(all.space, model.step, steps, instant.step, place);
   found->second.launch(all.space);
-  if (all.own) all.last_graph.put(all.space);
+  if (all.own) all.graph_ends.put(all.space);
   return steps;
 }
 
-bool StepRecording::busy() const { return recordings_->own && !recordings_->last_graph.reached(); }
+long StepRecording::graphs_ahead() const { return recordings_->own ? recordings_->graph_ends.ahead() : 0; }
 
 #else
 
@@ -271,7 +271,7 @@ StepRecording::~StepRecording() = default;
 void StepRecording::finish() {}
 void StepRecording::forget() {}
 int StepRecording::most() const { return 0; }
-bool StepRecording::busy() const { return false; }
+long StepRecording::graphs_ahead() const { return 0; }
 long StepRecording::advance(const Instant&, long, const std::function<double(long)>&) { return 0; }
 
 #endif

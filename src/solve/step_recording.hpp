@@ -27,8 +27,8 @@ class StepRecording {
   /// @return how many were launched; 0: this step must be plain
   long advance(const Instant& instant, long quiet, const std::function<double(long)>& time);
 
-  /// Whether graphs of a space of their own are at work: what comes next would wait for them.
-  bool busy() const;
+  /// Graphs in a space of their own that the device has not come to the end of.
+  long graphs_ahead() const;
 
   /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
   void finish();

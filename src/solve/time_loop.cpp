@@ -113,6 +113,7 @@ class TimeLoop {
     recording_.finish();
     if (leader_) leader_->sample(instant_);
     plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
+    if (leader_) leader_->exchange().wait_for_rows();
     memory_.monitor.check_contact_ends();
     if (leader_) leader_->gather();
     if (sampled_) monitor_and_output();
@@ -146,7 +147,9 @@ class TimeLoop {
 
   void inputs_changed() { recording_.forget(); }
 
-  bool busy() const { return recording_.busy(); }
+  /// Whether what comes next would wait for the device, or has enough before it: a graph comes behind another one, so
+  /// that there is none too few while the host is with another member.
+  bool busy() const { return recording_.graphs_ahead() > (quiet(model_.step) ? 1 : 0); }
 
   double next_history() const { return memory_.control.time_of(memory_.due.next_history()); }
 
@@ -160,6 +163,7 @@ class TimeLoop {
     summary_.output_seconds = timing_.outputs();
     summary_.completed = summary_.reason.empty();
     summary_.left_out = model_.left_out;
+    if (leader_) summary_.ranks = leader_->describe();
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
     summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
@@ -257,6 +261,7 @@ class TimeLoop {
     for (long k = 0; k < steps; ++k) {
       instant_.time = model_.time = memory_.control.time();
       plans_.compute_forces(instant_, StepKind::advancing);
+      if (memory_.monitor.contact_ends_due(model_.step)) leader_->exchange().wait_for_rows();
       memory_.monitor.check_contact_ends();
       plans_.advance(instant_);
       end_step();

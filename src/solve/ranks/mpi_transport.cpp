@@ -84,14 +84,20 @@ class MpiTransport : public Transport {
   }
 
   void finish() override {
-    const auto began = std::chrono::steady_clock::now();
-    for (int done = 0; !requests_.empty();) {
-      check(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "wait");
-      if (done != 0) break;
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience_) give_up();
-    }
+    if (!requests_.empty())
+      wait_until([this] {
+        int done = 0;
+        check(MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE), "wait");
+        return done != 0;
+      });
     requests_.clear();
     others_.clear();
+  }
+
+  void wait_until(const std::function<bool()>& come) override {
+    const auto began = std::chrono::steady_clock::now();
+    while (!come())
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience_) give_up();
   }
 
   bool all_agree(bool yes) override {
@@ -113,16 +119,17 @@ class MpiTransport : public Transport {
   }
 
   [[noreturn]] void give_up() {
-    int silent = others_.front();
+    // Of rows that go from GPU to GPU it is not known whose are missing, but with two ranks.
+    int silent = ranks_ == 2 ? 1 - rank_ : -1;
     for (std::size_t k = 0; k < requests_.size(); ++k) {
       int done = 0;
       MPI_Test(&requests_[k], &done, MPI_STATUS_IGNORE);
       if (done == 0) silent = others_[k];
     }
     std::cerr << fmt::format(
-                     "railwave: rank {} has not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is "
+                     "railwave: {} has not answered rank {} for {:.0f} s; all ranks end. The last checkpoint is "
                      "good: --restart goes on from it, on any number of ranks",
-                     silent, rank_, patience_)
+                     silent < 0 ? std::string("another rank") : fmt::format("rank {}", silent), rank_, patience_)
               << std::endl;
     end_all();
   }

@@ -1,5 +1,7 @@
 #include "solve/ranks/rank_team.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "model/host_copy.hpp"
@@ -88,6 +90,11 @@ void RankLeader::begin() {
   for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r]);
 }
 
+std::string RankLeader::describe() const {
+  return fmt::format("{} ranks, rows {}", transport_.ranks(),
+                     exchange_->between_devices() ? "from GPU to GPU" : "through the host");
+}
+
 void RankLeader::advance(const Instant& instant, long steps) { give_order(RankOrder::advance, instant, steps); }
 
 void RankLeader::sample(const Instant& instant) { give_order(RankOrder::sample, instant); }
@@ -95,6 +102,7 @@ void RankLeader::sample(const Instant& instant) { give_order(RankOrder::sample, 
 void RankLeader::move(const Instant& instant) { give_order(RankOrder::move, instant); }
 
 void RankLeader::gather() {
+  exchange_->wait_for_rows();
   give_order(RankOrder::gather, {});
   for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.receive(r, items_[r]);
 }
@@ -148,6 +156,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         run_tasks(sampled.forces, instant, model.step);
         break;
       case RankOrder::gather:
+        exchange.wait_for_rows();
         state_transfer.send(0, items);
         break;
       case RankOrder::move:

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 #include "solve/plan.hpp"
 #include "solve/ranks/row_exchange.hpp"
@@ -63,6 +64,9 @@ class RankLeader {
   void begin();
 
   RowExchange& exchange() { return *exchange_; }
+
+  /// How many ranks there are, and how their rows go.
+  std::string describe() const;
 
   /// The others take so many steps.
   void advance(const Instant& instant, long steps);

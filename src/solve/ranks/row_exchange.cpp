@@ -4,6 +4,7 @@
 #include "kernels/support/packed_rows.hpp"
 #include "kernels/support/team.hpp"
 #include "solve/launch_graph.hpp"
+#include "solve/ranks/device_messages.hpp"
 
 namespace railwave {
 
@@ -29,11 +30,16 @@ struct PrecisionBuffers {
       : sent(used ? share.sent.extent(0) : 0), received(used ? share.received.extent(0) : 0) {}
 };
 
+/// So many steps the host launches before the device has come to the first of them: more would gain nothing, and a rank
+/// that does not answer is found out by the wait for its rows.
+constexpr long most_steps_ahead = 2;
+
 struct RowExchange::Buffers {
   PrecisionBuffers<double> in_double;
   PrecisionBuffers<float> in_single;
-  Milestone packed;
+  Milestone packed, unpacked;
   ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
+  std::unique_ptr<DeviceMessages> on_devices;          ///< null: rows go through the host
 
   Buffers(const RankShare& share, bool single) : in_double(share, !single), in_single(share, single) {}
 };
@@ -73,6 +79,16 @@ void start_messages(const PrecisionBuffers<S>& buffers, const RankShare& share, 
 }
 
 template <class S>
+std::vector<DeviceMessages::Message> device_messages_of(const PrecisionBuffers<S>& buffers, const RankShare& share) {
+  std::vector<DeviceMessages::Message> messages;
+  for (const RankShare::Neighbour& one : share.neighbours)
+    messages.push_back({one.rank, buffers.sent.device.data() + one.first_sent, sizeof(PartialForce<S>) * one.sent_count,
+                        buffers.received.device.data() + one.first_received,
+                        sizeof(PartialForce<S>) * one.received_count});
+  return messages;
+}
+
+template <class S>
 void finish_messages(const PrecisionBuffers<S>& buffers, const ExecutionSpace& copies, Transport& transport) {
   transport.finish();
   if constexpr (on_device) {
@@ -87,9 +103,17 @@ RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& tr
     : nodal_(nodal),
       share_(std::move(share)),
       transport_(transport),
-      buffers_(std::make_unique<Buffers>(share_, nodal.partial.single_precision)) {}
+      buffers_(std::make_unique<Buffers>(share_, nodal.partial.single_precision)) {
+  buffers_->on_devices = device_messages(transport);
+}
 
 RowExchange::~RowExchange() = default;
+
+bool RowExchange::between_devices() const { return buffers_->on_devices != nullptr; }
+
+void RowExchange::wait_for_rows(long steps_ahead) const {
+  transport_.wait_until([&] { return buffers_->unpacked.ahead() <= steps_ahead; });
+}
 
 template <class Do>
 void RowExchange::with_rows(const Do& act) const {
@@ -103,6 +127,8 @@ Task RowExchange::send_task() {
   Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
               with_rows([this](const auto& rows, const auto& buffers) {
                 pack(rows, buffers, share_);
+                if (buffers_->on_devices)
+                  return buffers_->on_devices->start(ExecutionSpace(), device_messages_of(buffers, share_));
                 // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
                 if constexpr (on_device)
                   buffers_->packed.put(ExecutionSpace());
@@ -118,6 +144,13 @@ Task RowExchange::send_task() {
 Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
               with_rows([this](const auto& rows, const auto& buffers) {
+                if (buffers_->on_devices) {
+                  buffers_->on_devices->finish(ExecutionSpace());
+                  unpack(rows, buffers, share_);
+                  buffers_->unpacked.put(ExecutionSpace());
+                  wait_for_rows(most_steps_ahead);
+                  return;
+                }
                 if constexpr (on_device) {
                   buffers_->packed.wait();
                   start_messages(buffers, share_, buffers_->copies, transport_);

@@ -16,6 +16,13 @@ class RowExchange {
   const RankShare& share() const { return share_; }
   Transport& transport() const { return transport_; }
 
+  /// Whether rows go from GPU to GPU; else they go through the host.
+  bool between_devices() const;
+
+  /// Until no more than so many steps are left whose rows of other ranks have not come, see Transport::wait_until().
+  /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
+  void wait_for_rows(long steps_ahead = 0) const;
+
   /// To come after the outer blocks' forces: the rows are on their way from then on.
   Task send_task();
   /// Before anything that needs all forces.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 namespace railwave {
@@ -20,6 +21,10 @@ class Transport {
   virtual void start_receive(int from, void* data, std::size_t bytes) = 0;
   /// Waits for all that was started. Ends all ranks with a message where one of them does not answer in time.
   virtual void finish() = 0;
+
+  /// Waits until something of the other ranks' has come that is asked for again and again. Ends all ranks with a
+  /// message where that takes too long.
+  virtual void wait_until(const std::function<bool()>& come) = 0;
 
   /// Whether all ranks say yes; each waits for all others.
   virtual bool all_agree(bool yes) = 0;

@@ -1,0 +1,125 @@
+#include "solve/ranks/device_messages.hpp"
+
+#if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
+#include <cuda_runtime_api.h>
+#include <nccl.h>
+#endif
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "case/error.hpp"
+
+namespace railwave {
+
+#if defined(RAILWAVE_NCCL) && defined(KOKKOS_ENABLE_CUDA)
+
+namespace {
+
+void check(ncclResult_t result, const char* what) {
+  if (result == ncclSuccess) return;
+  throw std::runtime_error(fmt::format("NCCL could not {}: {}; RAILWAVE_RANK_MESSAGES=host does without it", what,
+                                       ncclGetErrorString(result)));
+}
+
+void check(cudaError_t result, const char* what) {
+  if (result == cudaSuccess) return;
+  throw std::runtime_error(fmt::format("CUDA could not {}: {}", what, cudaGetErrorString(result)));
+}
+
+/// A mark in the order of a stream, for which another stream waits.
+class Mark {
+ public:
+  Mark() { check(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "make an event"); }
+  ~Mark() { cudaEventDestroy(event_); }
+  Mark(const Mark&) = delete;
+  Mark& operator=(const Mark&) = delete;
+
+  void pass(cudaStream_t from, cudaStream_t to) const {
+    check(cudaEventRecord(event_, from), "record an event");
+    check(cudaStreamWaitEvent(to, event_, 0), "wait for an event");
+  }
+
+ private:
+  cudaEvent_t event_ = nullptr;
+};
+
+class NcclMessages : public DeviceMessages {
+ public:
+  /// @param id of rank 0, known to all
+  NcclMessages(const ncclUniqueId& id, const Transport& transport) {
+    // Rows go from one rank to one other. Multicast would be set up for nothing.
+    setenv("NCCL_NVLS_ENABLE", "0", 0);
+    // Before blocks that wait for a place on the device: few of them leave none for a message.
+    int least = 0, greatest = 0;
+    check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
+    check(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest), "make a stream");
+    const ncclResult_t result = ncclCommInitRank(&ranks_, transport.ranks(), id, transport.rank());
+    if (result == ncclSuccess) return;
+    cudaStreamDestroy(stream_);
+    check(result, "join the ranks");
+  }
+  ~NcclMessages() override {
+    cudaStreamSynchronize(stream_);
+    ncclCommDestroy(ranks_);
+    cudaStreamDestroy(stream_);
+  }
+  NcclMessages(const NcclMessages&) = delete;
+  NcclMessages& operator=(const NcclMessages&) = delete;
+
+  void start(const ExecutionSpace& space, const std::vector<Message>& messages) override {
+    packed_.pass(space.cuda_stream(), stream_);
+    check(ncclGroupStart(), "begin");
+    for (const Message& one : messages) {
+      if (one.sent_bytes > 0) check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, stream_), "send");
+      if (one.received_bytes > 0)
+        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, stream_), "receive");
+    }
+    check(ncclGroupEnd(), "exchange rows");
+  }
+
+  void finish(const ExecutionSpace& space) override { arrived_.pass(stream_, space.cuda_stream()); }
+
+ private:
+  cudaStream_t stream_ = nullptr;
+  ncclComm_t ranks_ = nullptr;
+  Mark packed_, arrived_;
+};
+
+/// Whether users leave the way of rows to the program.
+bool wanted() {
+  const char* const text = std::getenv("RAILWAVE_RANK_MESSAGES");
+  if (text == nullptr || *text == 0) return true;
+  if (std::string(text) == "host") return false;
+  throw InputError(fmt::format(
+      "the environment variable RAILWAVE_RANK_MESSAGES is '{}': host is wanted, or that it is unset", text));
+}
+
+}  // namespace
+
+std::unique_ptr<DeviceMessages> device_messages(Transport& transport) {
+  if (!transport.all_agree(wanted())) return nullptr;
+  ncclUniqueId id;
+  const bool ready = transport.rank() != 0 || ncclGetUniqueId(&id) == ncclSuccess;
+  if (!transport.all_agree(ready)) return nullptr;
+  transport.broadcast(&id, sizeof id);
+  std::unique_ptr<DeviceMessages> messages;
+  try {
+    messages = std::make_unique<NcclMessages>(id, transport);
+  } catch (const std::runtime_error&) {
+    // Ranks that share a GPU cannot be joined.
+  }
+  if (!transport.all_agree(messages != nullptr)) return nullptr;
+  return messages;
+}
+
+#else
+
+std::unique_ptr<DeviceMessages> device_messages(Transport& /*transport*/) { return nullptr; }
+
+#endif
+
+}  // namespace railwave

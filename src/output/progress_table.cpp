@@ -160,6 +160,7 @@ void ProgressTable::end(const RunSummary& summary) {
   if (summary.output_seconds > 0)
     out_ << fmt::format("  outputs took {:.3g} s, {:.2g} % of the run\n", summary.output_seconds,
                         100 * summary.output_seconds / std::max(summary.wall_seconds, 1e-9));
+  if (!summary.ranks.empty()) out_ << "  " << summary.ranks << '\n';
   if (summary.checkpoints > 0)
     out_ << fmt::format("  {} checkpoints, for which the run waited {:.3g} s in all, {:.2g} % of its time\n",
                         summary.checkpoints, summary.checkpoint_seconds,

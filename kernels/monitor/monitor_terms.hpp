@@ -95,7 +95,9 @@ struct EdgeRate {
 struct NodeCheck {
   static constexpr int values = 2;
   SubcycledAcceleration acceleration;
-  KOKKOS_INLINE_FUNCTION void operator()(int n, double* value) const {
+  Array<const int*> listed;  ///< nodes; empty: all
+  KOKKOS_INLINE_FUNCTION void operator()(int i, double* value) const {
+    const int n = listed.extent(0) == 0 ? i : listed(i);
     value[0] = norm(row(acceleration.plain.force.nodes.velocity, n));
     value[1] = norm(acceleration(n));
   }
@@ -121,16 +123,6 @@ struct ContactCheck {
     const Vector3 other =
         row(position, contact.node_of(segment.node[3])) - row(position, contact.node_of(segment.node[1]));
     value[0] = -contact.gap(s) / std::sqrt(0.5 * norm(cross(across, other)));
-  }
-};
-
-/// Adds what a block's hourglass control has dissipated to what it has stored.
-struct AddDissipated {
-  Array<double* [2]> energy;
-  Array<const double*> dissipated;
-  int sums;
-  KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
-    for (int k = 0; k < sums; ++k) energy(p, 1) += dissipated(p * sums + k);
   }
 };
 

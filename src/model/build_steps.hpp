@@ -53,6 +53,8 @@ void build_non_reflecting(const AssembledScene& assembled, const std::vector<Con
                           NonReflectingEnds& ends);
 /// element_histories.cpp: elements whose stress or strain is written
 void build_element_histories(const AssembledScene& assembled, ElementModel& elements);
+/// sum_parts.cpp: parts of the lists over which accounts and histories sum
+void build_sum_parts(int node_count, ElementModel& elements, LoadModel& loads);
 /// contact_pairs.cpp: surfaces, stiffnesses, and what is beyond their sides. An automatic algorithm has springs until
 /// choose_algorithms()
 void build_contacts(const AssembledScene& assembled, std::vector<ContactPair>& contacts);

@@ -61,6 +61,17 @@ void visit_arrays(const Named<Visitor>& visit, RelativeNodes& relative) {
 }
 
 template <class Visitor>
+void visit_arrays(const Named<Visitor>& visit, PartedLists& lists) {
+  visit(ArrayUse::constant, "part_items", lists.items.item);
+  visit(ArrayUse::constant, "part_chunks", lists.items.chunks);
+  visit(ArrayUse::constant, "first_chunks", lists.items.first_chunk);
+  visit(ArrayUse::constant, "own_parts", lists.own_parts);
+  visit(ArrayUse::constant, "own_chunks", lists.own_chunks);
+  visit(ArrayUse::scratch, "chunk_sums", lists.chunk_sums);
+  visit(ArrayUse::scratch, "part_sums", lists.part_sums);
+}
+
+template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   ElementBlocks& blocks = group.blocks;
   visit(ArrayUse::constant, "element_count", blocks.element_count);
@@ -76,6 +87,9 @@ void visit_arrays(const Named<Visitor>& visit, ElementGroup& group) {
   visit(ArrayUse::constant, "settling_hourglass", blocks.settling_hourglass);
   visit(ArrayUse::run_state, "hourglass_energy", blocks.hourglass_energy);
   visit(ArrayUse::scratch, "block_energy", group.block_energy);
+  visit(ArrayUse::scratch, "slot_sums", group.slot_sums);
+  visit(ArrayUse::scratch, "block_sums", group.block_sums);
+  visit(ArrayUse::constant, "own_blocks", group.own_blocks);
 
   MaterialArrays& material = group.material;
   visit(ArrayUse::constant, "material_constants", material.constants);
@@ -95,6 +109,7 @@ void visit_arrays(const Named<Visitor>& visit, ElementHistories& histories) {
   visit(ArrayUse::constant, "item", histories.item);
   visit(ArrayUse::constant, "weight", histories.weight);
   visit(ArrayUse::constant, "corner", histories.corner);
+  visit_arrays(visit, histories.parts);
   visit(ArrayUse::scratch, "stress", histories.stress);
   visit(ArrayUse::scratch, "strain", histories.strain);
   visit(ArrayUse::scratch, "plastic_strain", histories.plastic_strain);
@@ -135,6 +150,7 @@ template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, MotionHistories& histories) {
   visit(ArrayUse::constant, "node", histories.node);
   visit(ArrayUse::constant, "weight", histories.weight);
+  visit_arrays(visit, histories.parts);
 }
 
 template <class Visitor>
@@ -319,6 +335,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   visit_arrays(of("nodes_"), model.nodes);
   visit_arrays(of("carried_"), model.relative);
   each("elements", model.elements);
+  visit_arrays(of("sums_over_nodes_"), model.node_parts);
   if (model.element_histories) visit_arrays(of("element_histories_"), *model.element_histories);
   visit_arrays(of("extra_"), model.external);
   visit_arrays(of("sets_"), model.sets);

@@ -37,13 +37,13 @@ struct RunSummary {
   int step_renewals = 0;                       ///< of the global estimate of the stable step
   std::vector<std::string> step_estimates;     ///< what each estimate of the stable step allows, and which one counts
   std::vector<std::string> subcycling;  ///< how many elements are of which level, and what that saves; none without it
-  std::string ranks;                    ///< over how many the run went, and how their rows; empty: one process
   double wall_seconds = 0;
   double element_steps_per_second = 0;  ///< of the element updates that were made
   std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated
-  std::optional<Fault> fault;           ///< what stopped it, if the monitor did
-  std::vector<std::string> warnings;    ///< what may have cost accuracy
-  std::vector<std::string> left_out;    ///< what the scene did not need and the run did not compute
+  std::string ranks;                  ///< of a run over several: how rows went, what came to rank 0; empty: one process
+  std::optional<Fault> fault;         ///< what stopped it, if the monitor did
+  std::vector<std::string> warnings;  ///< what may have cost accuracy
+  std::vector<std::string> left_out;  ///< what the scene did not need and the run did not compute
 };
 
 /// Completes what the summary of a run that has ended says of its steps. It holds already from where the run began, and

@@ -91,10 +91,11 @@ class TimeLoop {
         doubts_(report_beginning()),
         in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
-        memory_{StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
-                std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
-                Monitor(model, model, model, model, model.contacts)},
         leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),
+        memory_{
+            StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
+            std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
+            Monitor(model, model, model, model, model.contacts, leader_ ? &leader_->own() : nullptr, leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space) {
     if (keeping.from) take_up(*keeping.from);
@@ -112,10 +113,9 @@ class TimeLoop {
     if (leader_ ? take_shared_steps() : take_recorded_steps()) return true;
     recording_.finish();
     if (leader_) leader_->sample(instant_);
-    plans_.compute_forces(instant_, sampled_ ? StepKind::sampled : StepKind::advancing);
+    plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     if (leader_) leader_->exchange().wait_for_rows();
     memory_.monitor.check_contact_ends();
-    if (leader_) leader_->gather();
     if (sampled_) monitor_and_output();
     if (ends()) return false;
     if (leader_) leader_->move(instant_);
@@ -163,7 +163,7 @@ class TimeLoop {
     summary_.output_seconds = timing_.outputs();
     summary_.completed = summary_.reason.empty();
     summary_.left_out = model_.left_out;
-    if (leader_) summary_.ranks = leader_->describe();
+    if (leader_) summary_.ranks = leader_->summary();
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
     summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
@@ -252,9 +252,11 @@ class TimeLoop {
     return true;
   }
 
+  bool asks_for_places() const { return memory_.monitor.asks_for_places(model_.step); }
+
   /// As many steps as other ranks can take without another order.
   bool take_shared_steps() {
-    if (sampled_) return false;
+    if (sampled_ || asks_for_places()) return false;
     constexpr long most = 64;
     const long steps = std::max(1L, quiet_steps(most));
     leader_->advance(instant_, steps);
@@ -270,6 +272,7 @@ class TimeLoop {
   }
 
   void monitor_and_output() {
+    if (leader_ && fields_due_.any()) leader_->gather();
     if (only_fields_) {  // energies and sums of forces are nobody's then, and take longer than the fields
       HistorySample sample;
       sample.time = model_.time;
@@ -278,8 +281,8 @@ class TimeLoop {
       ++memory_.field_outputs;
       return;
     }
-    HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(model_, model_.step_size,
-                                                                            memory_.monitor.part_energies(model_.step));
+    HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(
+        model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
     if (first_) memory_.total_at_start = balance_total(sample.energy);
     sample.energy.balance_error = balance_total(sample.energy) - memory_.total_at_start;
     monitor(sample);
@@ -293,17 +296,19 @@ class TimeLoop {
     if (output_due_) timing_.monitor_at_outputs.begin();
     const std::vector<Fault> found = memory_.monitor.check(sample);
     if (output_due_) timing_.monitor_at_outputs.end();
+    if (leader_ && !found.empty()) leader_->gather();
     for (const Fault& fault : found)
       for (RunObserver* observer : observers_) observer->warning(model_, fault);
     const Fault* fault = memory_.monitor.fatal();
     if (!fault) return;
     summary_.fault = *fault;
     summary_.reason = fault->summary();
-    if (!output_due_) add_history_values(model_, sample);
+    if (!output_due_) add_history_values(model_, model_.step_size, sample, leader_.get());
   }
 
   void output(const HistorySample& sample) {
     const bool last_chance = stopping_ || summary_.fault;
+    if (leader_ && last_chance) leader_->gather();
     for (RunObserver* observer : observers_) {
       if (memory_.due.history() || last_chance) observer->history(model_, sample);
       if (fields_due_.any())
@@ -338,9 +343,9 @@ class TimeLoop {
   const RunKeeping& keeping_;
   const std::vector<std::string> doubts_;
   const bool in_equilibrium_;
-  const bool prepared_;  ///< false: stopped while it settled
-  LoopMemory memory_;
+  const bool prepared_;                 ///< false: stopped while it settled
   std::unique_ptr<RankLeader> leader_;  ///< of other ranks; null: there are none
+  LoopMemory memory_;
   StepPlans plans_;
   StepRecording recording_;
   RunSummary summary_;

@@ -22,7 +22,8 @@ namespace {
 std::vector<ElementMeans> means_of(const Model& model) {
   std::vector<ElementMeans> means;
   Reductions sums(*model.reduction_space);
-  queue_element_means(model, model.nodes, means, sums);
+  sum_element_parts(model, model.nodes);
+  queue_element_means(model, means, sums);
   sums.fetch();
   return means;
 }

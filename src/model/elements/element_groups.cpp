@@ -337,10 +337,15 @@ void build_elements(AssembledScene& assembled, const AbsorbingLayers& absorbing,
     ElementGroup& built = groups[g];
     built.blocks = arrays_of(lists[g], single);
     built.block_energy = unset_array<double* [2]>("block energy", built.blocks.count);
-    built.block_energy_fetched = PinnedArray<double* [2]>("block energy fetched", built.blocks.count);
+    built.block_sums = unset_array<double* [energies_of_block]>("energies of blocks", built.blocks.count);
+    built.block_sums_fetched =
+        PinnedArray<double* [energies_of_block]>("energies of blocks, fetched", built.blocks.count);
     built.material = material_arrays(kinds[g].material, materials[g], built.first_element.size() * elements_of_block);
-    if (built.material.flows())
+    if (built.material.flows()) {
       built.material.volume = to_device("reference volume", reference_volumes(assembly, built));
+      built.slot_sums =
+          unset_array<double*>("work of flow", static_cast<std::size_t>(built.blocks.count) * flow_threads);
+    }
     built.first_partial = rows;
     if (kinds[g].damped)
       built.damping = damping_arrays(assembly, absorbing, built, lists[g].node, parts[g], materials[g]);

@@ -36,15 +36,14 @@ struct TakePlasticStrain {
 
 /// Weighted stress, strain and plastic strain of a set's elements.
 struct ElementMeanSum {
-  static constexpr int values = 13;
+  static constexpr int values = values_of_element_parts;
   Array<const int*> item;
   Array<const double*> weight;
   Array<const double*[6]> stress, strain;
   Array<const double*> plastic_strain;
-  int begin;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
-    const int e = item(begin + k);
-    const double w = weight(begin + k);
+    const int e = item(k);
+    const double w = weight(k);
     for (int c = 0; c < 6; ++c) {
       sum[c] += w * stress(e, c);
       sum[6 + c] += w * strain(e, c);
@@ -93,15 +92,18 @@ void evaluate(const ElementModel& elements, const NodeArrays& nodes) {
                          ListedStrain{nodes, histories.corner, histories.strain});
 }
 
-/// The listed elements of one group.
+/// The listed elements of one group's blocks.
 ListedElements list_of(bool in_single, const ElementGroup& group, const std::vector<int>& elements) {
+  std::vector<char> has(group.blocks.count, group.whole ? 1 : 0);
+  if (!group.whole)
+    for (int p : to_vector(group.own_blocks)) has[p] = 1;
   std::vector<int> blocks;
   std::vector<std::array<int, 3>> places;
   for (int p = 0; p < group.blocks.count; ++p) {
     const int first = group.first_element[p], end = first + group.element_count[p];
     const auto from = std::lower_bound(elements.begin(), elements.end(), first),
                to = std::lower_bound(from, elements.end(), end);
-    if (from == to) continue;
+    if (from == to || has[p] == 0) continue;
     for (auto e = from; e != to; ++e)
       places.push_back({static_cast<int>(e - elements.begin()),
                         static_cast<int>(blocks.size()) * elements_of_block + *e - first,
@@ -147,6 +149,7 @@ void build_element_histories(const AssembledScene& assembled, ElementModel& elem
   }
   std::vector<std::array<int, 8>> corner;
   for (int e : listed) corner.push_back(assembled.assembly.elements[e]);
+  histories.elements = listed;
   histories.first_of_set = first;
   histories.item = to_device("items of element histories", item);
   histories.weight = to_device("weights of element histories", weight);
@@ -159,25 +162,34 @@ void build_element_histories(const AssembledScene& assembled, ElementModel& elem
   elements.element_histories = std::make_shared<ElementHistories>(std::move(histories));
 }
 
-void queue_element_means(const ElementModel& elements, const NodeArrays& nodes, std::vector<ElementMeans>& means,
-                         Reductions& sums) {
+void keep_listed_elements(ElementModel& elements) {
+  if (!elements.element_histories) return;
+  ElementHistories& histories = *elements.element_histories;
+  histories.listed.clear();
+  for (const ElementGroup& group : elements.elements)
+    histories.listed.push_back(list_of(elements.in_single, group, histories.elements));
+}
+
+void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes) {
   if (!elements.element_histories) return;
   const ElementHistories& histories = *elements.element_histories;
   with_element_precision(elements, [&](auto number) { evaluate<decltype(number)>(elements, nodes); });
-  means.resize(histories.first_of_set.size() - 1);
-  for (std::size_t s = 0; s < means.size(); ++s) {
-    ElementMeans& mean = means[s];
-    const int begin = histories.first_of_set[s], end = histories.first_of_set[s + 1];
-    sums.sum(ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain,
-                            histories.plastic_strain, begin},
-             end - begin, [&mean](const double* sum) {
-               for (int c = 0; c < 6; ++c) {
-                 mean.stress[c] = sum[c];
-                 mean.strain[c] = sum[6 + c];
-               }
-               mean.plastic_strain = sum[12];
-             });
-  }
+  sum_parts(histories.parts, ElementMeanSum{histories.item, histories.weight, histories.stress, histories.strain,
+                                            histories.plastic_strain});
+}
+
+void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, Reductions& sums) {
+  if (!elements.element_histories) return;
+  const PartedLists& parts = elements.element_histories->parts;
+  means.resize(parts.list_count());
+  queue_lists<ElementMeanSum::values>(parts, sums, [&means](int set, const double* sum) {
+    ElementMeans& mean = means[set];
+    for (int c = 0; c < 6; ++c) {
+      mean.stress[c] = sum[c];
+      mean.strain[c] = sum[6 + c];
+    }
+    mean.plastic_strain = sum[12];
+  });
 }
 
 }  // namespace railwave

@@ -20,6 +20,7 @@ struct ListedElements {
 
 /// Sets of scene.output.history_sets whose stress or strain is written.
 struct ElementHistories {
+  std::vector<int> elements;           ///< the list: numbers of the assembly, ascending
   std::vector<int> first_of_set;       ///< in `item`, one more than sets
   Array<int*> item;                    ///< number in the list of elements, set after set
   Array<double*> weight;               ///< of each item
@@ -28,12 +29,18 @@ struct ElementHistories {
   Array<double* [6]> stress;           ///< Pa, by element of the list, at the instant sampled last
   Array<double* [6]> strain;
   Array<double*> plastic_strain;
+  PartedLists parts;  ///< of items: one list for each set
   bool wants_stress = false, wants_strain = false, wants_plastic_strain = false;
 };
 
-/// Queues the means at the present instant of each of these sets: one for each set that resolve_history_sets() gives
-/// elements to. Quantities that no set asks for stay zero.
-void queue_element_means(const ElementModel& elements, const NodeArrays& nodes, std::vector<ElementMeans>& means,
-                         Reductions& sums);
+/// From now on this process evaluates the listed elements of its own blocks alone, see ElementGroup.
+void keep_listed_elements(ElementModel& elements);
+
+/// Evaluates the listed elements at the present instant, and sums the process's parts of each set.
+void sum_element_parts(const ElementModel& elements, const NodeArrays& nodes);
+
+/// Queues the means of each of these sets from the sums of their parts: one for each set that resolve_history_sets()
+/// gives elements to. Quantities that no set asks for stay zero.
+void queue_element_means(const ElementModel& elements, std::vector<ElementMeans>& means, Reductions& sums);
 
 }  // namespace railwave

@@ -12,8 +12,15 @@
 #include "kernels/support/reduction_space.hpp"
 #include "model/elements/block_order.hpp"
 #include "model/elements/relative_coordinates.hpp"
+#include "model/parted_lists.hpp"
 
 namespace railwave {
+
+/// Of the account, of a block of elements, J: elastic; stored or dissipated by hourglass control; dissipated by
+/// damping; work of plastic flow.
+inline constexpr int energies_of_block = 4;
+/// The work of flow of a block is summed by so many threads first.
+inline constexpr int flow_threads = 16;
 
 /// The elements that one kernel works on: those of all parts with the same kind of material and hourglass control,
 /// damped or not.
@@ -29,7 +36,11 @@ struct ElementGroup {
   std::vector<int> first_element;   ///< of each block, in the assembly's numbering
   std::vector<int> element_count;   ///< of each block
   Array<double* [2]> block_energy;  ///< J, elastic and hourglass, of each block: where the account works
-  PinnedArray<double* [2]> block_energy_fetched;
+  Array<double*> slot_sums;         ///< J, work of flow of every so many slots of each block; empty: nothing flows
+  Array<double* [energies_of_block]> block_sums;  ///< J, of each block: what the account adds
+  PinnedArray<double* [energies_of_block]> block_sums_fetched;
+  bool whole = true;  ///< this process has all blocks; false: the own ones alone
+  Array<int*> own_blocks;
 
   /// Rows of the partial forces up to the group's last.
   int rows_end() const {
@@ -44,8 +55,12 @@ struct ElementModel {
   bool in_single = false;  ///< they are computed in single precision
   BlockOrder order;
   std::vector<ElementGroup> elements;
+  PartedLists node_parts;  ///< one list of all nodes, each with the first block that has it
   std::shared_ptr<ElementHistories> element_histories;  ///< null where no history of stress or strain is written
 };
+
+/// Number of each group's first block among the blocks of all groups; and at last that of all blocks.
+std::vector<int> first_blocks(const std::vector<ElementGroup>& groups);  // sum_parts.cpp
 
 /// Updates the frames from which single precision measures a group's displacements to where its blocks are now.
 void renew_frames(const NodeArrays& nodes, const ElementGroup& group);

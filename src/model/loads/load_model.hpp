@@ -9,6 +9,7 @@
 #include "kernels/nodes/external_force.hpp"
 #include "kernels/support/spaces.hpp"
 #include "model/loads/connector_cells.hpp"
+#include "model/parted_lists.hpp"
 
 namespace railwave {
 
@@ -41,6 +42,7 @@ struct MotionHistories {
   std::vector<int> first;     ///< of each of LoadModel::history_sets in the arrays, one more than sets
   Array<int*> node;           ///< model node numbers
   Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
+  PartedLists parts;          ///< one list for each set
 };
 
 /// Loads, connectors, and the node sets that both act on or that histories follow.

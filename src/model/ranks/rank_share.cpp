@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "model/elements/element_histories.hpp"
 #include "model/host_copy.hpp"
 
 namespace railwave {
@@ -46,6 +47,19 @@ void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
   for (int& end : model.subcycling.shared_end) end = kept_before[end];
 }
 
+/// Blocks and parts of lists that the rank's accounts and histories sum.
+void keep_sums(Model& model, const ShareItems& items) {
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    model.elements[g].whole = false;
+    model.elements[g].own_blocks = to_device("own blocks", items.blocks[g]);
+  }
+  const auto keep = [&](PartedLists& lists) { keep_parts(lists, parts_of_rank(lists, model.elements, items)); };
+  keep(model.node_parts);
+  keep(model.motion_histories.parts);
+  if (model.element_histories) keep(model.element_histories->parts);
+  keep_listed_elements(model);
+}
+
 }  // namespace
 
 RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
@@ -65,6 +79,7 @@ RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
 
 ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank) {
   ShareItems items;
+  items.rank = rank;
   for (int n = 0; n < model.nodes.count; ++n)
     if (layout.touches[rank][n] != 0) items.nodes.push_back(n);
   for (const auto& owner : partition.owner) {
@@ -73,6 +88,33 @@ ShareItems items_of(const Model& model, const BlockPartition& partition, const R
       if (owner[p] == rank) blocks.push_back(static_cast<int>(p));
   }
   return items;
+}
+
+std::vector<int> parts_of_rank(const PartedLists& lists, const std::vector<ElementGroup>& groups,
+                               const ShareItems& items) {
+  const std::vector<int> first = first_blocks(groups);
+  std::vector<char> has(first.back(), 0);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (int p : items.blocks[g]) has[first[g] + p] = 1;
+  return parts_of(lists, has, items.rank == 0);
+}
+
+OwnItems own_items(const Model& model, const ShareItems& items) {
+  OwnItems own;
+  own.nodes = items.nodes;
+  if (items.rank == 0) {
+    const auto first = to_vector(model.nodes.first_partial);
+    for (int n = 0; n < model.nodes.count; ++n)
+      if (first[n + 1] == first[n]) own.nodes.push_back(n);
+    std::sort(own.nodes.begin(), own.nodes.end());
+  }
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    const ElementGroup& group = model.elements[g];
+    for (int p : items.blocks[g])
+      for (int e = 0; e < group.element_count[p]; ++e) own.elements.push_back(group.first_element[p] + e);
+  }
+  std::sort(own.elements.begin(), own.elements.end());
+  return own;
 }
 
 RankShare take_share(Model& model, const BlockPartition& partition, const RankLayout& layout, int rank) {
@@ -106,6 +148,7 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   share.sent = to_device("rows sent", sent);
   share.received = to_device("rows received", received);
   keep_shared_nodes(model, layout, rank);
+  keep_sums(model, items_of(model, partition, layout, rank));
   return share;
 }
 

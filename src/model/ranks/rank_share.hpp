@@ -17,9 +17,21 @@ RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition);
 
 /// Places in the arrays of a model that a rank's blocks change, for their way to and from rank 0.
 struct ShareItems {
+  int rank = 0;
   std::vector<int> nodes;                ///< of its blocks
   std::vector<std::vector<int>> blocks;  ///< by group
 };
+
+/// Parts of lists that a rank sums.
+std::vector<int> parts_of_rank(const PartedLists& lists, const std::vector<ElementGroup>& groups,
+                               const ShareItems& items);
+
+/// Elements and nodes that a rank measures, ascending: those of its blocks; rank 0 also nodes of no block.
+struct OwnItems {
+  std::vector<int> elements, nodes;
+};
+
+OwnItems own_items(const Model& model, const ShareItems& items);
 
 ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank);
 
@@ -40,7 +52,8 @@ struct RankShare {
   Array<int*> sent, received;  ///< rows of the partial forces, neighbour by neighbour
 };
 
-/// A rank's share. The model's shared nodes are from then on those of its blocks, on rank 0 also those of no block.
+/// A rank's share. From then on the model's shared nodes are those of its blocks, on rank 0 also those of no block, and
+/// what is summed for accounts and histories is the rank's parts.
 RankShare take_share(Model& model, const BlockPartition& partition, const RankLayout& layout, int rank);
 
 }  // namespace railwave

@@ -14,7 +14,7 @@ namespace {
 /// Kinetic energy at t_n, m v(n-1/2).v(n+1/2)/2, and minus the work of gravity. From the two velocities, not from
 /// m (|v_n|^2 - |step a/2|^2)/2: of nodes that begin to move nothing but rounding would be left.
 struct NodalEnergy {
-  static constexpr int values = 2;
+  static constexpr int values = values_of_node_parts;
   SubcycledAcceleration acceleration;
   double lag, step;
 
@@ -30,16 +30,15 @@ struct NodalEnergy {
 
 /// Weighted displacement, velocity and acceleration at t_n of a set's nodes.
 struct MeanMotionSum {
-  static constexpr int values = 9;
+  static constexpr int values = values_of_motion_parts;
   SubcycledAcceleration acceleration;
   Array<const int*> node;
   Array<const double* [2]> weight;
-  int begin;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
-    const int n = node(begin + k);
-    const double of_place = weight(begin + k, 0), of_motion = weight(begin + k, 1);
+    const int n = node(k);
+    const double of_place = weight(k, 0), of_motion = weight(k, 1);
     const Vector3 moved = row(nodes.position, n) - row(nodes.reference, n);
     for (int i = 0; i < 3; ++i) sum[i] += of_place * moved[i];
     if (of_motion == 0) return;  // a tied node has next to no mass: its own acceleration may be no number
@@ -62,15 +61,14 @@ struct ConnectorEnergy {
 };
 
 /// Everything that account_energies() gives, into `energy`, when the sums are fetched. Parts get theirs by
-/// share_out_energies().
+/// share_out_energies(). Of nodes and elements the sums of all parts must be there.
 void queue_energies(const Model& model, double step, EnergyAccount& energy, bool by_part, Reductions& sums) {
   const auto external = [&energy](const double* sum) { energy.external_work += *sum; };
-  sums.sum(NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step}, model.nodes.count,
-           [&energy](const double* sum) {
-             energy.kinetic += sum[0];
-             energy.external_work += sum[1];
-           });
-  queue_element_energies(model, model.nodes, energy, by_part, sums);
+  queue_lists<NodalEnergy::values>(model.node_parts, sums, [&energy](int, const double* sum) {
+    energy.kinetic += sum[0];
+    energy.external_work += sum[1];
+  });
+  queue_element_energies(model, energy, by_part, sums);
   queue_contact_energies(model.contacts, energy, sums);
   if (!model.loads.empty()) sums.sum(ArraySum{model.external.work}, model.external.contribution_count, external);
   for (const PrescribedSet& set : model.prescribed)
@@ -92,8 +90,32 @@ void queue_energies(const Model& model, double step, EnergyAccount& energy, bool
 
 }  // namespace
 
+void sum_own_parts(const Model& model, SampledSums what, double step) {
+  if (what == SampledSums::energies) {
+    sum_parts(model.node_parts, NodalEnergy{model.subcycled_acceleration(), model.velocity_lag, step});
+    sum_block_energies(model, model.nodes);
+  } else {
+    const MotionHistories& histories = model.motion_histories;
+    sum_parts(histories.parts,
+              MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight, model.velocity_lag});
+    sum_element_parts(model, model.nodes);
+  }
+}
+
+namespace {
+
+/// Of this process and of the others.
+void sum_all_parts(const Model& model, SampledSums what, double step, SampledRanks* others) {
+  if (others != nullptr) others->begin_sums(what, step);
+  sum_own_parts(model, what, step);
+  if (others != nullptr) others->take_sums(what);
+}
+
+}  // namespace
+
 EnergyAccount account_energies(const Model& model, double step) {
   EnergyAccount energy;
+  sum_own_parts(model, SampledSums::energies, step);
   Reductions sums(*model.reduction_space);
   queue_energies(model, step, energy, false, sums);
   sums.fetch();
@@ -120,29 +142,26 @@ double largest_energy(const EnergyAccount& energy) {
 namespace {
 
 /// Means of all histories of motion, when the sums are fetched.
-void queue_mean_motions(const NodalState& nodal, const MotionHistories& histories, std::vector<MeanMotion>& means,
-                        Reductions& sums) {
-  means.resize(histories.first.size() - 1);
-  for (std::size_t s = 0; s < means.size(); ++s) {
-    const int begin = histories.first[s], end = histories.first[s + 1];
-    sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), histories.node, histories.weight, begin, nodal.velocity_lag},
-             end - begin, [&mean = means[s]](const double* sum) {
-               for (int i = 0; i < 3; ++i) {
-                 mean.displacement[i] = sum[i];
-                 mean.velocity[i] = sum[3 + i];
-                 mean.acceleration[i] = sum[6 + i];
-               }
-             });
-  }
+void queue_mean_motions(const PartedLists& parts, std::vector<MeanMotion>& means, Reductions& sums) {
+  means.resize(parts.list_count());
+  queue_lists<MeanMotionSum::values>(parts, sums, [&means](int set, const double* sum) {
+    for (int i = 0; i < 3; ++i) {
+      means[set].displacement[i] = sum[i];
+      means[set].velocity[i] = sum[3 + i];
+      means[set].acceleration[i] = sum[6 + i];
+    }
+  });
 }
 
 }  // namespace
 
-HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part) {
+HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part,
+                                 SampledRanks* others) {
   HistorySample sample;
   sample.time = model.time;
   sample.step = model.step;
   std::vector<ContactTotals> pairs(model.contacts.size());
+  sum_all_parts(model, SampledSums::energies, step, others);
   Reductions sums(*model.reduction_space);
   queue_energies(model, step, sample.energy, by_part != nullptr, sums);
   for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
@@ -157,18 +176,19 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
   return sample;
 }
 
-void add_history_values(const Model& model, HistorySample& sample) {
+void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others) {
+  sum_all_parts(model, SampledSums::histories, step, others);
   Reductions sums(*model.reduction_space);
-  queue_mean_motions(model, model.motion_histories, sample.sets, sums);
-  queue_element_means(model, model.nodes, sample.elements, sums);
+  queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
+  queue_element_means(model, sample.elements, sums);
   queue_load_totals(model, model.loads, sample.loads, sums);
   sums.fetch();
   if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }
 
-HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
-  HistorySample sample = sample_for_monitor(model, step, by_part);
-  add_history_values(model, sample);
+HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others) {
+  HistorySample sample = sample_for_monitor(model, step, by_part, others);
+  add_history_values(model, step, sample, others);
   return sample;
 }
 

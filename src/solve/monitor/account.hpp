@@ -2,6 +2,7 @@
 
 #include "kernels/support/reductions.hpp"
 #include "model/model.hpp"
+#include "solve/monitor/sampled_ranks.hpp"
 #include "solve/observer.hpp"
 
 namespace railwave {
@@ -24,14 +25,20 @@ double largest_energy(const EnergyAccount& energy);
 
 ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactPair>& contacts, std::size_t number);
 
+/// Sums this process's parts of what is sampled, see PartedLists and ElementGroup::block_sums.
+void sum_own_parts(const Model& model, SampledSums what, double step);
+
 /// The energies and contacts of a history row at the present instant: what the monitor checks.
 /// @param by_part if not null: gets the energies of each part of the assembly
-HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
+/// @param others null: this process has the whole model
+HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
+                                 SampledRanks* others = nullptr);
 
 /// Adds its sets, loads and beams.
-void add_history_values(const Model& model, HistorySample& sample);
+void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others = nullptr);
 
 /// Both.
-HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
+HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
+                          SampledRanks* others = nullptr);
 
 }  // namespace railwave

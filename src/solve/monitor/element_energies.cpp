@@ -1,4 +1,3 @@
-#include "kernels/monitor/monitor_terms.hpp"
 #include "model/elements/block_launch.hpp"
 #include "model/elements/materials.hpp"
 #include "solve/monitor/energies.hpp"
@@ -6,49 +5,67 @@
 namespace railwave {
 namespace {
 
-/// Elastic energy of the blocks, and what their hourglass control has stored or dissipated.
-struct BlockEnergy {
-  static constexpr int values = 2;
-  Array<const double* [2]> energy;
-  Array<const double*> dissipated;
-  KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
-    sum[0] += energy(p, 0);
-    sum[1] += energy(p, 1);
-    for (int k = 0; k < power_sums; ++k) sum[1] += dissipated(p * power_sums + k);
+/// What the account adds of a block, without work of flow.
+struct BlockEnergies {
+  Array<const int*> listed;         ///< blocks; empty: all
+  Array<const double* [2]> energy;  ///< in the order of the list
+  Array<const double*> dissipated, damping;
+  Array<double* [energies_of_block]> sums;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int p = listed.extent(0) == 0 ? i : listed(i);
+    double hourglass = energy(i, 1);
+    for (int k = 0; k < power_sums; ++k) hourglass += dissipated(p * power_sums + k);
+    sums(p, 0) = energy(i, 0);
+    sums(p, 1) = hourglass;
+    sums(p, 2) = damping.extent(0) == 0 ? 0 : damping(p);
+    sums(p, 3) = 0;
   }
 };
 
-/// Work of plastic flow: a function of each element's history.
+/// Work of plastic flow, a function of each element's history: of every so many slots of a block.
 template <class S, class Material>
 struct FlowWork {
-  static constexpr int values = 1;
+  Array<const int*> listed;  ///< blocks; empty: all
   Material material;
   Array<const int*> row;  ///< of the blocks' materials
   Array<const double*> volume;
-  KOKKOS_INLINE_FUNCTION void operator()(int slot, double* sum) const {
+  Array<double*> slot_sums;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
     constexpr int kept = Material::history_values;
-    double history[kept];
-    for (int c = 0; c < kept; ++c) history[c] = material.history[tiled_slot<S>(slot, kept, c)];
-    sum[0] += volume(slot) * Material::work(material.constants[row(slot / elements_of_block)], history);
+    const int p = listed.extent(0) == 0 ? i / flow_threads : listed(i / flow_threads), thread = i % flow_threads;
+    double sum = 0;
+    for (int slot = p * elements_of_block + thread; slot < (p + 1) * elements_of_block; slot += flow_threads) {
+      double history[kept];
+      for (int c = 0; c < kept; ++c) history[c] = material.history[tiled_slot<S>(slot, kept, c)];
+      sum += volume(slot) * Material::work(material.constants[row(p)], history);
+    }
+    slot_sums(p * flow_threads + thread) = sum;
   }
 };
 
-/// Adds the work of plastic flow of a block's slots to what the block has stored.
-template <class OfSlot>
+/// Work of flow of a block.
 struct AddFlowWork {
-  OfSlot of_slot;
-  Array<double* [2]> energy;
-  KOKKOS_INLINE_FUNCTION void operator()(const int p) const {
-    double sum = 0;
-    for (int slot = p * elements_of_block; slot < (p + 1) * elements_of_block; ++slot) of_slot(slot, &sum);
-    energy(p, 0) += sum;
+  Array<const int*> listed;  ///< blocks; empty: all
+  Array<const double*> slot_sums;
+  Array<double* [energies_of_block]> sums;
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int p = listed.extent(0) == 0 ? i : listed(i);
+    for (int k = 0; k < flow_threads; ++k) sums(p, 3) += slot_sums(p * flow_threads + k);
+  }
+};
+
+struct BlockTotals {
+  static constexpr int values = energies_of_block;
+  Array<const double* [energies_of_block]> of;
+  KOKKOS_INLINE_FUNCTION void operator()(int p, double* sum) const {
+    for (int k = 0; k < values; ++k) sum[k] += of(p, k);
   }
 };
 
 /// Shares a group's energies, fetched, out among its parts: a block lies in one.
 void share_out(const std::vector<Assembly::PartRange>& parts, const ElementGroup& group,
                std::vector<PartEnergy>& by_part) {
-  const auto& energy = group.block_energy_fetched;
+  const auto& energy = group.block_sums_fetched;
   std::size_t p = 0;
   for (int block = 0; block < group.blocks.count; ++block) {
     const auto holds = [&](std::size_t part) {
@@ -57,68 +74,58 @@ void share_out(const std::vector<Assembly::PartRange>& parts, const ElementGroup
     };
     if (!holds(p))
       for (p = 0; p + 1 < parts.size() && !holds(p);) ++p;
-    by_part[p].internal += energy(block, 0);
+    by_part[p].internal += energy(block, 0) + energy(block, 3);
     by_part[p].hourglass += energy(block, 1);
   }
 }
 
-/// Calls `work` with the work of flow of a group's elements, where they flow.
-template <class S, class Work>
-void with_flow_work(const ElementGroup& group, const Work& work) {
+template <class S, class Hourglass>
+void sum_group(const NodeArrays& nodes, const ElementGroup& group) {
+  const int count = group.whole ? group.blocks.count : static_cast<int>(group.own_blocks.extent(0));
+  if (count == 0) return;
+  const Array<int*>& listed = group.own_blocks;
   with_material(group, [&](const auto& material) {
     using Material = std::decay_t<decltype(material)>;
-    if constexpr (Material::history_values > 0)
-      work(FlowWork<S, Material>{material, group.blocks.material, group.material.volume});
-  });
-}
-
-template <class S, class Hourglass>
-void queue_element_energy(const NodeArrays& nodes, const ElementGroup& group, EnergyAccount& energy, bool by_part,
-                          Reductions& sums) {
-  const int count = group.blocks.count;
-  with_material(group, [&](const auto& material) {
-    using State = ElementState<S, std::decay_t<decltype(material)>, Hourglass>;
-    launch_blocks(group.blocks,
-                  State{material, group.blocks, group.blocks.hourglass_scale, nodes, {}, group.block_energy});
-  });
-  sums.sum(BlockEnergy{group.block_energy, group.blocks.hourglass_energy}, count, [&energy](const double* sum) {
-    energy.internal += sum[0];
-    energy.hourglass += sum[1];
-  });
-  if (by_part) {
-    Kokkos::parallel_for("add_dissipated", Range(0, count),
-                         AddDissipated{group.block_energy, group.blocks.hourglass_energy, power_sums});
-    with_flow_work<S>(group, [&](const auto& flow_work) {
-      Kokkos::parallel_for("add_flow_work", Range(0, count),
-                           AddFlowWork<std::decay_t<decltype(flow_work)>>{flow_work, group.block_energy});
-    });
-    Kokkos::deep_copy(ExecutionSpace(), group.block_energy_fetched, group.block_energy);
-  }
-  if (group.damping.active())
-    sums.sum(ArraySum{group.damping.energy}, count, [&energy](const double* sum) { energy.damping += *sum; });
-  with_flow_work<S>(group, [&](const auto& flow_work) {
-    sums.sum(flow_work, count * elements_of_block, [&energy](const double* sum) { energy.plastic += *sum; });
+    launch_blocks(group.blocks, group.whole ? nullptr : &listed,
+                  ElementState<S, Material, Hourglass>{
+                      material, group.blocks, group.blocks.hourglass_scale, nodes, {}, group.block_energy});
+    Kokkos::parallel_for("block_energies", Range(0, count),
+                         BlockEnergies{listed, group.block_energy, group.blocks.hourglass_energy, group.damping.energy,
+                                       group.block_sums});
+    if constexpr (Material::history_values > 0) {
+      Kokkos::parallel_for(
+          "flow_work", Range(0, count * flow_threads),
+          FlowWork<S, Material>{listed, material, group.blocks.material, group.material.volume, group.slot_sums});
+      Kokkos::parallel_for("add_flow_work", Range(0, count), AddFlowWork{listed, group.slot_sums, group.block_sums});
+    }
   });
 }
 
 template <class S>
-void queue_group_energies(const std::vector<ElementGroup>& groups, const NodeArrays& nodes, EnergyAccount& energy,
-                          bool by_part, Reductions& sums) {
-  for (const ElementGroup& group : groups) {
+void sum_groups(const std::vector<ElementGroup>& groups, const NodeArrays& nodes) {
+  for (const ElementGroup& group : groups)
     if (group.hourglass == scene::HourglassType::viscous)
-      queue_element_energy<S, ViscousHourglass>(nodes, group, energy, by_part, sums);
+      sum_group<S, ViscousHourglass>(nodes, group);
     else
-      queue_element_energy<S, StiffnessHourglass>(nodes, group, energy, by_part, sums);
-  }
+      sum_group<S, StiffnessHourglass>(nodes, group);
 }
 
 }  // namespace
 
-void queue_element_energies(const ElementModel& model, const NodeArrays& nodes, EnergyAccount& energy, bool by_part,
-                            Reductions& sums) {
-  with_element_precision(model, [&](auto number) {
-    queue_group_energies<decltype(number)>(model.elements, nodes, energy, by_part, sums);
-  });
+void sum_block_energies(const ElementModel& model, const NodeArrays& nodes) {
+  with_element_precision(model, [&](auto number) { sum_groups<decltype(number)>(model.elements, nodes); });
+}
+
+void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, Reductions& sums) {
+  for (const ElementGroup& group : model.elements) {
+    sums.sum(BlockTotals{group.block_sums}, group.blocks.count, [&energy](const double* sum) {
+      energy.internal += sum[0];
+      energy.hourglass += sum[1];
+      energy.damping += sum[2];
+      energy.plastic += sum[3];
+    });
+    if (by_part) Kokkos::deep_copy(ExecutionSpace(), group.block_sums_fetched, group.block_sums);
+  }
 }
 
 void share_out_energies(const Assembly& assembly, const std::vector<ElementGroup>& groups,

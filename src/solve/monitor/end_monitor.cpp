@@ -64,10 +64,11 @@ std::vector<int> coarse(const AssembledScene& assembled, const std::vector<std::
 }  // namespace
 
 EndMonitor::EndMonitor(const AssembledScene& assembled, const NodalState& nodal,
-                       const std::vector<ContactPair>& contacts)
+                       const std::vector<ContactPair>& contacts, SampledRanks* others)
     : assembled_(assembled),
       nodal_(nodal),
       contacts_(contacts),
+      others_(others),
       sightings_(assembled.scene.contacts.size()),
       ever_closed_(assembled.scene.contacts.size(), 0) {
   const Assembly& assembly = assembled.assembly;
@@ -279,9 +280,16 @@ void EndMonitor::judge(std::size_t number) {
   std::copy(worst->out.begin(), worst->out.end(), memory.out);
 }
 
+bool EndMonitor::may_ask_for_places() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [](const Pair& pair) {
+    return pair.memory.closed != 0 && pair.memory.at_end != 0 && pair.memory.ever_clear == 0;
+  });
+}
+
 bool EndMonitor::has_moved_out(std::size_t number) const {
   const Pair& pair = pairs_[number];
   if (pair.part[0] < 0 || pair.part[1] < 0) return false;
+  if (others_ != nullptr) others_->gather();
   double mean[2][3] = {};
   for (const int i : {0, 1}) {
     const auto& part = assembled_.assembly.parts[pair.part[i]];

@@ -9,6 +9,7 @@
 #include "model/contact/surface_ends.hpp"
 #include "model/nodal_state.hpp"
 #include "solve/checkpoint/run_state.hpp"
+#include "solve/monitor/sampled_ranks.hpp"
 
 namespace railwave {
 
@@ -34,7 +35,9 @@ struct EndSighting {
 /// on beyond it, any counts. Strips whose sides are flush have no node beyond.
 class EndMonitor {
  public:
-  EndMonitor(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ContactPair>& contacts);
+  /// @param others null: this process has the whole model
+  EndMonitor(const AssembledScene& assembled, const NodalState& nodal, const std::vector<ContactPair>& contacts,
+             SampledRanks* others = nullptr);
 
   /// Steps between checks.
   static constexpr long steps_between = 256;
@@ -42,6 +45,9 @@ class EndMonitor {
   /// Checks all contacts of the scene.
   /// @param thorough whether ends that were found to be no matter are checked again
   void check(bool thorough);
+
+  /// Whether the next check may ask where whole parts are.
+  bool may_ask_for_places() const;
 
   /// Some sample, not only a check, had nodes in contact.
   void note_closed(std::size_t contact) { ever_closed_[contact] = 1; }
@@ -85,6 +91,7 @@ class EndMonitor {
   const AssembledScene& assembled_;
   const NodalState& nodal_;
   const std::vector<ContactPair>& contacts_;
+  SampledRanks* const others_;
   std::vector<Pair> pairs_;
   std::vector<EndSighting> sightings_;
   std::vector<char> ever_closed_;  ///< by contact of the scene

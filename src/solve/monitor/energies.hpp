@@ -12,11 +12,13 @@
 /// fetched.
 namespace railwave {
 
-/// Elastic energy and plastic work of the elements, what their hourglass control stores or dissipates, and what their
-/// damping has dissipated.
+/// Sums elastic energy and plastic work of the process's blocks, what their hourglass control stores or dissipates, and
+/// what their damping has dissipated.
+void sum_block_energies(const ElementModel& model, const NodeArrays& nodes);
+
+/// The same of all elements, from the sums of all blocks.
 /// @param by_part whether share_out_energies() follows
-void queue_element_energies(const ElementModel& model, const NodeArrays& nodes, EnergyAccount& energy, bool by_part,
-                            Reductions& sums);
+void queue_element_energies(const ElementModel& model, EnergyAccount& energy, bool by_part, Reductions& sums);
 
 /// Shares out the groups' energies, fetched, among the parts of the assembly.
 void share_out_energies(const Assembly& assembly, const std::vector<ElementGroup>& groups,

@@ -87,15 +87,16 @@ double energy_of_rest(const AssembledScene& assembled) {
 }  // namespace
 
 Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes,
-                 const LoadModel& loads, const std::vector<ContactPair>& contacts)
-    : assembled_(assembled), nodal_(nodal), sizes_(sizes), loads_(loads), contacts_(contacts) {
+                 const LoadModel& loads, const std::vector<ContactPair>& contacts, const OwnItems* own,
+                 SampledRanks* others)
+    : assembled_(assembled), nodal_(nodal), sizes_(sizes), loads_(loads), contacts_(contacts), others_(others) {
   if (!assembled.scene.monitor.active) return;
-  arrays_ = std::make_unique<MonitorArrays>(assembled.assembly, contacts);
+  arrays_ = std::make_unique<MonitorArrays>(assembled.assembly, contacts, own);
   evidence_.worst_shape = arrays_->worst_shape();
   energy_of_rounding_ = energy_of_rounding(assembled);
   energy_of_rest_ = energy_of_rest(assembled);
   parts_.resize(assembled.assembly.parts.size());
-  if (!contacts.empty()) ends_ = std::make_unique<EndMonitor>(assembled, nodal, contacts);
+  if (!contacts.empty()) ends_ = std::make_unique<EndMonitor>(assembled, nodal, contacts, others);
 }
 
 void Monitor::check_contact_ends() {
@@ -150,6 +151,7 @@ std::vector<Fault> Monitor::check(const HistorySample& sample) {
   if (!begun_) {
     given_at_start_ = magnitude(sample.energy);
     rate_at_start_ = arrays_->largest_rate(nodal_);
+    if (others_ != nullptr) rate_at_start_ = others_->largest_rate(rate_at_start_);
   }
   if (finite(sample)) weigh_energies(sample);
   const bool whole_asked = whole_due(sample.step);
@@ -157,6 +159,7 @@ std::vector<Fault> Monitor::check(const HistorySample& sample) {
   wants_check_ = false;
   if (whole) {
     MonitorMeasures now = arrays_->measure(nodal_, contacts_);
+    if (others_ != nullptr) others_->join_measures(now);
     if (!begun_) evidence_.first = now;
     if (finite(sample) && std::isfinite(now.speed.value))
       evidence_.last = now;

@@ -9,6 +9,7 @@
 #include "solve/checkpoint/run_state.hpp"
 #include "solve/monitor/diagnosis.hpp"
 #include "solve/monitor/end_monitor.hpp"
+#include "solve/monitor/sampled_ranks.hpp"
 #include "solve/observer.hpp"
 
 namespace railwave {
@@ -18,8 +19,9 @@ namespace railwave {
 /// finite only.
 class Monitor {
  public:
+  /// @param own of a run over several ranks: what this process measures; null: all
   Monitor(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes, const LoadModel& loads,
-          const std::vector<ContactPair>& contacts);
+          const std::vector<ContactPair>& contacts, const OwnItems* own = nullptr, SampledRanks* others = nullptr);
 
   /// Whether a check is due at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every
   /// 4096; at the first powers of two; every 32 while something odd grows; after the ends of contacts were checked and
@@ -34,6 +36,8 @@ class Monitor {
   /// than a check of the model, and the step stays as any.
   void check_contact_ends();
   bool contact_ends_due(long step) const { return ends_ && step % EndMonitor::steps_between == 0; }
+  /// Whether this step's check may ask where whole parts are: then no node may have been moved on before it.
+  bool asks_for_places(long step) const { return contact_ends_due(step) && ends_->may_ask_for_places(); }
 
   /// Judges the present instant.
   /// @param sample with its balance error
@@ -111,6 +115,7 @@ class Monitor {
   const StepSizes& sizes_;
   const LoadModel& loads_;
   const std::vector<ContactPair>& contacts_;
+  SampledRanks* const others_;             ///< null: this process has the whole model
   std::unique_ptr<MonitorArrays> arrays_;  ///< null in an inactive monitor
   MonitorEvidence evidence_;
   std::unique_ptr<EndMonitor> ends_;  ///< null in an inactive monitor, and without contacts

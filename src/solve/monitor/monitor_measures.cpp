@@ -9,26 +9,59 @@
 #include "model/host_copy.hpp"
 
 namespace railwave {
-MonitorArrays::MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts) {
-  const auto& elements = assembly.elements;
-  shapes_.count = static_cast<int>(elements.size());
-  shapes_.corners = unset_array<int* [8]>("monitored corners", elements.size());
-  shapes_.undeformed = unset_array<float * [ElementShapes::values]>("monitored shapes", elements.size());
+namespace {
+
+ElementShape shape_of(const Assembly& assembly, int element) {
+  ElementShape shape;
+  for (int N = 0; N < 8; ++N)
+    for (int i = 0; i < 3; ++i) shape.x[N][i] = assembly.nodes[assembly.elements[element][N]][i];
+  return shape;
+}
+
+/// Of equal values the lower place is kept, as Largest does.
+void keep_larger(Extreme& extreme, const Extreme& other, double sign) {
+  if (other.place < 0) return;
+  const double mine = sign * extreme.value, theirs = sign * other.value;
+  if (extreme.place < 0 || theirs > mine || (theirs == mine && other.place < extreme.place)) extreme = other;
+}
+
+}  // namespace
+
+void join(MonitorMeasures& measures, const MonitorMeasures& of_others) {
+  keep_larger(measures.jacobian, of_others.jacobian, -1);
+  keep_larger(measures.distortion, of_others.distortion, 1);
+  keep_larger(measures.speed, of_others.speed, 1);
+  keep_larger(measures.acceleration, of_others.acceleration, 1);
+}
+
+MonitorArrays::MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts, const OwnItems* own) {
+  const int all = static_cast<int>(assembly.elements.size());
+  for (int e = 0; e < all; ++e) {
+    const double jacobian = shape_of(assembly, e).smallest_jacobian(),
+                 mean = hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])) / 8;
+    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
+  }
+  if (own != nullptr) {
+    elements_ = own->elements;
+    own_nodes_ = true;
+    node_numbers_ = own->nodes;
+    nodes_ = to_device("monitored nodes", own->nodes);
+  }
+  shapes_.count = own != nullptr ? static_cast<int>(elements_.size()) : all;
+  shapes_.corners = unset_array<int* [8]>("monitored corners", shapes_.count);
+  shapes_.undeformed = unset_array<float * [ElementShapes::values]>("monitored shapes", shapes_.count);
   const auto corners = Kokkos::create_mirror_view(shapes_.corners);
   const auto undeformed = Kokkos::create_mirror_view(shapes_.undeformed);
-  for (int e = 0; e < shapes_.count; ++e) {
-    ElementShape shape;
-    for (int N = 0; N < 8; ++N) {
-      corners(e, N) = elements[e][N];
-      for (int i = 0; i < 3; ++i) shape.x[N][i] = assembly.nodes[elements[e][N]][i];
-    }
-    const double volume = hexahedron_volume(corners_of(assembly.nodes, elements[e]));
-    const double jacobian = shape.smallest_jacobian(), mean = volume / 8;
-    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
-    undeformed(e, ElementShapes::jacobian) = static_cast<float>(jacobian);
-    undeformed(e, ElementShapes::scale) = static_cast<float>(std::fmax(jacobian, 0.1 * mean));
-    for (int m = 0; m < 4; ++m) undeformed(e, ElementShapes::mode + m) = static_cast<float>(shape.hourglass_mode(m));
-    undeformed(e, ElementShapes::size) = static_cast<float>(std::cbrt(volume));
+  for (int i = 0; i < shapes_.count; ++i) {
+    const int e = own != nullptr ? elements_[i] : i;
+    for (int N = 0; N < 8; ++N) corners(i, N) = assembly.elements[e][N];
+    const ElementShape shape = shape_of(assembly, e);
+    const double volume = hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])), mean = volume / 8;
+    const double jacobian = shape.smallest_jacobian();
+    undeformed(i, ElementShapes::jacobian) = static_cast<float>(jacobian);
+    undeformed(i, ElementShapes::scale) = static_cast<float>(std::fmax(jacobian, 0.1 * mean));
+    for (int m = 0; m < 4; ++m) undeformed(i, ElementShapes::mode + m) = static_cast<float>(shape.hourglass_mode(m));
+    undeformed(i, ElementShapes::size) = static_cast<float>(std::cbrt(volume));
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);
@@ -55,13 +88,16 @@ void MonitorArrays::archive(StateRestorer& state) {
 MonitorMeasures MonitorArrays::measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const {
   MonitorMeasures found;
   Reductions reductions(*nodal.reduction_space);
-  reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count, [&found](const Largest<2>& of) {
-    found.jacobian = {-of.value[0], of.place[0]};
-    found.distortion = {of.value[1], of.place[1]};
+  reductions.largest(ElementCheck{shapes_, nodal.nodes.position}, shapes_.count, [&](const Largest<2>& of) {
+    const auto element = [this](int i) { return i < 0 || elements_.empty() ? i : elements_[i]; };
+    found.jacobian = {-of.value[0], element(of.place[0])};
+    found.distortion = {of.value[1], element(of.place[1])};
   });
-  reductions.largest(NodeCheck{nodal.subcycled_acceleration()}, nodal.nodes.count, [&found](const Largest<2>& of) {
-    found.speed = {of.value[0], of.place[0]};
-    found.acceleration = {of.value[1], of.place[1]};
+  const int nodes = own_nodes_ ? static_cast<int>(nodes_.extent(0)) : nodal.nodes.count;
+  reductions.largest(NodeCheck{nodal.subcycled_acceleration(), nodes_}, nodes, [&](const Largest<2>& of) {
+    const auto node = [this](int i) { return i < 0 || !own_nodes_ ? i : node_numbers_[i]; };
+    found.speed = {of.value[0], node(of.place[0])};
+    found.acceleration = {of.value[1], node(of.place[1])};
   });
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const ContactPair& pair = contacts[c];

@@ -6,6 +6,7 @@
 #include "model/assembly.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/nodal_state.hpp"
+#include "model/ranks/rank_share.hpp"
 #include "solve/checkpoint/run_state.hpp"
 
 namespace railwave {
@@ -26,10 +27,14 @@ struct MonitorMeasures {
   std::vector<Extreme> chatter;      ///< by contact pair: times opened and closed; node of the model
 };
 
+/// Puts the worse of two sets of measures into the first: contacts are rank 0's.
+void join(MonitorMeasures& measures, const MonitorMeasures& of_others);
+
 /// The device arrays of the monitor, and the reductions over them: a few launches a check, none in a step.
 class MonitorArrays {
  public:
-  MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts);
+  /// @param own elements and nodes that this process measures; null: all
+  MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts, const OwnItems* own = nullptr);
   MonitorMeasures measure(const NodalState& nodal, const std::vector<ContactPair>& contacts) const;
 
   /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s.
@@ -44,6 +49,10 @@ class MonitorArrays {
 
  private:
   ElementShapes shapes_;
+  std::vector<int> elements_;  ///< the numbers of those measured; empty: all are
+  bool own_nodes_ = false;     ///< the listed nodes alone are measured
+  std::vector<int> node_numbers_;
+  Array<int*> nodes_;
   Extreme worst_shape_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
 };

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "model/host_copy.hpp"
+#include "solve/monitor/account.hpp"
 
 namespace railwave {
 namespace {
@@ -15,6 +18,22 @@ Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   append(plan.forces, shared_element_tasks(model, kind, exchange));
   plan.motion = node_tasks(model, model.elements, model, kind, {});
   return plan;
+}
+
+/// What a rank has measured of its elements and nodes.
+struct MessageOfMeasures {
+  Extreme jacobian, distortion, speed, acceleration;
+
+  static MessageOfMeasures of(const MonitorMeasures& all) {
+    return {all.jacobian, all.distortion, all.speed, all.acceleration};
+  }
+  MonitorMeasures measures() const { return {jacobian, distortion, speed, acceleration, {}, {}}; }
+};
+
+template <class T>
+void send_to_rank_0(Transport& transport, const T& value) {
+  transport.start_send(0, &value, sizeof value);
+  transport.finish();
 }
 
 /// The same on all ranks, whatever their processors make of METIS.
@@ -61,6 +80,7 @@ RankLeader::RankLeader(Model& model, Transport& transport)
   const BlockPartition partition = common_partition(model, transport);
   const RankLayout layout = lay_out_ranks(model, partition);
   for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition, layout, r));
+  own_ = own_items(model, items_[0]);
   exchange_ = std::make_unique<RowExchange>(model, take_share(model, partition, layout, 0), transport);
 }
 
@@ -73,6 +93,7 @@ RankLeader::~RankLeader() {
 }
 
 void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long steps) {
+  if (exchange_) exchange_->wait_for_rows();
   RankOrder order;
   order.kind = kind;
   order.steps = steps;
@@ -87,24 +108,80 @@ void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long s
 
 void RankLeader::begin() {
   give_order(RankOrder::take_state, {});
-  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r]);
+  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r], Transferred::state);
+  whole_ = true;
 }
 
-std::string RankLeader::describe() const {
-  return fmt::format("{} ranks, rows {}", transport_.ranks(),
-                     exchange_->between_devices() ? "from GPU to GPU" : "through the host");
+void RankLeader::advance(const Instant& instant, long steps) {
+  whole_ = false;
+  give_order(RankOrder::advance, instant, steps);
 }
 
-void RankLeader::advance(const Instant& instant, long steps) { give_order(RankOrder::advance, instant, steps); }
+void RankLeader::sample(const Instant& instant) {
+  whole_ = false;
+  give_order(RankOrder::sample, instant);
+}
 
-void RankLeader::sample(const Instant& instant) { give_order(RankOrder::sample, instant); }
+void RankLeader::move(const Instant& instant) {
+  whole_ = false;
+  give_order(RankOrder::move, instant);
+}
 
-void RankLeader::move(const Instant& instant) { give_order(RankOrder::move, instant); }
+void RankLeader::take(Transferred what) {
+  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.receive(r, items_[r], what);
+  ++counts_[static_cast<int>(what)];
+}
 
 void RankLeader::gather() {
-  exchange_->wait_for_rows();
+  if (whole_) return;
   give_order(RankOrder::gather, {});
-  for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.receive(r, items_[r]);
+  take(Transferred::state);
+  whole_ = true;
+}
+
+void RankLeader::begin_sums(SampledSums what, double step) {
+  Instant instant;
+  instant.step = step;
+  give_order(what == SampledSums::energies ? RankOrder::energies : RankOrder::histories, instant);
+}
+
+void RankLeader::take_sums(SampledSums what) {
+  take(what == SampledSums::energies ? Transferred::energies : Transferred::histories);
+}
+
+void RankLeader::join_measures(MonitorMeasures& own) {
+  give_order(RankOrder::measures, {});
+  for (int r = 1; r < transport_.ranks(); ++r) {
+    MessageOfMeasures message;
+    transport_.start_receive(r, &message, sizeof message);
+    transport_.finish();
+    join(own, message.measures());
+  }
+}
+
+double RankLeader::largest_rate(double own) {
+  give_order(RankOrder::rate, {});
+  for (int r = 1; r < transport_.ranks(); ++r) {
+    double other = 0;
+    transport_.start_receive(r, &other, sizeof other);
+    transport_.finish();
+    own = std::fmax(own, other);
+  }
+  return own;
+}
+
+std::string RankLeader::summary() const {
+  const auto each = [this](Transferred what) {
+    const long count = counts_[static_cast<int>(what)];
+    return 1e-3 * state_transfer_.bytes(what) / static_cast<double>(std::max(1L, count));
+  };
+  const auto count = [this](Transferred what) { return counts_[static_cast<int>(what)]; };
+  return fmt::format(
+      "{} ranks, rows {}; to rank 0 came: energies {} times, {:.4g} kB each; histories {} times, {:.4g} kB each; the "
+      "whole state {} times, {:.4g} kB each",
+      transport_.ranks(), exchange_->between_devices() ? "from GPU to GPU" : "through the host",
+      count(Transferred::energies), each(Transferred::energies), count(Transferred::histories),
+      each(Transferred::histories), count(Transferred::state), each(Transferred::state));
 }
 
 void end_followers(Transport& transport) {
@@ -127,6 +204,10 @@ void follow_rank_0(Model& model, Transport& transport) {
   const ShareItems items = items_of(model, partition, layout, transport.rank());
   RowExchange exchange(model, take_share(model, partition, layout, transport.rank()), transport);
   StateTransfer state_transfer(model, transport);
+  const OwnItems own = own_items(model, items);
+  std::unique_ptr<MonitorArrays> monitored;
+  if (model.scene.monitor.active)
+    monitored = std::make_unique<MonitorArrays>(model.assembly, std::vector<ContactPair>(), &own);
   const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
              sampled = follower_plan(model, StepKind::sampled, exchange);
   const auto move = [&](const Plan& plan, const Instant& instant) {
@@ -137,10 +218,11 @@ void follow_rank_0(Model& model, Transport& transport) {
   for (;;) {
     RankOrder order;
     transport.broadcast(&order, sizeof order);
+    exchange.wait_for_rows();
     Instant instant = instant_of(order);
     switch (order.kind) {
       case RankOrder::take_state:
-        state_transfer.receive(0, items);
+        state_transfer.receive(0, items, Transferred::state);
         model.step = order.step;
         model.velocity_lag = order.velocity_lag;
         break;
@@ -156,8 +238,21 @@ void follow_rank_0(Model& model, Transport& transport) {
         run_tasks(sampled.forces, instant, model.step);
         break;
       case RankOrder::gather:
-        exchange.wait_for_rows();
-        state_transfer.send(0, items);
+        state_transfer.send(0, items, Transferred::state);
+        break;
+      case RankOrder::energies:
+        sum_own_parts(model, SampledSums::energies, order.size);
+        state_transfer.send(0, items, Transferred::energies);
+        break;
+      case RankOrder::histories:
+        sum_own_parts(model, SampledSums::histories, order.size);
+        state_transfer.send(0, items, Transferred::histories);
+        break;
+      case RankOrder::measures:
+        send_to_rank_0(transport, MessageOfMeasures::of(monitored->measure(model, {})));
+        break;
+      case RankOrder::rate:
+        send_to_rank_0(transport, monitored->largest_rate(model));
         break;
       case RankOrder::move:
         move(sampled, instant);

@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "solve/monitor/monitor_measures.hpp"
+#include "solve/monitor/sampled_ranks.hpp"
 #include "solve/plan.hpp"
 #include "solve/ranks/row_exchange.hpp"
 
@@ -11,15 +13,25 @@
 /// it gives the others orders, by which they compute the elements of their blocks.
 namespace railwave {
 
-/// Brings what a rank's blocks change between that rank and rank 0: places and velocities of their nodes, the forces
-/// that stand in their rows, histories of materials, energies dissipated.
+/// What is brought between a rank and rank 0.
+enum class Transferred : int {
+  state,     ///< what the rank's blocks change: places and velocities of their nodes, the forces that stand in their
+             ///< rows, histories of materials, energies dissipated
+  energies,  ///< sums of its parts, see SampledSums
+  histories
+};
+
+/// Brings values of a rank's blocks between that rank and rank 0.
 class StateTransfer {
  public:
   StateTransfer(Model& model, Transport& transport);
   ~StateTransfer();
 
-  void send(int to, const ShareItems& items);
-  void receive(int from, const ShareItems& items);
+  void send(int to, const ShareItems& items, Transferred what);
+  void receive(int from, const ShareItems& items, Transferred what);
+
+  /// Received so far.
+  double bytes(Transferred what) const { return bytes_[static_cast<int>(what)]; }
 
  private:
   struct Kept;
@@ -27,6 +39,7 @@ class StateTransfer {
   Model& model_;
   Transport& transport_;
   std::unique_ptr<Kept> kept_;
+  double bytes_[3] = {};
 };
 
 /// What rank 0 has the others do.
@@ -38,6 +51,10 @@ struct RankOrder {
     sample,      ///< the forces of an instant, as for outputs
     gather,      ///< the state of the blocks
     move,        ///< the nodes, after a sample
+    energies,    ///< sums of energies, after a sample
+    histories,   ///< sums of motions, stresses and strains
+    measures,    ///< of the monitor
+    rate,        ///< at which the fastest element turns
     end
   };
   Kind kind = end;
@@ -51,12 +68,12 @@ struct RankOrder {
 };
 
 /// Rank 0's side.
-class RankLeader {
+class RankLeader : public SampledRanks {
  public:
   /// The model is as built; it may settle and be set in motion afterwards.
   RankLeader(Model& model, Transport& transport);
   /// The others end too.
-  ~RankLeader();
+  ~RankLeader() override;
   RankLeader(const RankLeader&) = delete;
   RankLeader& operator=(const RankLeader&) = delete;
 
@@ -65,24 +82,36 @@ class RankLeader {
 
   RowExchange& exchange() { return *exchange_; }
 
-  /// How many ranks there are, and how their rows go.
-  std::string describe() const;
-
   /// The others take so many steps.
   void advance(const Instant& instant, long steps);
   /// The others compute the forces of an instant that is sampled; and move the nodes on.
   void sample(const Instant& instant);
   void move(const Instant& instant);
-  /// Makes the model's arrays whole.
-  void gather();
+  /// Nothing where they are whole already.
+  void gather() override;
+
+  void begin_sums(SampledSums what, double step) override;
+  void take_sums(SampledSums what) override;
+  void join_measures(MonitorMeasures& own) override;
+  double largest_rate(double own) override;
+
+  /// What rank 0 measures.
+  const OwnItems& own() const { return own_; }
+
+  /// For people: how much was brought to rank 0.
+  std::string summary() const;
 
  private:
+  void take(Transferred what);
   void give_order(RankOrder::Kind kind, const Instant& instant, long steps = 0);
 
   Model& model_;
   Transport& transport_;
   StateTransfer state_transfer_;
   std::vector<ShareItems> items_;  ///< by rank
+  OwnItems own_;
+  bool whole_ = false;   ///< the model's arrays are
+  long counts_[3] = {};  ///< by Transferred: how often
   std::unique_ptr<RowExchange> exchange_;
 };
 

@@ -1,7 +1,9 @@
 #include <map>
+#include <utility>
 
 #include "kernels/support/packed_rows.hpp"
 #include "kernels/support/team.hpp"
+#include "model/elements/element_histories.hpp"
 #include "model/host_copy.hpp"
 #include "solve/ranks/rank_team.hpp"
 
@@ -25,7 +27,8 @@ std::vector<int> rows_of(const ElementGroup& group, const std::vector<int>& bloc
 /// What transfers with another rank need again and again: places on the device, and room for what is packed, on the
 /// device and on the host.
 struct StateTransfer::Kept {
-  std::map<int, std::vector<Array<int*>>> places;  ///< by other rank, in the order of the arrays
+  /// By other rank and what is brought, in the order of the arrays.
+  std::map<std::pair<int, Transferred>, std::vector<Array<int*>>> places;
   Array<double*> device;
   PinnedArray<double*> host;
 
@@ -46,8 +49,10 @@ namespace {
 template <bool Sending, class Kept>
 class Transfer {
  public:
-  Transfer(Transport& transport, int other, Kept& kept)
-      : transport_(transport), other_(other), kept_(kept), places_(kept.places[other]) {}
+  std::size_t bytes = 0;  ///< so far
+
+  Transfer(Transport& transport, int other, Kept& kept, Transferred what)
+      : transport_(transport), other_(other), kept_(kept), places_(kept.places[{other, what}]) {}
 
   /// @param width values at each place
   /// @param places called the first time
@@ -82,6 +87,7 @@ class Transfer {
   template <class T, class KernelOf>
   void transfer(std::size_t count, std::size_t calls, const KernelOf& kernel_of) {
     if (count == 0) return;
+    bytes += sizeof(T) * count;
     kept_.make_room(sizeof(T) * count);
     const Array<T*> packed(reinterpret_cast<T*>(kept_.device.data()), count);
     const PinnedArray<T*> host(reinterpret_cast<T*>(kept_.host.data()), count);
@@ -109,7 +115,26 @@ class Transfer {
 };
 
 template <class Transfer>
-void transfer_all(Model& model, const ShareItems& items, Transfer transfer) {
+void transfer_energies(Model& model, const ShareItems& items, Transfer& transfer) {
+  transfer.values(
+      model.node_parts.part_sums, [&] { return parts_of_rank(model.node_parts, model.elements, items); },
+      model.node_parts.values);
+  for (std::size_t g = 0; g < model.elements.size(); ++g)
+    transfer.template rows<double, energies_of_block>(model.elements[g].block_sums, [&] { return items.blocks[g]; });
+}
+
+template <class Transfer>
+void transfer_histories(Model& model, const ShareItems& items, Transfer& transfer) {
+  const auto parts = [&](const PartedLists& lists) {
+    transfer.values(
+        lists.part_sums, [&] { return parts_of_rank(lists, model.elements, items); }, lists.values);
+  };
+  parts(model.motion_histories.parts);
+  if (model.element_histories) parts(model.element_histories->parts);
+}
+
+template <class Transfer>
+void transfer_state(Model& model, const ShareItems& items, Transfer& transfer) {
   const auto nodes = [&] { return items.nodes; };
   transfer.template rows<double, 3>(model.nodes.position, nodes);
   transfer.template rows<double, 3>(model.nodes.velocity, nodes);
@@ -126,6 +151,17 @@ void transfer_all(Model& model, const ShareItems& items, Transfer transfer) {
   }
 }
 
+template <class Transfer>
+std::size_t transfer_all(Model& model, const ShareItems& items, Transferred what, Transfer transfer) {
+  if (what == Transferred::energies)
+    transfer_energies(model, items, transfer);
+  else if (what == Transferred::histories)
+    transfer_histories(model, items, transfer);
+  else
+    transfer_state(model, items, transfer);
+  return transfer.bytes;
+}
+
 }  // namespace
 
 StateTransfer::StateTransfer(Model& model, Transport& transport)
@@ -133,12 +169,13 @@ StateTransfer::StateTransfer(Model& model, Transport& transport)
 
 StateTransfer::~StateTransfer() = default;
 
-void StateTransfer::send(int to, const ShareItems& items) {
-  transfer_all(model_, items, Transfer<true, Kept>(transport_, to, *kept_));
+void StateTransfer::send(int to, const ShareItems& items, Transferred what) {
+  transfer_all(model_, items, what, Transfer<true, Kept>(transport_, to, *kept_, what));
 }
 
-void StateTransfer::receive(int from, const ShareItems& items) {
-  transfer_all(model_, items, Transfer<false, Kept>(transport_, from, *kept_));
+void StateTransfer::receive(int from, const ShareItems& items, Transferred what) {
+  bytes_[static_cast<int>(what)] +=
+      static_cast<double>(transfer_all(model_, items, what, Transfer<false, Kept>(transport_, from, *kept_, what)));
 }
 
 }  // namespace railwave

@@ -291,7 +291,7 @@ class TimeLoop {
     if (!fault) return;
     summary_.fault = *fault;
     summary_.reason = fault->summary();
-    if (!output_due_) add_history_values(model_, sample);
+    if (!output_due_) add_history_values(model_, model_.step_size, sample);
   }
 
   void output(const HistorySample& sample) {

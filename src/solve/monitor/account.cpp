@@ -157,18 +157,19 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
   return sample;
 }
 
-void add_history_values(const Model& model, HistorySample& sample) {
+void add_history_values(const Model& model, double step, HistorySample& sample) {
   Reductions sums(*model.reduction_space);
   queue_mean_motions(model, model.motion_histories, sample.sets, sums);
   queue_element_means(model, model.nodes, sample.elements, sums);
-  queue_load_totals(model, model.loads, sample.loads, sums);
+  queue_load_totals(model, model, model.beams, sample.loads, sums);
+  queue_reactions(model, model.prescribed, step, sample.reactions, sums);
   sums.fetch();
   if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part) {
   HistorySample sample = sample_for_monitor(model, step, by_part);
-  add_history_values(model, sample);
+  add_history_values(model, step, sample);
   return sample;
 }
 

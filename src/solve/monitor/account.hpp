@@ -28,8 +28,8 @@ ContactTotals contact_totals(const NodalState& nodal, const std::vector<ContactP
 /// @param by_part if not null: gets the energies of each part of the assembly
 HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);
 
-/// Adds its sets, loads and beams.
-void add_history_values(const Model& model, HistorySample& sample);
+/// Adds its sets, loads, reactions and beams.
+void add_history_values(const Model& model, double step, HistorySample& sample);
 
 /// Both.
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr);

@@ -1,5 +1,7 @@
 """The wheelset alone over the weld, by forces of the primary suspension that another program has written as curves."""
 
+import re
+
 import h5py
 import numpy as np
 
@@ -19,14 +21,16 @@ class Run:
             self.displacement = history["set/wheelset.journal/displacement"][:]
 
 
-def recorded(steps):
-    """What makes loads of the case follow the CSV curves of the coupled run."""
-    settings = []
+def recorded_case(steps):
+    """The case with the CSV curves of the coupled run in place of its own."""
+    text = coupled.CASE.read_text(encoding="utf-8")
     for axis in ("x", "z"):
-        curve = f"recorded_{axis}"
-        settings += [f"curves.{curve}.type=table", f"curves.{curve}.file={steps.path('curves')}/suspension_{axis}.csv",
-                     f"loads.suspension_{axis}.curve={curve}"]
-    return settings
+        curve = f"suspension_{axis}"
+        own = rf'(\[curves\.{curve}\]\ntype = "table"\n)points = .*'
+        text, count = re.subn(own, rf'\1file = "curves/{curve}.csv"', text)
+        assert count == 1
+    weld = coupled.HERE / "dipped_weld.csv"
+    return steps.write_case("one_way_recorded", text.replace('"dipped_weld.csv"', f'"{weld}"'))
 
 
 def simulate(steps, end):
@@ -34,8 +38,8 @@ def simulate(steps, end):
     settings = [f"output.history_interval={coupled.WINDOW}"]
     if end is not None:
         settings.append(f"time.end={end}")
-    forces = {"recorded": recorded(steps), "constant": []}
-    return {name: Run(steps.run(f"one_way_{name}", coupled.CASE, settings + forces[name])) for name in WAYS}
+    cases = {"recorded": recorded_case(steps), "constant": coupled.CASE}
+    return {name: Run(steps.run(f"one_way_{name}", cases[name], settings)) for name in WAYS}
 
 
 def differences(table, run):

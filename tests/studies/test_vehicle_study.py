@@ -8,6 +8,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 
 try:
@@ -80,6 +81,19 @@ class TwoMasses(unittest.TestCase):
 
     def test_curves_are_the_forces(self):
         np.testing.assert_array_equal(self.curve["force_N"], self.table["force_z_N"])
+
+
+class Weld(unittest.TestCase):
+    def test_case_is_sound(self):
+        done = subprocess.run([BIN / "railwave", "check", STUDY / "dipped_weld.toml"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("warning:", done.stdout + done.stderr)
+
+    def test_static_force_is_the_weight_over_an_axle_box(self):
+        case = tomllib.loads((STUDY / "dipped_weld.toml").read_text())
+        bogie = tomllib.loads((STUDY / "bogie.toml").read_text())
+        weight = bogie["gravity"]["acceleration"] * (bogie["frame"]["mass"] + bogie["car_body"]["mass"]) / 2
+        self.assertAlmostEqual(case["curves"]["suspension_z"]["points"][0][1], -weight, delta=0.1)
 
 
 class Mistakes(unittest.TestCase):

@@ -71,18 +71,34 @@ struct PrescribedWork {
   }
 };
 
-/// The force that moves the set, N: of a node m (v(n+1/2) - v(n-1/2)) / (t_(n+1/2) - t_(n-1/2)) - F along the
-/// prescribed directions.
+/// The force that moves the set, N: of a node m a - F along the prescribed directions, with a as follows.
 struct PrescribedReaction {
   static constexpr int values = 3;
   PrescribedMotion motion;  ///< of the step to come
 
+  /// m/s2, along the prescribed directions: (v(n+1/2) - v(n-1/2)) / (t_(n+1/2) - t_(n-1/2))
+  KOKKOS_INLINE_FUNCTION Vector3 acceleration(int n) const {
+    const Vector3 change = motion.next_velocity(n) - motion.prescribed(row(motion.force.nodes.velocity, n));
+    return (1.0 / (motion.lag + 0.5 * motion.step)) * change;
+  }
+
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const int n = motion.nodes(k);
     const double mass = motion.force.nodes.mass(n);
-    const Vector3 change = motion.next_velocity(n) - motion.prescribed(row(motion.force.nodes.velocity, n));
-    const Vector3 acting = motion.prescribed(motion.force(n) + mass * motion.gravity);
-    for (int i = 0; i < 3; ++i) sum[i] += mass / (motion.lag + 0.5 * motion.step) * change[i] - acting[i];
+    const Vector3 force = mass * acceleration(n) - motion.prescribed(motion.force(n) + mass * motion.gravity);
+    for (int i = 0; i < 3; ++i) sum[i] += force[i];
+  }
+};
+
+/// How nodes accelerate along the prescribed directions, in which the scheme's own accelerations are 0.
+struct PrescribedAcceleration {
+  PrescribedReaction reaction;
+  int first;                        ///< of the set in `acceleration`
+  Array<double* [3]> acceleration;  ///< m/s2, of all sets
+
+  KOKKOS_INLINE_FUNCTION void operator()(const int k) const {
+    const Vector3 own = reaction.acceleration(reaction.motion.nodes(k));
+    for (int i = 0; i < 3; ++i) acceleration(first + k, i) = own[i];
   }
 };
 

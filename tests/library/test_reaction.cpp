@@ -58,6 +58,9 @@ TEST_CASE("what lifts all of a block is its mass times acceleration and gravity"
     // Weight and inertia: rounding of places, over the step's square, is 1e-17 / 1e-11 of the acceleration.
     CHECK(vertical(run, "prescribed_motion.lift.reaction") == Approx(mass * (acceleration + gravity)).epsilon(1e-7));
     CHECK(std::fabs(run.values("prescribed_motion.lift.reaction")[0]) < 1e-6 * mass * acceleration);
+    // As it moves, at the instant: not half a step late, nor as its nodes would move without what moves them.
+    CHECK(vertical(run, "set.block.z_max.velocity") == Approx(acceleration * run.time()).epsilon(1e-7));
+    CHECK(vertical(run, "set.block.z_max.acceleration") == Approx(acceleration).epsilon(1e-7));
   }
 }
 

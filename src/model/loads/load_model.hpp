@@ -41,6 +41,8 @@ struct MotionHistories {
   std::vector<int> first;     ///< of each of LoadModel::history_sets in the arrays, one more than sets
   Array<int*> node;           ///< model node numbers
   Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
+  Array<int*> driven;  ///< row in `driven_acceleration` of nodes that a prescribed motion moves, else -1; empty: none
+  Array<double* [3]> driven_acceleration;  ///< m/s2, of these along their prescribed directions, set after set
 };
 
 /// Loads, connectors, and the node sets that both act on or that histories follow.

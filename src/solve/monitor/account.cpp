@@ -34,6 +34,8 @@ struct MeanMotionSum {
   SubcycledAcceleration acceleration;
   Array<const int*> node;
   Array<const double* [2]> weight;
+  Array<const int*> driven;  ///< empty: no prescribed motion moves any of them
+  Array<const double* [3]> driven_acceleration;
   int begin;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
@@ -43,8 +45,12 @@ struct MeanMotionSum {
     const Vector3 moved = row(nodes.position, n) - row(nodes.reference, n);
     for (int i = 0; i < 3; ++i) sum[i] += of_place * moved[i];
     if (of_motion == 0) return;  // a tied node has next to no mass: its own acceleration may be no number
-    const Vector3 a = acceleration.plain(n);
-    const Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+    Vector3 a = acceleration.plain(n);
+    Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+    if (const int r = driven.extent(0) > 0 ? driven(begin + k) : -1; r >= 0) {
+      a = a + row(driven_acceleration, r);
+      v = v + lag * row(driven_acceleration, r);
+    }
     for (int i = 0; i < 3; ++i) {
       sum[3 + i] += of_motion * v[i];
       sum[6 + i] += of_motion * a[i];
@@ -119,13 +125,28 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
+/// Accelerations of nodes along the directions in which prescribed motions move them, where histories need them.
+void find_driven_accelerations(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed, double step,
+                               const MotionHistories& histories) {
+  if (histories.driven.extent(0) == 0) return;
+  int first = 0;
+  for (const PrescribedSet& set : prescribed) {
+    const int count = static_cast<int>(set.nodes.extent(0));
+    Kokkos::parallel_for(
+        "acceleration_of_driven_nodes", Range(0, count),
+        PrescribedAcceleration{{prescribed_motion(nodal, set, step)}, first, histories.driven_acceleration});
+    first += count;
+  }
+}
+
 /// Means of all histories of motion, when the sums are fetched.
 void queue_mean_motions(const NodalState& nodal, const MotionHistories& histories, std::vector<MeanMotion>& means,
                         Reductions& sums) {
   means.resize(histories.first.size() - 1);
   for (std::size_t s = 0; s < means.size(); ++s) {
     const int begin = histories.first[s], end = histories.first[s + 1];
-    sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), histories.node, histories.weight, begin, nodal.velocity_lag},
+    sums.sum(MeanMotionSum{nodal.subcycled_acceleration(), histories.node, histories.weight, histories.driven,
+                           histories.driven_acceleration, begin, nodal.velocity_lag},
              end - begin, [&mean = means[s]](const double* sum) {
                for (int i = 0; i < 3; ++i) {
                  mean.displacement[i] = sum[i];
@@ -159,6 +180,7 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
 
 void add_history_values(const Model& model, double step, HistorySample& sample) {
   Reductions sums(*model.reduction_space);
+  find_driven_accelerations(model, model.prescribed, step, model.motion_histories);
   queue_mean_motions(model, model.motion_histories, sample.sets, sums);
   queue_element_means(model, model.nodes, sample.elements, sums);
   queue_load_totals(model, model, model.beams, sample.loads, sums);

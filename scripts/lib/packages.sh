@@ -14,6 +14,8 @@ packages_to_test=(chromium chromium-driver clang-format python3-paraview python3
 packages_for_ranks=(libmetis-dev libopenmpi-dev openmpi-bin openssh-client)
 # The Python module.
 packages_for_python=(pybind11-dev python3-dev python3-numpy)
+# studies/vehicle: multibody dynamics (6 MB to fetch).
+packages_for_simbody=(libsimbody-dev)
 # The site of docs/: mkdocs, its theme, formulas, and the drawing of libraries.
 packages_for_site=(graphviz libjs-katex mkdocs mkdocs-material)
 # What hands sweeps over to many machines, here with controller and node on one, for its tests.

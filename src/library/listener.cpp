@@ -30,6 +30,13 @@ void add_motion(std::vector<NamedHistory>& names, const HistorySet& set, std::si
          }});
 }
 
+void add_reaction(std::vector<NamedHistory>& names, const std::string& motion, std::size_t m) {
+  names.push_back({"prescribed_motion." + motion + ".reaction",
+                   [m](const HistorySample& sample) { return three(sample.reactions[m].force); }});
+  names.push_back({"prescribed_motion." + motion + ".work",
+                   [m](const HistorySample& sample) { return std::vector<double>{sample.reactions[m].work}; }});
+}
+
 void add_load(std::vector<NamedHistory>& names, const scene::Load& load, std::size_t l) {
   if (load.type == scene::LoadType::torque)
     names.push_back({"load." + load.name + ".moment",
@@ -37,6 +44,8 @@ void add_load(std::vector<NamedHistory>& names, const scene::Load& load, std::si
   else
     names.push_back(
         {"load." + load.name + ".force", [l](const HistorySample& sample) { return three(sample.loads[l].force); }});
+  names.push_back({"load." + load.name + ".work",
+                   [l](const HistorySample& sample) { return std::vector<double>{sample.loads[l].work}; }});
 }
 
 }  // namespace
@@ -51,6 +60,8 @@ std::vector<NamedHistory> named_histories(const Model& model) {
   for (const HistorySet& set : resolve_history_sets(model.scene, model.assembly))
     if (set.motion()) add_motion(names, set, moving++);
   for (std::size_t l = 0; l < model.scene.loads.size(); ++l) add_load(names, model.scene.loads[l], l);
+  for (std::size_t m = 0; m < model.scene.prescribed_motions.size(); ++m)
+    add_reaction(names, model.scene.prescribed_motions[m].name, m);
   return names;
 }
 

@@ -40,7 +40,7 @@ void build_beams(AssembledScene& assembled, std::shared_ptr<BeamModel>& beams);
 /// loads.cpp: loads, connectors, moments on beams, node sets
 Contributions build_loads(const AssembledScene& assembled, const std::shared_ptr<BeamModel>& beams, LoadModel& loads);
 /// motion_histories.cpp: nodes whose motion is written
-void build_motion_histories(const Ties& ties, LoadModel& loads);
+void build_motion_histories(const Ties& ties, const std::vector<PrescribedSet>& prescribed, LoadModel& loads);
 /// external_forces.cpp: rows of the nodes on which other forces than elements' act, and the contributions to each
 void build_external_forces(const Assembly& assembly, const Contributions& contributions,
                            std::vector<ContactPair>& contacts, Ties& ties, NonReflectingEnds& ends, NodalState& nodal);

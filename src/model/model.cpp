@@ -39,7 +39,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_node_arrays(model, model.elements, model.ties, model);
   build_relative_nodes(model, model.elements, model.ties, model);
   build_element_histories(model, model);
-  build_motion_histories(model.ties, model);
+  build_motion_histories(model.ties, model.prescribed, model);
   build_sum_parts(model.nodes.count, model, model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);

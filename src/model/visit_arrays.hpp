@@ -151,6 +151,8 @@ void visit_arrays(const Named<Visitor>& visit, MotionHistories& histories) {
   visit(ArrayUse::constant, "node", histories.node);
   visit(ArrayUse::constant, "weight", histories.weight);
   visit_arrays(visit, histories.parts);
+  visit(ArrayUse::constant, "driven", histories.driven);
+  visit(ArrayUse::scratch, "driven_acceleration", histories.driven_acceleration);
 }
 
 template <class Visitor>

@@ -29,6 +29,9 @@ constexpr DatasetUnit datasets[] = {
     {"/history/load/*/force", "N"},
     {"/history/load/*/moment", "N m"},
     {"/history/load/*/direction", "1"},
+    {"/history/load/*/work", "J"},
+    {"/history/prescribed_motion/*/reaction", "N"},
+    {"/history/prescribed_motion/*/work", "J"},
     {"/history/beam/*/force", "N"},
     {"/history/beam/*/moment", "N m"},
     // Meshes of any file.

@@ -152,6 +152,7 @@ ResultsFile::ResultsFile(const scene::Scene& scene, const Assembly& assembly, co
   for (const auto& chain : assembly.beam_chains) beam_elements[chain.beam] += scene.beams[chain.beam].divisions;
   for (const int beam : history_beams_) description_.beams.emplace_back(scene.beams[beam].name, beam_elements[beam]);
   for (const auto& load : scene.loads) description_.loads.push_back(names_of(scene, load));
+  for (const auto& motion : scene.prescribed_motions) description_.prescribed_motions.push_back(motion.name);
   description_.fields = scene.output.fields;
   ContactOutput& contacts = description_.contact_output;
   contacts.margin = scene.output.contact_margin;

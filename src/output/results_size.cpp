@@ -75,7 +75,7 @@ double values_of_sample(const RunDescription& description) {
   double values = 2 + static_cast<double>(std::size(energy_terms)) +
                   11.0 * static_cast<double>(description.contacts.size()) +
                   motion * static_cast<double>(description.history_sets.size()) +
-                  3.0 * static_cast<double>(description.loads.size());
+                  4.0 * static_cast<double>(description.loads.size() + description.prescribed_motions.size());
   for (const auto& beam : description.beams) values += 6.0 * beam.second;
   for (const HistorySet& set : description.element_histories)
     values += components_of(set.quantities_of(FieldRow::Place::element));

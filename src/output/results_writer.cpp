@@ -100,9 +100,10 @@ ResultsWriter::ResultsWriter(std::string path, RunDescription description, std::
   root.set_attribute("reason", "the run has not ended, or was killed");
   std::vector<std::string> contact_names;
   for (const ContactDescription& contact : description_.contacts) contact_names.push_back(contact.name);
-  history_ = std::make_unique<HistorySection>(
-      root, contact_names, description_.history_sets, description_.beams, description_.history_positions,
-      description_.loads, description_.history_askers, description_.history_motions, description_.element_histories);
+  history_ = std::make_unique<HistorySection>(root, contact_names, description_.history_sets, description_.beams,
+                                              description_.history_positions, description_.loads,
+                                              description_.history_askers, description_.history_motions,
+                                              description_.element_histories, description_.prescribed_motions);
   root.create_group("fields");
   if (any_beam(description_.sets)) root.create_group("beams");
   root.create_group("contact");

@@ -35,6 +35,7 @@ struct RunDescription {
   std::vector<HistorySet> element_histories;       ///< those of which a quantity of elements is written
   std::vector<std::pair<std::string, int>> beams;  ///< names, numbers of elements
   std::vector<LoadNames> loads;
+  std::vector<std::string> prescribed_motions;
   std::vector<std::string> fields;  ///< names of case/field_table.hpp
   std::vector<OutputSet> sets;
   ContactOutput contact_output;

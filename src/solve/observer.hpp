@@ -57,17 +57,25 @@ struct BeamResultants {
 struct LoadTotals {
   Vec3 force{};       ///< N; none of a torque
   double moment = 0;  ///< N m, of a torque about its axis
+  double work = 0;    ///< J, since the run's start
+};
+
+/// What it takes to move a set as one of the scene's prescribed motions says.
+struct ReactionTotals {
+  Vec3 force{};     ///< N, on the set, along the prescribed directions
+  double work = 0;  ///< J, since the run's start
 };
 
 struct HistorySample {
   double time = 0;
   long step = 0;
   EnergyAccount energy;
-  std::vector<ContactTotals> contacts;  ///< one for each contact of the scene
-  std::vector<MeanMotion> sets;         ///< one for each of scene.output.history_sets whose motion is written
-  std::vector<ElementMeans> elements;   ///< one for each of these whose stress, strain or plastic strain is written
-  std::vector<BeamResultants> beams;    ///< one for each of the scene's beams
-  std::vector<LoadTotals> loads;        ///< one for each of the scene's loads
+  std::vector<ContactTotals> contacts;    ///< one for each contact of the scene
+  std::vector<MeanMotion> sets;           ///< one for each of scene.output.history_sets whose motion is written
+  std::vector<ElementMeans> elements;     ///< one for each of these whose stress, strain or plastic strain is written
+  std::vector<BeamResultants> beams;      ///< one for each of the scene's beams
+  std::vector<LoadTotals> loads;          ///< one for each of the scene's loads
+  std::vector<ReactionTotals> reactions;  ///< one for each of the scene's prescribed motions
 };
 
 /// Who asks for an output of fields.

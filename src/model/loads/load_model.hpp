@@ -43,6 +43,8 @@ struct MotionHistories {
   Array<int*> node;           ///< model node numbers
   Array<double* [2]> weight;  ///< of displacement; of velocity and acceleration
   PartedLists parts;          ///< one list for each set
+  Array<int*> driven;  ///< row in `driven_acceleration` of nodes that a prescribed motion moves, else -1; empty: none
+  Array<double* [3]> driven_acceleration;  ///< m/s2, of these along their prescribed directions, set after set
 };
 
 /// Loads, connectors, and the node sets that both act on or that histories follow.

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <map>
+
+#include "model/boundaries/prescribed_nodes.hpp"
 #include "model/boundaries/ties.hpp"
 #include "model/build_steps.hpp"
 #include "model/host_copy.hpp"
@@ -5,7 +9,24 @@
 
 namespace railwave {
 
-void build_motion_histories(const Ties& ties, LoadModel& loads) {
+namespace {
+
+/// Rows of the nodes that prescribed motions move, set after set; -1: none does.
+void find_driven(const std::vector<int>& nodes, const std::vector<PrescribedSet>& prescribed,
+                 MotionHistories& histories) {
+  std::map<int, int> row;
+  for (const PrescribedSet& set : prescribed)
+    for (int n : to_vector(set.nodes)) row.emplace(n, static_cast<int>(row.size()));
+  std::vector<int> driven;
+  for (int n : nodes) driven.push_back(row.count(n) != 0 ? row[n] : -1);
+  if (std::all_of(driven.begin(), driven.end(), [](int r) { return r < 0; })) return;
+  histories.driven = to_device("driven nodes of motion histories", driven);
+  histories.driven_acceleration = Array<double* [3]>("acceleration of driven nodes", row.size());
+}
+
+}  // namespace
+
+void build_motion_histories(const Ties& ties, const std::vector<PrescribedSet>& prescribed, LoadModel& loads) {
   const std::vector<int> nodes = to_vector(loads.sets.nodes);
   const std::vector<double> weights = to_vector(loads.sets.weight);
   std::vector<int> node;
@@ -27,6 +48,7 @@ void build_motion_histories(const Ties& ties, LoadModel& loads) {
   }
   histories.node = to_device("nodes of motion histories", node);
   histories.weight = to_device("weights of motion histories", weight);
+  find_driven(node, prescribed, histories);
 }
 
 }  // namespace railwave

@@ -46,7 +46,8 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
                                const std::vector<Vec3>& positions, const std::vector<LoadNames>& loads,
                                const std::vector<std::string>& askers,
                                const std::vector<std::vector<const FieldRow*>>& motions,
-                               const std::vector<HistorySet>& elements) {
+                               const std::vector<HistorySet>& elements,
+                               const std::vector<std::string>& prescribed_motions) {
   const hdf5::Group history = root.create_group("history");
   const hdf5::Group energy = history.create_group("energy");
   for (const EnergyTerm& term : energy_terms)
@@ -54,6 +55,9 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
 
   const auto vector_in = [](const hdf5::Group& group, const char* name) {
     return group.create_growing<double>(name, {3}, blocks);
+  };
+  const auto value_in = [](const hdf5::Group& group, const char* name) {
+    return group.create_growing<double>(name, {}, blocks);
   };
   const auto count_in = [](const hdf5::Group& group, const char* name) {
     return group.create_growing<long>(name, {}, blocks);
@@ -98,9 +102,16 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
       if (load.direction != Vec3{})
         group.write("direction", std::vector<double>(load.direction.begin(), load.direction.end()), {3});
       if (load.torque)
-        loads_.push_back({true, {group.create_growing<double>("moment", {}, blocks), {}}});
+        loads_.push_back({true, {value_in(group, "moment"), {}}, {value_in(group, "work"), {}}});
       else
-        loads_.push_back({false, {vector_in(group, "force"), {}}});
+        loads_.push_back({false, {vector_in(group, "force"), {}}, {value_in(group, "work"), {}}});
+    }
+  }
+  if (!prescribed_motions.empty()) {
+    const hdf5::Group motion_groups = history.create_group("prescribed_motion");
+    for (const std::string& name : prescribed_motions) {
+      const hdf5::Group group = motion_groups.create_group(name);
+      reactions_.push_back({{vector_in(group, "reaction"), {}}, {value_in(group, "work"), {}}});
     }
   }
   if (!beams.empty()) {
@@ -121,9 +132,11 @@ HistorySection::HistorySection(const hdf5::Group& root, const std::vector<std::s
 void HistorySection::add(const HistorySample& sample) {
   if (sample.contacts.size() != contacts_.size() || sample.sets.size() != sets_.size() ||
       sample.beams.size() != beams_.size() || sample.elements.size() != elements_.size() ||
-      (!loads_.empty() && sample.loads.size() != loads_.size()))
+      (!loads_.empty() && sample.loads.size() != loads_.size()) ||
+      (!reactions_.empty() && sample.reactions.size() != reactions_.size()))
     throw std::logic_error(
-        "a history sample has other contacts, sets or beams, or loads, than the results file was made for");
+        "a history sample has other contacts, sets, beams, loads or prescribed motions than the results file was made "
+        "for");
   times_.values.push_back(sample.time);
   steps_.values.push_back(sample.step);
   for (std::size_t i = 0; i < std::size(energy_terms); ++i)
@@ -148,6 +161,11 @@ void HistorySection::add(const HistorySample& sample) {
       loads_[i].value.values.push_back(sample.loads[i].moment);
     else
       push(loads_[i].value.values, sample.loads[i].force);
+    loads_[i].work.values.push_back(sample.loads[i].work);
+  }
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    push(reactions_[i].force.values, sample.reactions[i].force);
+    reactions_[i].work.values.push_back(sample.reactions[i].work);
   }
 }
 
@@ -169,7 +187,14 @@ void HistorySection::write() {
     beam.force.write(rows);
     beam.moment.write(rows);
   }
-  for (auto& load : loads_) load.value.write(rows);
+  for (auto& load : loads_) {
+    load.value.write(rows);
+    load.work.write(rows);
+  }
+  for (auto& reaction : reactions_) {
+    reaction.force.write(rows);
+    reaction.work.write(rows);
+  }
   steps_.write(rows);
   times_.write(rows);
 }

@@ -25,13 +25,13 @@ class HistorySection {
   /// Names of contacts and sets; names of the scene's beams with the numbers of their elements; where the sets are (m,
   /// undeformed), if that is known; loads; what in the case asked for each set, if known; which
   /// quantities of nodes are written of each set, all unless given; sets of which quantities of elements are written,
-  /// which may have the names of others.
+  /// which may have the names of others; names of prescribed motions.
   HistorySection(const hdf5::Group& root, const std::vector<std::string>& contacts,
                  const std::vector<std::string>& sets, const std::vector<std::pair<std::string, int>>& beams = {},
                  const std::vector<Vec3>& positions = {}, const std::vector<LoadNames>& loads = {},
                  const std::vector<std::string>& askers = {},
                  const std::vector<std::vector<const FieldRow*>>& motions = {},
-                 const std::vector<HistorySet>& elements = {});
+                 const std::vector<HistorySet>& elements = {}, const std::vector<std::string>& prescribed_motions = {});
 
   void add(const HistorySample& sample);
   std::size_t waiting() const { return times_.values.size(); }
@@ -65,6 +65,11 @@ class HistorySection {
   struct LoadColumn {
     bool torque;
     Column<double> value;  ///< force, three a row, or moment
+    Column<double> work;
+  };
+
+  struct ReactionColumns {
+    Column<double> force, work;
   };
 
   Column<double> times_;
@@ -75,6 +80,7 @@ class HistorySection {
   std::vector<std::vector<QuantityColumn<ElementValues>>> elements_;
   std::vector<BeamColumns> beams_;
   std::vector<LoadColumn> loads_;
+  std::vector<ReactionColumns> reactions_;
 };
 
 }  // namespace railwave

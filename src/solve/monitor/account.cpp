@@ -34,6 +34,8 @@ struct MeanMotionSum {
   SubcycledAcceleration acceleration;
   Array<const int*> node;
   Array<const double* [2]> weight;
+  Array<const int*> driven;  ///< empty: no prescribed motion moves any of them
+  Array<const double* [3]> driven_acceleration;
   double lag;
   KOKKOS_INLINE_FUNCTION void operator()(int k, double* sum) const {
     const NodeArrays& nodes = acceleration.plain.force.nodes;
@@ -42,8 +44,12 @@ struct MeanMotionSum {
     const Vector3 moved = row(nodes.position, n) - row(nodes.reference, n);
     for (int i = 0; i < 3; ++i) sum[i] += of_place * moved[i];
     if (of_motion == 0) return;  // a tied node has next to no mass: its own acceleration may be no number
-    const Vector3 a = acceleration.plain(n);
-    const Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+    Vector3 a = acceleration.plain(n);
+    Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+    if (const int r = driven.extent(0) > 0 ? driven(k) : -1; r >= 0) {
+      a = a + row(driven_acceleration, r);
+      v = v + lag * row(driven_acceleration, r);
+    }
     for (int i = 0; i < 3; ++i) {
       sum[3 + i] += of_motion * v[i];
       sum[6 + i] += of_motion * a[i];
@@ -96,8 +102,8 @@ void sum_own_parts(const Model& model, SampledSums what, double step) {
     sum_block_energies(model, model.nodes);
   } else {
     const MotionHistories& histories = model.motion_histories;
-    sum_parts(histories.parts,
-              MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight, model.velocity_lag});
+    sum_parts(histories.parts, MeanMotionSum{model.subcycled_acceleration(), histories.node, histories.weight,
+                                             histories.driven, histories.driven_acceleration, model.velocity_lag});
     sum_element_parts(model, model.nodes);
   }
 }
@@ -141,6 +147,20 @@ double largest_energy(const EnergyAccount& energy) {
 
 namespace {
 
+/// Accelerations of nodes along the directions in which prescribed motions move them, where histories need them.
+void find_driven_accelerations(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed, double step,
+                               const MotionHistories& histories) {
+  if (histories.driven.extent(0) == 0) return;
+  int first = 0;
+  for (const PrescribedSet& set : prescribed) {
+    const int count = static_cast<int>(set.nodes.extent(0));
+    Kokkos::parallel_for(
+        "acceleration_of_driven_nodes", Range(0, count),
+        PrescribedAcceleration{{prescribed_motion(nodal, set, step)}, first, histories.driven_acceleration});
+    first += count;
+  }
+}
+
 /// Means of all histories of motion, when the sums are fetched.
 void queue_mean_motions(const PartedLists& parts, std::vector<MeanMotion>& means, Reductions& sums) {
   means.resize(parts.list_count());
@@ -177,11 +197,14 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
 }
 
 void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others) {
+  // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
+  find_driven_accelerations(model, model.prescribed, step, model.motion_histories);
   sum_all_parts(model, SampledSums::histories, step, others);
   Reductions sums(*model.reduction_space);
   queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
   queue_element_means(model, sample.elements, sums);
-  queue_load_totals(model, model.loads, sample.loads, sums);
+  queue_load_totals(model, model, model.beams, sample.loads, sums);
+  queue_reactions(model, model.prescribed, step, sample.reactions, sums);
   sums.fetch();
   if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }

@@ -34,7 +34,7 @@ void sum_own_parts(const Model& model, SampledSums what, double step);
 HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
                                  SampledRanks* others = nullptr);
 
-/// Adds its sets, loads and beams.
+/// Adds its sets, loads, reactions and beams.
 void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others = nullptr);
 
 /// Both.

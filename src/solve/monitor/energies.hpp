@@ -1,7 +1,12 @@
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "kernels/support/reductions.hpp"
 #include "model/assembly.hpp"
+#include "model/beams/beams.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
 #include "model/contact/contact_pair.hpp"
 #include "model/elements/element_model.hpp"
 #include "model/loads/load_model.hpp"
@@ -33,7 +38,11 @@ void queue_pair_totals(const NodalState& nodal, const ContactPair& pair, Contact
 void add_other_half(ContactTotals& totals, const ContactTotals& other);  // contact_energies.cpp
 
 /// What each of the scene's loads comes to at the present instant, into `totals` when the sums are fetched.
-void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
-                       Reductions& sums);  // load_totals.cpp
+void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
+                       std::vector<LoadTotals>& totals, Reductions& sums);  // load_totals.cpp
+
+/// The same of prescribed motions. @param step s, of the step to come
+void queue_reactions(const NodalState& nodal, const std::vector<PrescribedSet>& sets, double step,
+                     std::vector<ReactionTotals>& totals, Reductions& sums);  // load_totals.cpp
 
 }  // namespace railwave

@@ -1,4 +1,11 @@
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "kernels/support/block_sum.hpp"
 #include "kernels/support/vector3.hpp"
+#include "model/beams/beams.hpp"
+#include "model/boundaries/prescribed_nodes.hpp"
 #include "solve/monitor/energies.hpp"
 
 namespace railwave {
@@ -49,12 +56,43 @@ void queue_total(const NodalState& nodal, const LoadArrays& arrays, LoadTotals& 
   }
 }
 
+/// Of a torque on a point the beams keep the account, of all other loads their contributions.
+void queue_work(const NodalState& nodal, const LoadArrays& load, const std::shared_ptr<BeamModel>& beams,
+                LoadTotals& totals, Reductions& sums) {
+  Array<const double*> work = nodal.external.work;
+  int first = load.first, count = load.count * (load.load->type == scene::LoadType::pressure ? 4 : 1);
+  if (load.beam_node >= 0) {
+    work = beams->arrays.work;
+    first = static_cast<int>(std::find(beams->moments.begin(), beams->moments.end(), &load) - beams->moments.begin());
+    count = 1;
+  }
+  const Array<const double*> own = Kokkos::subview(work, std::make_pair(first, first + count));
+  sums.sum(ArraySum{own}, count, [&totals](const double* sum) { totals.work = *sum; });
+}
+
 }  // namespace
 
-void queue_load_totals(const NodalState& nodal, const std::vector<LoadArrays>& loads, std::vector<LoadTotals>& totals,
-                       Reductions& sums) {
-  totals.resize(loads.size());
-  for (std::size_t l = 0; l < totals.size(); ++l) queue_total(nodal, loads[l], totals[l], sums);
+void queue_load_totals(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
+                       std::vector<LoadTotals>& totals, Reductions& sums) {
+  totals.resize(loads.loads.size());
+  for (std::size_t l = 0; l < totals.size(); ++l) {
+    queue_total(nodal, loads.loads[l], totals[l], sums);
+    queue_work(nodal, loads.loads[l], beams, totals[l], sums);
+  }
+}
+
+void queue_reactions(const NodalState& nodal, const std::vector<PrescribedSet>& sets, double step,
+                     std::vector<ReactionTotals>& totals, Reductions& sums) {
+  totals.resize(sets.size());
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const int count = static_cast<int>(sets[s].nodes.extent(0));
+    sums.sum(PrescribedReaction{prescribed_motion(nodal, sets[s], step)}, count,
+             [&totals = totals[s]](const double* sum) {
+               for (int i = 0; i < 3; ++i) totals.force[i] = sum[i];
+             });
+    sums.sum(PrescribedWork{prescribed_motion(nodal, sets[s], 0)}, count,
+             [&totals = totals[s]](const double* sum) { totals.work = *sum; });
+  }
 }
 
 }  // namespace railwave

@@ -47,6 +47,7 @@ struct Arguments {
   ResponseRequest response;
   DecayRequest decay;
   ReportRequest report;
+  ExportRequest exported;
   ModesRequest modes;
   ImportRequest import;
   sweep::SweepRequest sweep;
@@ -304,6 +305,10 @@ int dispatch(int argc, char** argv) {
     code = in_reading_child("railwave report", arguments.report.results, [&] {
       return report_command(arguments.report, std::string("railwave ") + RAILWAVE_VERSION, std::cout);
     });
+  });
+  add_export_command(app, arguments.exported, [&] {
+    code = in_reading_child("railwave export", {arguments.exported.results},
+                            [&] { return export_command(arguments.exported, std::cout); });
   });
   add_sweep_command(app, arguments.sweep, [&] {
     stop_on_signals();

@@ -140,6 +140,7 @@ CONTACT_COMMANDS = {
     "contact": "contact FILE --csv OUT/t.csv --nodes OUT/n.csv --cuts OUT/c.csv",
     "contact --hdf5": "contact FILE --hdf5 OUT/c.h5 --axle upper.z_max",
     "report": "report FILE --out OUT/r.html",
+    "export": "export FILE --vtkhdf --out OUT/e.vtkhdf",
     "signal psd": "signal psd FILE --channel contact.between.normal_force.size --csv OUT/p.csv",
     "signal bandpass": "signal bandpass FILE --channel energy.kinetic --low 1e4 --csv OUT/p.csv --hdf5 OUT/p.h5",
 }

@@ -5,7 +5,8 @@ packages_to_build=(
     cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libspectra-dev
     libtomlplusplus-dev ninja-build pkg-config zlib1g-dev
 )
-packages_to_draw=(python3 python3-h5py python3-matplotlib)
+# Pictures, and by scipy the exact contact solutions of scripts/verification.
+packages_to_draw=(python3 python3-h5py python3-matplotlib python3-scipy)
 # clang-format for the layout of sources; VTK for Python with its XDMF reader, which Debian's python3-vtk9 is built
 # without; Chromium, in which reports are opened.
 packages_to_test=(chromium chromium-driver clang-format python3-paraview python3-selenium)

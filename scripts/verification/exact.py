@@ -1,6 +1,7 @@
 """Exact contact solutions of elastic half-spaces of one material: Hertz, Cattaneo and Mindlin, Carter. SI units."""
 
 import numpy as np
+from scipy.special import ellipe, ellipk
 
 
 class Steel:
@@ -17,17 +18,6 @@ class Steel:
         return cls.youngs_modulus / (2 * (1 - cls.poissons_ratio**2))
 
 
-def complete_elliptic(e2):
-    """K and E of the parameter e^2 by the arithmetic-geometric mean."""
-    a, b, c, power, total = 1.0, np.sqrt(1 - e2), np.sqrt(e2), 0.5, 0.5 * e2
-    while abs(c) > 1e-16:
-        a, b, c = (a + b) / 2, np.sqrt(a * b), (a - b) / 2
-        power *= 2
-        total += power * c * c
-    k = np.pi / (2 * a)
-    return k, k * (1 - total)
-
-
 class Hertz:
     """Contact of curvatures 1/radius_along (x) <= 1/radius_across (y) under a force (Johnson 1985, section 4.2)."""
 
@@ -38,10 +28,10 @@ class Hertz:
         low, high = 0.0, 1 - 1e-12  # of e^2
         for _ in range(200 if ratio > 1 + 1e-12 else 0):
             e2 = (low + high) / 2
-            k, e = complete_elliptic(e2)
+            k, e = ellipk(e2), ellipe(e2)
             low, high = (e2, high) if (e / (1 - e2) - k) / (k - e) < ratio else (low, e2)
         e2 = low if ratio > 1 + 1e-12 else 0.0
-        k, e = complete_elliptic(e2)
+        k, e = ellipk(e2), ellipe(e2)
         curvature = 0.5 / radius_along + 0.5 / radius_across
         self.b = (3 * force * e * np.sqrt(1 - e2) / (2 * np.pi * modulus * curvature)) ** (1 / 3)
         self.a = self.b / np.sqrt(1 - e2)

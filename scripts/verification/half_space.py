@@ -11,6 +11,7 @@ body is (a driven wheel's longitudinal one), spin is the upper body's about +z l
 with two grids."""
 
 import numpy as np
+from scipy.sparse.linalg import LinearOperator, gmres
 
 
 def influence(x, y, h, k):
@@ -24,27 +25,14 @@ def influence(x, y, h, k):
 
 
 def solve_linear(apply, right, tolerance, most=500):
-    """GMRES: x with apply(x) = right. The problem here is of order zero, a difference of an integral, and needs no
+    """x with apply(x) = right by GMRES. The problem here is of order zero, a difference of an integral, and needs no
     preconditioner."""
-    size = np.linalg.norm(right)
-    basis, upper, turned = [right / size], np.zeros((most + 1, most)), np.zeros(most + 1)
-    turns, turned[0] = [], size
-    for j in range(most):
-        new = apply(basis[j])
-        for i, old in enumerate(basis):
-            upper[i, j] = new @ old
-            new = new - upper[i, j] * old
-        length = np.linalg.norm(new)
-        for i, (c, s) in enumerate(turns):
-            upper[i, j], upper[i + 1, j] = c * upper[i, j] + s * upper[i + 1, j], c * upper[i + 1, j] - s * upper[i, j]
-        diagonal = np.hypot(upper[j, j], length)
-        c, s = upper[j, j] / diagonal, length / diagonal
-        turns.append((c, s))
-        upper[j, j], turned[j], turned[j + 1] = diagonal, c * turned[j], -s * turned[j]
-        if abs(turned[j + 1]) < tolerance * size or length == 0:
-            break
-        basis.append(new / length)
-    return np.linalg.solve(upper[:j + 1, :j + 1], turned[:j + 1]) @ np.array(basis[:j + 1])
+    operator = LinearOperator((len(right), len(right)), matvec=apply, dtype=float)
+    # The bound is given as atol: its relative one, 1e-5 by itself, has had two names.
+    x, left = gmres(operator, right, atol=max(tolerance, 1e-5) * np.linalg.norm(right), restart=most, maxiter=1)
+    if left < 0:
+        raise RuntimeError(f"GMRES broke down ({left}) on {len(right)} unknowns")
+    return x
 
 
 class FallingFriction:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "post/decay_command.hpp"
+#include "post/export_command.hpp"
 #include "post/response_command.hpp"
 #include "post/signal_command.hpp"
 #include "report/report_command.hpp"
@@ -25,6 +26,9 @@ void add_signal_command(CLI::App& app, SignalRequest& request, const std::functi
 
 /// Adds `railwave report RESULTS...`, which fills the request and calls `run`.
 void add_report_command(CLI::App& app, ReportRequest& request, const std::function<void()>& run);
+
+/// Adds `railwave export RESULTS`, which fills the request and calls `run`.
+void add_export_command(CLI::App& app, ExportRequest& request, const std::function<void()>& run);
 
 /// Adds `railwave sweep STUDY`, which fills the request and calls `run`.
 void add_sweep_command(CLI::App& app, sweep::SweepRequest& request, const std::function<void()>& run);

@@ -45,6 +45,8 @@ constexpr DatasetUnit datasets[] = {
     {"/*/step", "1"},
     {"/beams/*/force", "N"},
     {"/beams/*/moment", "N m"},
+    {"/VTKHDF/CellData/beam_force", "N"},
+    {"/VTKHDF/CellData/beam_moment", "N m"},
     // Sides of contacts.
     {"/contact/*/surface_of_facet", "1"},
     {"/contact/*/rows", "1"},

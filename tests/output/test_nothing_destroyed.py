@@ -91,6 +91,7 @@ COMMANDS = {
     "contact --nodes": ["contact", "own.h5", "--nodes", "{}"],
     "contact --cuts": ["contact", "own.h5", "--cuts", "{}"],
     "contact --hdf5": ["contact", "own.h5", "--hdf5", "{}"],
+    "export --out": ["export", "own.h5", "--vtkhdf", "--out", "{}"],
     "frf --csv": ["frf", "own.h5", "--resolution", "1e5", "--from", "1", "--to", "1e6", "--csv", "{}"],
     "frf --hdf5": ["frf", "own.h5", "--resolution", "1e5", "--from", "1", "--to", "1e6", "--hdf5", "{}"],
     "decay --csv": ["decay", "own.h5", "--csv", "{}"],

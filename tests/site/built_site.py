@@ -79,23 +79,35 @@ class Reader(browser.Page):
             ".map(one => one.textContent)]"
         )
 
-    def search(self, words):
-        """Addresses of what a search finds, best first."""
+    def type_search(self, words):
         self.ask(
             "(() => { const box = document.querySelector('.md-search__input'); box.focus(); box.value = arguments[0];"
             " box.dispatchEvent(new Event('input', {bubbles: true}));"
             " box.dispatchEvent(new KeyboardEvent('keyup', {bubbles: true, key: 'e'})); })()",
             words,
         )
+
+    def search(self, words):
+        """Addresses of what a search finds, best first."""
+        self.type_search(words)
+        return self.found()
+
+    def found(self):
         self.wait_for("document.querySelector('.md-search-result__link')")
         return self.ask("[...document.querySelectorAll('.md-search-result__link')].map(one => one.href)")
 
 
 @contextlib.contextmanager
-def served(folder):
-    """Address of a server of the folder on this machine."""
+def served(folder, held="", release=None):
+    """Address of a server of the folder on this machine.
+    @param held paths with this in them are answered when the event `release` is set"""
 
     class Quiet(http.server.SimpleHTTPRequestHandler):
+        def do_GET(self):
+            if held and held in self.path:
+                release.wait()
+            super().do_GET()
+
         def log_message(self, *_):
             pass
 

@@ -4,6 +4,7 @@ server."""
 
 import os
 import sys
+import threading
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -58,6 +59,20 @@ class Search(unittest.TestCase):
     def test_from_a_server(self):
         with served(SITE.folder) as base:
             self.expect_pages(base)
+
+    def test_typed_while_the_worker_starts(self):
+        release = threading.Event()
+        self.addCleanup(release.set)
+        with served(SITE.folder, "/workers/search", release) as base, Reader(f"{base}/index.html") as page:
+            page.wait_for(
+                "performance.getEntriesByType('resource').some(one =>"
+                " one.name.endsWith('search_index.json') && one.responseEnd)"
+            )
+            page.ask("new Promise(done => setTimeout(done))")  # the theme has taken the index
+            page.type_search("Mindlin")
+            release.set()
+            self.assertTrue(any(f"{base}/verification.html" in one for one in page.found()))
+            self.assertEqual(page.console(), [])
 
     def test_from_a_folder(self):
         self.expect_pages(SITE.address)

@@ -47,14 +47,15 @@ using Shape = std::vector<hsize_t>;
 /// dataset `rows`: how many there are up to and with each output.
 inline constexpr const char* near_nodes = "near";
 
-/// Array in a file. Element types are double, float, int, long and signed char; an array of one of them can be appended
-/// and read as any other.
+/// Array in a file. Element types are double, float, int, long, signed and unsigned char; an array of one of them can
+/// be appended and read as any other.
 class Dataset {
  public:
   Dataset() = default;
   Dataset(Handle id, std::string name) : id_(std::move(id)), name_(std::move(name)) {}
 
   Shape shape() const;
+  bool is_single() const;  ///< numbers of single precision
 
   /// Adds `count` rows (entries along the first dimension) at the end.
   template <class T>
@@ -127,6 +128,9 @@ class Group {
   void set_attribute(const std::string& name, const std::string& value) const;
   void set_attribute(const std::string& name, const char* value) const { set_attribute(name, std::string(value)); }
   void set_attribute(const std::string& name, const std::vector<std::string>& values) const;
+  void set_attribute(const std::string& name, const std::vector<long>& values) const;
+  /// As ASCII characters of just that number, for readers that know no texts of any length.
+  void set_fixed_text_attribute(const std::string& name, const std::string& value) const;
 
   bool has_attribute(const std::string& name) const;
   double number_attribute(const std::string& name) const;

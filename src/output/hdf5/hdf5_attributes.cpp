@@ -60,6 +60,22 @@ void Group::set_attribute(const std::string& name, const std::vector<std::string
   check(H5Awrite(attribute.get(), type.get(), texts.data()), "writing attribute " + name);
 }
 
+void Group::set_attribute(const std::string& name, const std::vector<long>& values) const {
+  expect_free_memory();
+  const Handle space = space_of({values.size()});
+  const Handle attribute = new_attribute(name, H5T_NATIVE_LONG, space.get());
+  if (!values.empty()) check(H5Awrite(attribute.get(), H5T_NATIVE_LONG, values.data()), "writing attribute " + name);
+}
+
+void Group::set_fixed_text_attribute(const std::string& name, const std::string& value) const {
+  expect_free_memory(copies_of_text * value.size());
+  const Handle space = space_of({}), type(check(H5Tcopy(H5T_C_S1), "making a text type"), H5Tclose);
+  check(H5Tset_size(type.get(), value.size()), "making a text type");
+  check(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), "making a text type");
+  const Handle attribute = new_attribute(name, type.get(), space.get());
+  check(H5Awrite(attribute.get(), type.get(), value.data()), "writing attribute " + name);
+}
+
 bool Group::has_attribute(const std::string& name) const {
   expect_free_memory();
   const LimitedCall limited;

@@ -26,6 +26,13 @@ Shape Dataset::shape() const {
   return extent();
 }
 
+bool Dataset::is_single() const {
+  expect_free_memory();
+  const LimitedCall limited;
+  const Handle type(check(H5Dget_type(id_.get()), "asking for the type of " + name_), H5Tclose);
+  return H5Tget_class(type.get()) == H5T_FLOAT && H5Tget_size(type.get()) == sizeof(float);
+}
+
 Shape Dataset::extent() const {
   const Handle space = file_space(id_.get(), name_);
   Shape result(check(H5Sget_simple_extent_ndims(space.get()), "asking for the shape of " + name_));
@@ -101,5 +108,7 @@ RAILWAVE_FOR_TYPE(float)
 RAILWAVE_FOR_TYPE(int)
 RAILWAVE_FOR_TYPE(long)
 RAILWAVE_FOR_TYPE(signed char)
+RAILWAVE_FOR_TYPE(unsigned char)
+#undef RAILWAVE_FOR_TYPE
 
 }  // namespace railwave::hdf5

@@ -236,5 +236,7 @@ RAILWAVE_FOR_TYPE(float)
 RAILWAVE_FOR_TYPE(int)
 RAILWAVE_FOR_TYPE(long)
 RAILWAVE_FOR_TYPE(signed char)
+RAILWAVE_FOR_TYPE(unsigned char)
+#undef RAILWAVE_FOR_TYPE
 
 }  // namespace railwave::hdf5

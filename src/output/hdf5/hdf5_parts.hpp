@@ -28,6 +28,8 @@ hid_t native_type() {
     return H5T_NATIVE_INT;
   else if constexpr (std::is_same_v<T, long>)
     return H5T_NATIVE_LONG;
+  else if constexpr (std::is_same_v<T, unsigned char>)
+    return H5T_NATIVE_UCHAR;
   else
     return H5T_NATIVE_SCHAR;
 }

@@ -1,4 +1,4 @@
-// Options of the commands that take several results files: frf, decay and report.
+// Options of the commands that read results files as wholes: frf, decay, report and export.
 #include "commands/command_line.hpp"
 
 namespace railwave {
@@ -66,6 +66,22 @@ void add_report_command(CLI::App& app, ReportRequest& request, const std::functi
   command->add_option("--size", request.size,
                       "MB that the page is to have at most: fewer instants and samples where it would have more; "
                       "default 14");
+  command->add_flag("--overwrite", request.overwrite,
+                    "replace a file that is there even if railwave has not written it; never the results");
+  command->callback(run);
+}
+
+void add_export_command(CLI::App& app, ExportRequest& request, const std::function<void()>& run) {
+  CLI::App* command = app.add_subcommand("export", "the fields of a results file for other programs");
+  command->add_option("results", request.results, "results file")->required();
+  command->add_flag("--vtkhdf", request.vtkhdf,
+                    "as VTKHDF, which ParaView 5.12 and later reads without its XDMF reader");
+  command->add_option("--out", request.out, "file to write; default: RESULTS with the ending .vtkhdf");
+  command->add_option("--show", request.show,
+                      "NAME,NAME: sets of output.field_sets and beams to take; default: all that are not within "
+                      "another");
+  command->add_option("--from", request.from, "leave out output times before, s");
+  command->add_option("--to", request.to, "leave out output times after, s");
   command->add_flag("--overwrite", request.overwrite,
                     "replace a file that is there even if railwave has not written it; never the results");
   command->callback(run);

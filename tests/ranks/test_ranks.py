@@ -40,8 +40,16 @@ def scene(name, share=0.15, **more):
     finer = {old: new for old, new in FINER.items() if old not in instead and old in case(**options)}
     if name == "subcycling":
         finer = {}
+        instead.update({"divisions = [5, 5, 4]": "divisions = [18, 18, 10]",
+                        "divisions = [6, 5, 3]": "divisions = [12, 10, 16]"})
     options.update(instead={**instead, **finer}, end=share * options.get("end", 1.2e-3))
     return case(**options)
+
+
+def brought(said):
+    """Of a run's summary: how often and how many kB of what was brought to rank 0."""
+    found = re.findall(r"(energies|histories|the whole state) (\d+) times, ([0-9.e+]+) kB each", said)
+    return {what: (int(times), float(size)) for what, times, size in found}
 
 
 class Ranks(unittest.TestCase):
@@ -97,22 +105,56 @@ class SameResults(Ranks):
     """Made below: one test for each kind of scene."""
 
 
-def add_kind(name):
-    def test(self):
-        self.write(scene(name, 0.4) if name in ("windows", "global_step") else scene(name))  # some windows open late
-        self.run_to_end(1)
-        alone = self.kept("alone.h5")
-        for ranks in (2, 3):
-            said = self.run_to_end(ranks)
-            # One process speaks for all.
-            self.assertEqual(said.count("results: "), 1, said)
-            self.assert_same(alone, self.kept(f"{ranks}.h5"))
-    setattr(SameResults, "test_" + name, test)
+def add_kinds(tests, numbers_of_ranks):
+    """A test for each kind of scene. @param tests a class of Ranks"""
+    def add(name):
+        def test(self):
+            self.write(scene(name, 0.4) if name in ("windows", "global_step") else scene(name))  # windows open late
+            self.run_to_end(1)
+            alone = self.kept("alone.h5")
+            for ranks in numbers_of_ranks:
+                said = self.run_to_end(ranks)
+                # One process speaks for all.
+                self.assertEqual(said.count("results: "), 1, said)
+                self.assertGreater(brought(said)["the whole state"][1], 0, "no rank but rank 0 has an element")
+                self.assert_same(alone, self.kept(f"{ranks}.h5"))
+        setattr(tests, "test_" + name, test)
+
+    for name in KINDS:
+        if name not in OF_ONE_RANK:
+            add(name)
 
 
-for name_ in KINDS:
-    if name_ not in OF_ONE_RANK:
-        add_kind(name_)
+add_kinds(SameResults, (2, 3))
+
+
+class Sampling(Ranks):
+    """Histories and checks bring rank 0 sums, not the state."""
+
+    def test_the_whole_state_comes_for_fields_alone(self):
+        self.write(scene("multiplier"))
+        outputs = 1 + round(0.15 * 1.2e-3 / 5e-5) + 1  # the beginning and the end among them
+        found = brought(self.run_to_end(3))
+        self.assertLessEqual(found["the whole state"][0], outputs)
+        for sums in ("energies", "histories"):
+            self.assertGreater(found[sums][0], 2 * outputs)
+            self.assertGreater(found[sums][1], 0)
+            self.assertLess(found[sums][1], 0.02 * found["the whole state"][1])
+
+    def test_a_contact_that_has_slid_off_an_end(self):
+        """It asks where whole parts are; the fault ends the run, with a file of what is around it."""
+        self.write(scene("multiplier", 0.5, instead={
+            "velocity = [2, 1, -2]": "velocity = [40, 0, -2]", "[0, 30, 10]": "[0, 0, 0]",
+            "[0.005, 0.005, 0.03001]": "[0.052, 0.005, 0.03001]"}))
+        fault = self.folder / "results.fault.h5"
+        kept = {}
+        for ranks in (1, 2, 3):
+            said = self.run_to_end(ranks, code=3)
+            self.assertIn("FAULT: a closed contact has lost all its nodes over the end of its surface", said)
+            kept[ranks] = self.kept(f"{ranks}.h5"), self.folder / f"{ranks}.fault.h5"
+            shutil.move(fault, kept[ranks][1])
+            for one, other in zip(kept[1], kept[ranks]):
+                self.assert_same(one, other)
 
 
 class Restarts(Ranks):
@@ -239,7 +281,8 @@ class LostRanks(Ranks):
         self.assertIn("rank 2 has not answered rank", self.lose(2, signal.SIGSTOP))
 
 
-if __name__ == "__main__":
+def need_ranks():
+    """Leaves where the program or the machine knows no ranks."""
     knows = subprocess.run([PROGRAM, "check", "nothing.toml", "--ranks", "2"], capture_output=True, text=True)
     if shutil.which("mpirun") is None or "built without MPI" in knows.stderr:
         sys.exit(77)
@@ -247,4 +290,8 @@ if __name__ == "__main__":
     if started.returncode != 0:
         print(f"mpirun starts nothing on this machine: {started.stderr}")
         sys.exit(77)
+
+
+if __name__ == "__main__":
+    need_ranks()
     unittest.main()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The study of a bogie on a wheelset by its one command, as far as the bottom of the weld: a table, pictures, nothing
+"""The study of a bogie on a wheelset by its one command, as far as the weld: a table, pictures, nothing
 computed twice. Skipped where Simbody was not found at the build."""
 
 import csv
@@ -16,9 +16,9 @@ ROOT = pathlib.Path(os.environ["RAILWAVE_SOURCE_DIR"])
 
 
 class Whole(unittest.TestCase):
-    def test_to_the_bottom_of_the_weld(self):
+    def test_into_the_weld(self):
         with tempfile.TemporaryDirectory(prefix="railwave-") as folder:
-            words = [sys.executable, ROOT / "studies" / "vehicle" / "run", "--until", "4.3e-3", "--out", folder,
+            words = [sys.executable, ROOT / "studies" / "vehicle" / "run", "--until", "3e-3", "--out", folder,
                      "--program", PROGRAM.parent / "railwave"]
             first = subprocess.run(words, capture_output=True, text=True)
             self.assertEqual(first.returncode, 0, first.stdout[-4000:] + first.stderr[-4000:])
@@ -35,8 +35,8 @@ class Whole(unittest.TestCase):
             self.assertLess(closes, 1e-6, what)
         off = {way: [float(value.split()[0]) for what, value in found.items() if f"one-way, {way}" in what][0]
                for way in ("forces of the coupled run", "the static force")}  # N, of the contact force
-        self.assertLess(off["forces of the coupled run"], 1)  # of 5e4: the same forces at the same steps
-        self.assertGreater(off["the static force"], 100 * off["forces of the coupled run"])
+        self.assertEqual(off["forces of the coupled run"], 0)  # the same forces at the same steps
+        self.assertGreater(off["the static force"], 3)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # Finds what Railwave stands on, and gives each a target: Kokkos::kokkos, Eigen3::Eigen, railwave::hdf5, railwave::zlib
-# (empty where it is not there), railwave::ranks (MPI and METIS, likewise), railwave::toml, railwave::cli, railwave::fmt,
-# railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
+# (empty where it is not there), railwave::ranks (MPI and METIS, likewise), railwave::toml, railwave::json, railwave::cli,
+# railwave::fmt, railwave::spdlog, railwave::spectra, Catch2::Catch2 (tests).
 
 # What scripts/setup has put there.
 list(APPEND CMAKE_PREFIX_PATH "${CMAKE_SOURCE_DIR}/.deps/kokkos" "${CMAKE_SOURCE_DIR}/.deps/catch2/usr")

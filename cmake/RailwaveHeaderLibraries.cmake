@@ -1,4 +1,4 @@
-# railwave::toml, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra.
+# railwave::toml, railwave::json, railwave::cli, railwave::fmt, railwave::spdlog, railwave::spectra.
 
 # Header-only libraries: a folder of unpacked packages comes first when the user names one.
 function(railwave_header_library name header hint)
@@ -18,6 +18,7 @@ function(railwave_header_library name header hint)
 endfunction()
 
 railwave_header_library(toml toml++/toml.h libtomlplusplus-dev)
+railwave_header_library(json nlohmann/json.hpp nlohmann-json3-dev)
 railwave_header_library(cli CLI/CLI.hpp libcli11-dev)
 railwave_header_library(fmt fmt/format.h libfmt-dev)
 railwave_header_library(spdlog spdlog/spdlog.h libspdlog-dev)

@@ -29,6 +29,7 @@ class Railwave(CMakePackage):
     depends_on("fmt@9:")
     depends_on("spdlog@1.10: +fmt_external")
     depends_on("tomlplusplus@3:", type="build")
+    depends_on("nlohmann-json@3:", type="build")
     depends_on("cli11@2:", type="build")
     depends_on("spectra@1:", type="build")
     depends_on("mpi", when="+mpi")

@@ -3,7 +3,7 @@
 
 packages_to_build=(
     cmake dpkg-dev g++ libcli11-dev libeigen3-dev libfmt-dev libhdf5-dev libspdlog-dev libspectra-dev
-    libtomlplusplus-dev ninja-build pkg-config zlib1g-dev
+    libtomlplusplus-dev ninja-build nlohmann-json3-dev pkg-config zlib1g-dev
 )
 # Pictures, and by scipy the exact contact solutions of scripts/verification.
 packages_to_draw=(python3 python3-h5py python3-matplotlib python3-scipy)
@@ -24,7 +24,7 @@ packages_for_schedulers=(munge slurm-wlm snakemake)
 # libFuzzer and what reads its coverage.
 packages_to_fuzz=(
     clang cmake libclang-rt-dev libcli11-dev libeigen3-dev libfmt-dev libspdlog-dev libspectra-dev libtomlplusplus-dev
-    llvm ninja-build
+    llvm ninja-build nlohmann-json3-dev
 )
 
 # Prints those of the given packages that are not installed. A package is also there if another provides it.

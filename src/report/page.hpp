@@ -22,7 +22,7 @@ struct Limits {
 
 /// A section's JSON, what was left out of it, for the page and for people at the terminal, and how much there is.
 struct Section {
-  std::string json;
+  Json json;
   std::vector<std::string> notes = {};
   Limits there{0, 0};
 };
@@ -52,16 +52,12 @@ bool has_page_template();
 /// The template with data in its place.
 /// @param blocks elements of HTML that come before the data
 /// @param json that the page starts from
-std::string filled(const std::string& page, const std::string& blocks, const std::string& json);
+std::string filled(const std::string& page, const std::string& blocks, const Json& json);
 
 /// By what a report is known again.
 FileKind report_kind();
 
 /// What to call each of several files: their paths without the folders and names that all have in common.
 std::vector<std::string> short_names(const std::vector<std::string>& paths);
-
-/// JSON of several: "[a,b]", and of names with their values: {"name":value}.
-std::string json_list(const std::vector<std::string>& items);
-std::string json_object(const std::vector<std::pair<std::string, std::string>>& members);
 
 }  // namespace railwave::page

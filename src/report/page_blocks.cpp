@@ -71,23 +71,22 @@ std::string base64(const std::string& bytes) {
 
 }  // namespace
 
-std::string PageBlocks::add_bytes(const std::vector<unsigned char>& bytes, const char* type, std::size_t count,
-                                  const std::string& more) {
+Json PageBlocks::add_bytes(const std::vector<unsigned char>& bytes, const char* type, std::size_t count) {
   fmt::format_to(std::back_inserter(html_), "<script type=\"text/plain\" id=\"block-{}\">{}</script>\n", count_,
                  base64(deflated(bytes)));
-  return fmt::format("{{\"block\":{},\"type\":\"{}\",\"count\":{}{}}}", count_++, type, count, more);
+  return {{"block", count_++}, {"type", type}, {"count", count}};
 }
 
-std::string PageBlocks::add(const std::vector<double>& values) {
+Json PageBlocks::add(const std::vector<double>& values) {
   const std::vector<float> single(values.begin(), values.end());
   return add_bytes(in_planes(single), "float32", single.size());
 }
 
-std::string PageBlocks::add(const std::vector<std::uint32_t>& values) {
+Json PageBlocks::add(const std::vector<std::uint32_t>& values) {
   return add_bytes(in_planes(differences(values)), "uint32", values.size());
 }
 
-std::string PageBlocks::add_in_levels(const std::vector<double>& values) {
+Json PageBlocks::add_in_levels(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const double value : values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
@@ -99,22 +98,19 @@ std::string PageBlocks::add_in_levels(const std::vector<double>& values) {
     levels.push_back(!std::isfinite(value) ? not_known
                      : step > 0            ? static_cast<std::uint16_t>(std::lround((value - low) / step))
                                            : std::uint16_t{0});
-  return add_bytes(in_planes(differences(levels)), "levels", levels.size(),
-                   fmt::format(",\"low\":{},\"step\":{}", json_number(low), json_number(step)));
+  Json block = add_bytes(in_planes(differences(levels)), "levels", levels.size());
+  block["low"] = low;
+  block["step"] = step;
+  return block;
 }
 
-std::string json_text(const std::string& plain) {
-  std::string text = "\"";
-  for (const char letter : plain) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (code < 0x20 || code == 0x7f || letter == '<')
-      text += fmt::format("\\u{:04x}", code);
-    else
-      text += letter == '"' || letter == '\\' ? std::string{'\\', letter} : std::string(1, letter);
-  }
-  return text + '"';
+std::string text_for_html(const Json& json) {
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  // Outside of strings JSON has no '<'.
+  for (const char letter : text) letter == '<' ? safe += "\\u003c" : safe += letter;
+  return safe;
 }
-
-std::string json_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 }  // namespace railwave::page

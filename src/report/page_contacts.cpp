@@ -47,57 +47,57 @@ std::vector<std::uint32_t> whole(const std::vector<double>& numbers) {
 }
 
 template <std::size_t n>
-std::string in_levels(const Table& table, const char* const (&columns)[n], PageBlocks& blocks) {
-  std::vector<std::pair<std::string, std::string>> members{{"row", blocks.add(whole(table.values("row")))}};
-  for (const char* column : columns) members.emplace_back(column, blocks.add_in_levels(table.values(column)));
-  return json_object(members);
+Json in_levels(const Table& table, const char* const (&columns)[n], PageBlocks& blocks) {
+  Json members{{"row", blocks.add(whole(table.values("row")))}};
+  for (const char* column : columns) members[column] = blocks.add_in_levels(table.values(column));
+  return members;
 }
 
-std::string facets(const Table& table, PageBlocks& blocks) {
-  std::vector<std::pair<std::string, std::string>> members{{"row", blocks.add(whole(table.values("row")))}};
-  for (const char* corner : facet_corners) members.emplace_back(corner, blocks.add(whole(table.values(corner))));
-  return json_object(members);
+Json facets(const Table& table, PageBlocks& blocks) {
+  Json members{{"row", blocks.add(whole(table.values("row")))}};
+  for (const char* corner : facet_corners) members[corner] = blocks.add(whole(table.values(corner)));
+  return members;
 }
 
-std::string whole_table(const Table& table, PageBlocks& blocks) {
-  std::vector<std::string> columns;
+Json whole_table(const Table& table, PageBlocks& blocks) {
+  Json columns = Json::array();
   for (const Column& column : table.columns())
-    columns.push_back(json_object({{"name", json_text(column.name)},
-                                   {"unit", json_text(column.unit)},
-                                   {"values", blocks.add(table.values(column.name))}}));
-  return json_list(columns);
+    columns.push_back(
+        Json{{"name", column.name}, {"unit", column.unit}, {"values", blocks.add(table.values(column.name))}});
+  return columns;
 }
 
 /// Rows 0 of the output times that have nodes, facets and cuts, see ContactRequest::most_detailed.
-std::string drawn_rows(const Table& patches, const Limits& limits) {
-  std::vector<std::string> of_all, drawn;
+Json drawn_rows(const Table& patches, const Limits& limits) {
+  std::vector<std::size_t> of_all;
+  Json drawn = Json::array();
   for (std::size_t row = 0; row < patches.row_count(); ++row)
-    if (patches.at(row, "patch") == 0) of_all.push_back(std::to_string(row));
+    if (patches.at(row, "patch") == 0) of_all.push_back(row);
   for (const std::size_t n : evenly_chosen(of_all.size(), limits.instants)) drawn.push_back(of_all[n]);
-  return json_list(drawn);
+  return drawn;
 }
 
 /// The minor axis of the patch with the largest normal force of all outputs, and the size of the cells in it: the root
 /// of the mean area of its nodes.
-std::string resolution(const Table& patches) {
+Json resolution(const Table& patches) {
   std::optional<std::size_t> largest;
   for (std::size_t row = 0; row < patches.row_count(); ++row) {
     const bool counts = patches.at(row, "patch") > 0 && patches.at(row, "small") == 0;
     if (counts && (!largest || patches.at(row, "normal_force") > patches.at(*largest, "normal_force"))) largest = row;
   }
-  if (!largest) return "null";
+  if (!largest) return nullptr;
   const auto value = [&](const char* column) { return patches.at(*largest, column); };
-  return json_object({{"time", json_number(value("time"))},
-                      {"patch", json_number(value("patch"))},
-                      {"minor_axis", json_number(2 * std::min(value("semi_axis_along"), value("semi_axis_across")))},
-                      {"cell", json_number(std::sqrt(value("area_by_count") / value("nodes_in_contact")))}});
+  return {{"time", value("time")},
+          {"patch", value("patch")},
+          {"minor_axis", 2 * std::min(value("semi_axis_along"), value("semi_axis_across"))},
+          {"cell", std::sqrt(value("area_by_count") / value("nodes_in_contact"))}};
 }
 
 }  // namespace
 
 Section contact_section(const ResultsReader& results, const Limits& limits, PageBlocks& blocks) {
   Section section;
-  std::vector<std::string> contacts;
+  Json contacts = Json::array();
   for (const std::string& name : results.contacts()) {
     if (!has_solution(results, name)) {
       section.notes.push_back(
@@ -116,17 +116,17 @@ Section contact_section(const ResultsReader& results, const Limits& limits, Page
     if (outputs > limits.instants)
       section.notes.push_back(fmt::format("contact {}: its patches are drawn at {} of {} output times, evenly chosen",
                                           name, limits.instants, outputs));
-    contacts.push_back(json_object({{"name", json_text(name)},
-                                    {"surface", json_text(results.slave_surface(name))},
-                                    {"resolution", resolution(tables.patches)},
-                                    {"outputs", std::to_string(outputs)},
-                                    {"drawn", drawn_rows(tables.patches, limits)},
-                                    {"patches", whole_table(tables.patches, blocks)},
-                                    {"nodes", in_levels(tables.nodes, node_columns, blocks)},
-                                    {"facets", facets(tables.facets, blocks)},
-                                    {"cuts", in_levels(tables.cuts, cut_columns, blocks)}}));
+    contacts.push_back(Json{{"name", name},
+                            {"surface", results.slave_surface(name)},
+                            {"resolution", resolution(tables.patches)},
+                            {"outputs", outputs},
+                            {"drawn", drawn_rows(tables.patches, limits)},
+                            {"patches", whole_table(tables.patches, blocks)},
+                            {"nodes", in_levels(tables.nodes, node_columns, blocks)},
+                            {"facets", facets(tables.facets, blocks)},
+                            {"cuts", in_levels(tables.cuts, cut_columns, blocks)}});
   }
-  section.json = json_list(contacts);
+  section.json = contacts;
   return section;
 }
 

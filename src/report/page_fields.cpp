@@ -11,8 +11,6 @@
 namespace railwave::page {
 namespace {
 
-using Members = std::vector<std::pair<std::string, std::string>>;
-
 /// Component `c` of `components` of the entries at `places`.
 std::vector<double> component(const std::vector<double>& values, const std::vector<std::size_t>& places,
                               std::size_t components, std::size_t c) {
@@ -23,21 +21,21 @@ std::vector<double> component(const std::vector<double>& values, const std::vect
 }
 
 /// One output of a field, each component by itself.
-std::string field_at(const BodySurface& body, const FieldRow& row, std::size_t output, PageBlocks& blocks) {
+Json field_at(const BodySurface& body, const FieldRow& row, std::size_t output, PageBlocks& blocks) {
   const auto components = static_cast<std::size_t>(row.components);
   const std::vector<double> values = body.group.dataset(row.name).read_row<double>(output);
   if (values.size() != components * (row.of_nodes() ? body.set_nodes : body.set_cells))
     throw std::runtime_error(fmt::format("{} has another number of values than {}", row.name,
                                          row.of_nodes() ? "three a node" : "its cells"));
-  std::vector<std::string> references;
+  Json references = Json::array();
   for (std::size_t c = 0; c < components; ++c)
     references.push_back(
         blocks.add_in_levels(component(values, row.of_nodes() ? body.node_places : body.face_places, components, c)));
-  return json_list(references);
+  return references;
 }
 
 /// The displacement as a rigid motion and what that leaves, each axis by itself.
-Members displacement_at(const BodySurface& body, std::size_t output, PageBlocks& blocks) {
+void add_displacement(const BodySurface& body, std::size_t output, PageBlocks& blocks, Json& members) {
   const std::vector<double> all = body.group.dataset("displacement").read_row<double>(output);
   if (all.size() != 3 * body.set_nodes)
     throw std::runtime_error("displacement has another number of values than three a node");
@@ -50,47 +48,47 @@ Members displacement_at(const BodySurface& body, std::size_t output, PageBlocks&
     const Eigen::Vector3d left = body.nodes[i] + Eigen::Vector3d(&displacements[3 * i]) - rigid.moved(body.nodes[i]);
     for (std::size_t axis = 0; axis < 3; ++axis) rest[axis].push_back(left[static_cast<Eigen::Index>(axis)]);
   }
-  std::vector<std::string> turn, shift, references;
+  Json turn = Json::array(), shift = Json::array(), references = Json::array();
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) turn.push_back(json_number(rigid.turn(r, c)));
-  for (int axis = 0; axis < 3; ++axis) shift.push_back(json_number(rigid.shift[axis]));
+    for (int c = 0; c < 3; ++c) turn.push_back(rigid.turn(r, c));
+  for (int axis = 0; axis < 3; ++axis) shift.push_back(rigid.shift[axis]);
   for (const auto& values : rest) references.push_back(blocks.add_in_levels(values));
-  return {{"turn", json_list(turn)}, {"shift", json_list(shift)}, {"rest", json_list(references)}};
+  members["turn"] = turn;
+  members["shift"] = shift;
+  members["rest"] = references;
 }
 
-std::string output_of(const BodySurface& body, std::size_t output, PageBlocks& blocks) {
-  Members members{{"time", json_number(body.times[output])}};
-  Members fields;
+Json output_of(const BodySurface& body, std::size_t output, PageBlocks& blocks) {
+  Json members{{"time", body.times[output]}}, fields = Json::object();
   for (const FieldRow* row : fields_for(FieldRow::fields)) {
     if (!body.group.has(row->name)) continue;
     if (std::string(row->name) == "displacement") {
-      const Members motion = displacement_at(body, output, blocks);
-      members.insert(members.end(), motion.begin(), motion.end());
+      add_displacement(body, output, blocks, members);
     } else {
-      fields.emplace_back(row->name, field_at(body, *row, output, blocks));
+      fields[row->name] = field_at(body, *row, output, blocks);
     }
   }
-  members.emplace_back("fields", json_object(fields));
-  return json_object(members);
+  members["fields"] = fields;
+  return members;
 }
 
-std::string body_json(const BodySurface& body, bool contained, const Limits& limits, PageBlocks& blocks) {
+Json body_json(const BodySurface& body, bool contained, const Limits& limits, PageBlocks& blocks) {
   std::vector<double> coordinates;
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const Eigen::Vector3d& node : body.nodes) coordinates.push_back(node[static_cast<Eigen::Index>(axis)]);
   std::vector<std::uint32_t> corners;
   for (std::size_t corner = 0; corner < 4; ++corner)
     for (const auto& face : body.faces) corners.push_back(face[corner]);
-  std::vector<std::string> outputs;
+  Json outputs = Json::array();
   for (const std::size_t output : evenly_chosen(body.times.size(), limits.instants))
     outputs.push_back(output_of(body, output, blocks));
-  return json_object({{"name", json_text(body.name)},
-                      {"contained", contained ? "true" : "false"},
-                      {"nodes", std::to_string(body.nodes.size())},
-                      {"faces", std::to_string(body.faces.size())},
-                      {"coordinates", blocks.add(coordinates)},
-                      {"corners", blocks.add(corners)},
-                      {"outputs", json_list(outputs)}});
+  return {{"name", body.name},
+          {"contained", contained},
+          {"nodes", body.nodes.size()},
+          {"faces", body.faces.size()},
+          {"coordinates", blocks.add(coordinates)},
+          {"corners", blocks.add(corners)},
+          {"outputs", outputs}};
 }
 
 /// Whether another set has all elements of this one, and more, or has the same and comes first.
@@ -103,10 +101,10 @@ bool is_contained(const std::vector<BodySurface>& bodies, std::size_t one) {
   return false;
 }
 
-std::string units() {
-  Members members;
-  for (const FieldRow* row : fields_for(FieldRow::fields)) members.emplace_back(row->name, json_text(row->unit));
-  return json_object(members);
+Json units() {
+  Json members = Json::object();
+  for (const FieldRow* row : fields_for(FieldRow::fields)) members[row->name] = row->unit;
+  return members;
 }
 
 Section read(const ResultsReader& results, const Limits& limits, PageBlocks& blocks) {
@@ -116,7 +114,7 @@ Section read(const ResultsReader& results, const Limits& limits, PageBlocks& blo
     for (const std::string& name : root.group("fields").names())
       bodies.push_back(read_surface(name, root.group("fields")));
   Section section;
-  std::vector<std::string> items;
+  Json items = Json::array();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const std::size_t outputs = bodies[i].times.size();
     section.there.instants = std::max(section.there.instants, outputs);
@@ -128,7 +126,7 @@ Section read(const ResultsReader& results, const Limits& limits, PageBlocks& blo
           fmt::format("fields of {}: the outer faces of its {} elements", bodies[i].name, bodies[i].set_cells));
     items.push_back(body_json(bodies[i], is_contained(bodies, i), limits, blocks));
   }
-  section.json = json_object({{"units", units()}, {"bodies", json_list(items)}});
+  section.json = {{"units", units()}, {"bodies", items}};
   return section;
 }
 

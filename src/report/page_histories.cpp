@@ -42,20 +42,18 @@ std::vector<double> stretch_times(const std::vector<double>& times, std::size_t 
 Section history_section(const HistoryTable& history, const Limits& limits, PageBlocks& blocks) {
   Section section;
   section.there.samples = history.times.size();
-  std::vector<std::string> channels;
+  Json channels = Json::array();
   for (const SampledChannel& one : history.channels)
-    channels.push_back(json_object({{"name", json_text(one.channel.name)},
-                                    {"unit", json_text(one.channel.unit)},
-                                    {"group", json_text(one.group)},
-                                    {"owner", json_text(one.owner)},
-                                    {"quantity", json_text(one.quantity)},
-                                    {"component", json_text(one.component)},
-                                    {"values", blocks.add(envelope(one.channel.values, limits.samples))}}));
+    channels.push_back(Json{{"name", one.channel.name},
+                            {"unit", one.channel.unit},
+                            {"group", one.group},
+                            {"owner", one.owner},
+                            {"quantity", one.quantity},
+                            {"component", one.component},
+                            {"values", blocks.add(envelope(one.channel.values, limits.samples))}});
   const std::vector<double> times = stretch_times(history.times, limits.samples);
-  section.json = json_object({{"time", blocks.add(times)},
-                              {"samples", std::to_string(history.times.size())},
-                              {"shown", std::to_string(times.size())},
-                              {"channels", json_list(channels)}});
+  section.json = {
+      {"time", blocks.add(times)}, {"samples", history.times.size()}, {"shown", times.size()}, {"channels", channels}};
   if (times.size() < history.times.size())
     section.notes.push_back(
         fmt::format("histories: {} samples are drawn as the smallest and the largest value of {} stretches of time",

@@ -57,10 +57,10 @@ std::string page_template() {
                   looked));
 }
 
-std::string filled(const std::string& page, const std::string& blocks, const std::string& json) {
+std::string filled(const std::string& page, const std::string& blocks, const Json& json) {
   const std::size_t at = page.find(place_of_data);
-  return page.substr(0, at) + blocks + "<script type=\"application/json\" id=\"railwave-data\">" + json + "</script>" +
-         page.substr(at + std::string(place_of_data).size());
+  return page.substr(0, at) + blocks + "<script type=\"application/json\" id=\"railwave-data\">" + text_for_html(json) +
+         "</script>" + page.substr(at + std::string(place_of_data).size());
 }
 
 FileKind report_kind() { return {FileKind::Form::text, "a report of 'railwave report'", "Railwave report", ""}; }

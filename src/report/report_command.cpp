@@ -15,9 +15,7 @@
 namespace railwave {
 namespace {
 
-using page::json_list;
-using page::json_object;
-using page::json_text;
+using page::Json;
 
 constexpr double bytes_in_megabyte = 1e6;
 constexpr page::Limits fewest{2, 100};
@@ -38,29 +36,27 @@ struct Page {
 };
 
 /// What the page shows of a results file.
-std::string result_json(const std::string& path, const std::string& name, const page::Limits& limits,
-                        page::PageBlocks& blocks, Page& whole) {
+Json result_json(const std::string& path, const std::string& name, const page::Limits& limits, page::PageBlocks& blocks,
+                 Page& whole) {
   const ResultsReader results(path);
   const HistoryTable history = read_history_table(results);
-  std::vector<std::string> notes;
+  Json notes = Json::array();
   const auto json_of = [&](const page::Section& section) {
     for (const std::string& note : section.notes) {
-      notes.push_back(json_text(note));
+      notes.push_back(note);
       whole.notes.push_back(name + ": " + note);
     }
     whole.there.instants = std::max(whole.there.instants, section.there.instants);
     whole.there.samples = std::max(whole.there.samples, section.there.samples);
     return section.json;
   };
-  std::vector<std::pair<std::string, std::string>> members{
-      {"name", json_text(name)},
-      {"file", json_text(path)},
-      {"summary", json_of(page::summary_section(results, history))},
-      {"history", json_of(page::history_section(history, limits, blocks))},
-      {"contacts", json_of(page::contact_section(results, limits, blocks))},
-      {"fields", json_of(page::field_section(results, limits, blocks))}};
-  members.emplace_back("notes", json_list(notes));
-  return json_object(members);
+  Json members{{"name", name}, {"file", path}};
+  members["summary"] = json_of(page::summary_section(results, history));
+  members["history"] = json_of(page::history_section(history, limits, blocks));
+  members["contacts"] = json_of(page::contact_section(results, limits, blocks));
+  members["fields"] = json_of(page::field_section(results, limits, blocks));
+  members["notes"] = notes;
+  return members;
 }
 
 Page page_within(const ReportRequest& request, const std::string& program, const page::Limits& limits) {
@@ -68,10 +64,10 @@ Page page_within(const ReportRequest& request, const std::string& program, const
   const std::vector<std::string> names = page::short_names(request.results);
   Page whole;
   page::PageBlocks blocks;
-  std::vector<std::string> results;
+  Json results = Json::array();
   for (std::size_t i = 0; i < request.results.size(); ++i)
     results.push_back(result_json(request.results[i], names[i], limits, blocks, whole));
-  const std::string json = json_object({{"program", json_text(program)}, {"results", json_list(results)}});
+  const Json json{{"program", program}, {"results", results}};
   whole.text = page::filled(empty, blocks.html(), json);
   whole.empty = empty.size();
   return whole;

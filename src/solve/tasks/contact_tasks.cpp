@@ -8,9 +8,8 @@ namespace railwave {
 namespace {
 
 Task search_task(const scene::Scene& scene, const NodalState& nodal, ContactPair& pair, StepKind kind) {
-  Task task{
-      "search of contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : ""), "d",
-      [&scene, &nodal, &pair, kind](const Instant& instant) { keep_window(scene, nodal, pair, instant, kind); }};
+  Task task{"search of contact " + describe_contact(*pair.contact) + (pair.reversed ? " reversed" : ""), "d",
+            [&scene, &nodal, &pair, kind](const Instant& instant) { keep_window(scene, nodal, pair, instant, kind); }};
   task.recordable = false;
   return task;
 }

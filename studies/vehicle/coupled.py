@@ -25,7 +25,9 @@ def run(steps, name, case, bogie, *words, threads=None):
         raise Failed(f"{program} is not there: scripts/setup --simbody installs Simbody, the next build makes it")
     table = steps.path(f"{name}.csv")
     environment = [] if threads is None else ["env", f"OMP_NUM_THREADS={threads}"]
-    words = [*environment, program, case, bogie, "--out", table, "--rewind", REWIND, *words]
+    # The settled state lies beside what would be the results.
+    words = [*environment, program, case, bogie, "--out", table, "--rewind", REWIND, "--set",
+             f"output.file={steps.path(name)}.h5", *words]
     inputs = [case, bogie, HERE / "dipped_weld.csv"]
     steps.once(name, inputs, words, lambda: steps.command(*words))
     return np.genfromtxt(table, delimiter=",", names=True, deletechars="")

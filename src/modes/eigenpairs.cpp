@@ -52,14 +52,31 @@ void append(Eigen::MatrixXd& vectors, const Eigen::VectorXd& column) {
   vectors.rightCols(1) = column;
 }
 
+/// Factorises at `wanted`, or some steps beside it where the factors would be of no use, as where a part of the matrix
+/// that is eliminated first has an eigenvalue there. @return where that is
+double shift_near(ShiftedMatrix& matrix, double wanted, double step) {
+  const Eigen::VectorXd tried = scattered(matrix.size(), 1);
+  for (const int steps : {0, 1, -2}) {
+    try {
+      matrix.shift_to(wanted + steps * step);
+      static_cast<void>(matrix.solve(tried));
+      return wanted + steps * step;
+    } catch (const InaccurateFactor&) {
+      // The next place is tried.
+    }
+  }
+  matrix.shift_to(wanted + 3 * step);
+  return wanted + 3 * step;
+}
+
 /// The `count` eigenvectors with eigenvalues from low to high.
 Eigen::MatrixXd vectors_between(ShiftedMatrix& matrix, double low, double high, int count) {
-  const double middle = 0.5 * (low + high);
-  matrix.shift_to(middle);
+  const double middle = shift_near(matrix, 0.5 * (low + high), 1e-5 * (high - low));
   Eigen::MatrixXd found(matrix.size(), 0);
   for (int attempt = 0; attempt < most_attempts && found.cols() < count; ++attempt) {
     InverseAcross inverse(matrix, found);
-    const int wanted = std::min<int>(count - static_cast<int>(found.cols()), matrix.size() / 3);
+    // The nearest that are left may lie outside, beyond the nearer end.
+    const int wanted = std::min<int>(count - static_cast<int>(found.cols()) + attempt, matrix.size() / 3);
     const int basis = std::min(matrix.size(), 2 * wanted + 30);
     Spectra::SymEigsShiftSolver<InverseAcross> solver(inverse, wanted, basis, middle);
     const Eigen::VectorXd start = inverse.across(scattered(matrix.size(), 1 + attempt));
@@ -94,8 +111,9 @@ class Intervals {
     if (count <= 0) return;
     if (count > most_ && high - low > least_) {
       // Frequencies, not their squares, are spread evenly.
-      const double root = 0.5 * (std::sqrt(std::max(low, 0.0)) + std::sqrt(high)), middle = root * root;
-      const int below_middle = below(middle);
+      const double root = 0.5 * (std::sqrt(std::max(low, 0.0)) + std::sqrt(high)),
+                   middle = shift_near(matrix_, root * root, 1e-3 * (high - low));
+      const int below_middle = matrix_.count_below();
       search(low, below_low, middle, below_middle);
       search(middle, below_middle, high, below_high);
       return;

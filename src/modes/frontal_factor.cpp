@@ -10,7 +10,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 constexpr int panel = 48;  ///< columns eliminated together
 
-[[noreturn]] void vanished() { throw std::runtime_error("a pivot vanished while the matrix of modes was factorised"); }
+[[noreturn]] void vanished() {
+  throw InaccurateFactor("a pivot vanished while the matrix of modes was factorised; another --up-to may help");
+}
 
 /// L D L^T of a small block's lower triangle, in place.
 void factorise_block(Eigen::Ref<Matrix> a, Eigen::Ref<Eigen::VectorXd> pivots) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCore>
 #include <array>
+#include <stdexcept>
 #include <vector>
 
 namespace railwave {
@@ -26,6 +27,11 @@ struct Dissection {
 /// @param place by unknown; unknowns behind the last place have none and are eliminated last
 Dissection nested_dissection(const Eigen::SparseMatrix<double>& lower, const std::vector<std::array<double, 3>>& place);
 
+/// The factors of a matrix are of no use: a pivot vanishes, or what they solve stays wrong.
+struct InaccurateFactor : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// A = L D L^T of a sparse symmetric matrix, indefinite or not, without pivoting: multifrontal (Duff and Reid 1983),
 /// dense blocks over the fronts of a nested dissection.
 class FrontalFactor {
@@ -33,7 +39,7 @@ class FrontalFactor {
   /// Orders the unknowns; `lower` gives the pattern.
   FrontalFactor(const Eigen::SparseMatrix<double>& lower, const std::vector<std::array<double, 3>>& place);
 
-  /// @param lower a matrix of that pattern; throws std::runtime_error where a pivot vanishes
+  /// @param lower a matrix of that pattern; throws InaccurateFactor where a pivot vanishes
   void factorise(const Eigen::SparseMatrix<double>& lower);
 
   int negative_pivots() const { return negative_; }

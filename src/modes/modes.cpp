@@ -49,6 +49,7 @@ ModeList modes_below(const Model& model, double up_to) {
   ModeList list;
   list.unknowns = unknowns.count();
   list.factor_entries = matrix.entries_of_factor();
+  list.solves = matrix.quality();
   const Eigen::VectorXd weight = unknowns.mass().cwiseSqrt().cwiseInverse();
   for (Eigen::Index k = 0; k < pairs.values.size(); ++k) {
     // Of unit modal mass.

@@ -6,6 +6,7 @@
 
 #include "model/model.hpp"
 #include "modes/round_body.hpp"
+#include "modes/shifted_matrix.hpp"
 
 namespace railwave {
 
@@ -27,6 +28,7 @@ struct ModeList {
   std::vector<Mode> modes;
   int unknowns = 0;
   long factor_entries = 0;
+  SolveQuality solves;
 };
 
 /// @param up_to Hz

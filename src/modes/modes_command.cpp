@@ -118,6 +118,11 @@ int modes_command(const scene::Scene& scene, const ModesRequest& request, std::o
 
   out << fmt::format("{} free directions; factor of {:.1f} million entries\n", list.unknowns,
                      1e-6 * static_cast<double>(list.factor_entries));
+  if (list.solves.before > 0)
+    out << fmt::format("solves: relative residual {:.1e} at most{}\n", list.solves.before,
+                       list.solves.refinements == 0 ? ""
+                                                    : fmt::format(", {:.1e} after {} refinements or fewer",
+                                                                  list.solves.after, list.solves.refinements));
   const bool round =
       std::any_of(list.modes.begin(), list.modes.end(), [](const Mode& mode) { return mode.round.has_value(); });
   if (round) out << "names: direction of most motion (nodal circles, nodal diameters)\n";

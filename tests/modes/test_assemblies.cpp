@@ -57,3 +57,40 @@ TEST_CASE("Two masses on springs", "[modes]") {
   CHECK_THAT(f[0], WithinRel(std::sqrt(trace / 2 - root) / (2 * M_PI), 1e-4));
   CHECK_THAT(f[1], WithinRel(std::sqrt(trace / 2 + root) / (2 * M_PI), 1e-4));
 }
+
+TEST_CASE("Small pivots and springs of 1 to 1e8: a chain of masses and a body that is nearly free", "[modes]") {
+  // The middle of the interval in which the chain's central modes are sought is all but twice k/m, the diagonal of
+  // every mass: without pivoting the factors are of no use there. See eigenpairs_below for the intervals.
+  constexpr int count = 244;
+  constexpr double k = 3e8, mass = 0.7, soft = 1e-8;
+  scene::Scene scene = mode_block({0.1, 0.1, 0.1}, {1, 1, 1}, 0.1);
+  hold(scene, "block", {true, true, true});
+  const auto add_mass = [&](const std::string& name, double x) {
+    add_point(scene, name, mass, {x, 0, 1});
+    hold(scene, name, {false, true, true});
+  };
+  for (int i = 0; i < count; ++i) {
+    add_mass("m" + std::to_string(i), 0.1 * i);
+    add_spring(scene, i == 0 ? "ground" : "m" + std::to_string(i - 1), "m" + std::to_string(i), {k, 0, 0});
+  }
+  add_spring(scene, "m" + std::to_string(count - 1), "ground", {k, 0, 0});
+  add_mass("nearly_free", 100);
+  add_spring(scene, "nearly_free", "ground", {soft * k, 0, 0});
+  Model model;
+  build_model(scene, model);
+
+  std::vector<double> exact{std::sqrt(soft * k / mass) / (2 * M_PI)};
+  for (int j = 1; j <= count; ++j) exact.push_back(std::sqrt(k / mass) / M_PI * std::sin(j * M_PI / (2 * (count + 1))));
+  for (const double share : {0.0, 1e-12, 1e-9, 1e-7, 1e-3}) {
+    const double limit = 2 * k / mass / 0.40625 * (1 - share);
+    const ModeList list = modes_below(model, std::sqrt(limit) / (2 * M_PI));
+    INFO("off by " << share << ": relative residual " << list.solves.before << ", " << list.solves.after << " after "
+                   << list.solves.refinements);
+    CHECK(list.solves.after < 1e-8);
+    REQUIRE(list.modes.size() == exact.size());
+    double worst = 0;
+    for (std::size_t j = 0; j < exact.size(); ++j)
+      worst = std::max(worst, std::fabs(list.modes[j].frequency / exact[j] - 1));
+    CHECK(worst < 1e-9);
+  }
+}

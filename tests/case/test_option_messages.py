@@ -60,9 +60,10 @@ WORDS = {
     "--job",
     "--units",
     "--drop",
+    "--show",
 }
 FLAGS = {"--restart", "--keep-state", "--overwrite", "--average", "--markdown", "--schema", "--help", "--version"}
-FLAGS |= {"--collect", "--dry-run", "--no-pictures", "--snakemake"}
+FLAGS |= {"--collect", "--dry-run", "--no-pictures", "--snakemake", "--vtkhdf"}
 
 
 def answer(*words, folder=None):

@@ -181,9 +181,10 @@ void refuse_on_ranks(const Model& model) {
         "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, "
         "then build it anew");
   if (model.relative.active())
-    throw InputError(fmt::format(
-        "{}: [solver] precision: nodes in single precision are for one rank only; \"mixed\" and \"double\" are not",
-        model.scene.path));
+    throw InputError(
+        fmt::format("{}: [solver] precision: nodes in single precision are for one rank only; take precision = "
+                    "\"mixed\" or \"double\", or run it as one process",
+                    model.scene.path));
 }
 
 BlockPartition partition_blocks(const Model& model, int ranks) {

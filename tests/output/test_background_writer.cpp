@@ -203,7 +203,7 @@ TEST_CASE("the writer's exception comes at the next output, and at the end") {
   };
   CHECK_THROWS_AS(long_run(), std::logic_error);
   CHECK_THROWS_AS(writer.fields(made_up::Source(0), 0, 0), std::logic_error);
-  CHECK_THROWS_WITH(writer.end(made_up::summary()), ContainsSubstring("other contacts, sets or beams"));
+  CHECK_THROWS_WITH(writer.end(made_up::summary()), ContainsSubstring("other contacts, sets, beams"));
 }
 
 TEST_CASE("an output is fetched before the call returns, each field once") {

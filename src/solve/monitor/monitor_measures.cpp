@@ -36,11 +36,6 @@ void join(MonitorMeasures& measures, const MonitorMeasures& of_others) {
 
 MonitorArrays::MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts, const OwnItems* own) {
   const int all = static_cast<int>(assembly.elements.size());
-  for (int e = 0; e < all; ++e) {
-    const double jacobian = shape_of(assembly, e).smallest_jacobian(),
-                 mean = hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])) / 8;
-    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
-  }
   if (own != nullptr) {
     elements_ = own->elements;
     own_nodes_ = true;
@@ -52,16 +47,19 @@ MonitorArrays::MonitorArrays(const Assembly& assembly, const std::vector<Contact
   shapes_.undeformed = unset_array<float * [ElementShapes::values]>("monitored shapes", shapes_.count);
   const auto corners = Kokkos::create_mirror_view(shapes_.corners);
   const auto undeformed = Kokkos::create_mirror_view(shapes_.undeformed);
-  for (int i = 0; i < shapes_.count; ++i) {
-    const int e = own != nullptr ? elements_[i] : i;
-    for (int N = 0; N < 8; ++N) corners(i, N) = assembly.elements[e][N];
+  for (int e = 0, i = 0; e < all; ++e) {
     const ElementShape shape = shape_of(assembly, e);
     const double volume = hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])), mean = volume / 8;
     const double jacobian = shape.smallest_jacobian();
+    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
+    // The own ones ascend.
+    if (i == shapes_.count || (own != nullptr && elements_[i] != e)) continue;
+    for (int N = 0; N < 8; ++N) corners(i, N) = assembly.elements[e][N];
     undeformed(i, ElementShapes::jacobian) = static_cast<float>(jacobian);
     undeformed(i, ElementShapes::scale) = static_cast<float>(std::fmax(jacobian, 0.1 * mean));
     for (int m = 0; m < 4; ++m) undeformed(i, ElementShapes::mode + m) = static_cast<float>(shape.hourglass_mode(m));
     undeformed(i, ElementShapes::size) = static_cast<float>(std::cbrt(volume));
+    ++i;
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);

@@ -17,14 +17,16 @@ struct RowLoads {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(i); }
 
-  /// @tparam batch one where a kernel does much else: batches take registers
+  /// @tparam batch few where a kernel does much else: batches take registers
+  /// @return the sum, N
   template <int batch>
-  KOKKOS_INLINE_FUNCTION void gather(const int i) const {
+  KOKKOS_INLINE_FUNCTION Vector3 gather(const int i) const {
     const LoadedRow loaded = external.loaded(i);
     Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last,
                                         [&](int k) { return without_torque(external.shares(k)); });
     if (torques.count > 0) sum = sum + torque_forces(loaded);
     for (int c = 0; c < 3; ++c) external.sum.load(loaded.row, c) = sum[c];
+    return sum;
   }
 
   /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
@@ -44,7 +46,7 @@ struct RowLoads {
       const Vector3 arm =
           row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
       const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
-      set_contribution(external, velocity, share.contribution, force, elapsed);
+      set_contribution(external, velocity, share.contribution, loaded.node, force, elapsed);
       sum = sum + force;
     }
     return sum;

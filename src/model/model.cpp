@@ -46,7 +46,7 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   const Activity estimating("estimating the stable step");
   build_stable_step(model);
   build_subcycling(model.elements, model.ends, model);
-  set_early_nodes_apart(model.contacts, model.prescribed, model);
+  order_shared_nodes(model.contacts, model.prescribed, model);
   plan_steps(model.scene, model.subcycling.cycle(), model);
 }
 

@@ -23,6 +23,8 @@ class DeviceMessages {
     std::size_t received_bytes;
   };
 
+  /// What is launched in `later` from now on comes after all that has been launched in `earlier`.
+  virtual void order(const ExecutionSpace& earlier, const ExecutionSpace& later) = 0;
   /// They leave when all is done that has been launched in a space, beside what is launched there next.
   virtual void start(const ExecutionSpace& space, const std::vector<Message>& messages) = 0;
   /// What is launched in the space from now on comes after them.

@@ -53,6 +53,8 @@ class NcclMessages : public DeviceMessages {
   NcclMessages(const ncclUniqueId& id, const Transport& transport) {
     // Rows go from one rank to one other. Multicast would be set up for nothing.
     setenv("NCCL_NVLS_ENABLE", "0", 0);
+    // A message takes a tenth of a step, and what waits for one takes room from elements: few of its blocks are enough.
+    setenv("NCCL_MAX_P2P_NCHANNELS", "2", 0);
     // Before blocks that wait for a place on the device: few of them leave none for a message.
     int least = 0, greatest = 0;
     check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
@@ -70,6 +72,10 @@ class NcclMessages : public DeviceMessages {
   NcclMessages(const NcclMessages&) = delete;
   NcclMessages& operator=(const NcclMessages&) = delete;
 
+  void order(const ExecutionSpace& earlier, const ExecutionSpace& later) override {
+    done_.pass(earlier.cuda_stream(), later.cuda_stream());
+  }
+
   void start(const ExecutionSpace& space, const std::vector<Message>& messages) override {
     packed_.pass(space.cuda_stream(), stream_);
     check(ncclGroupStart(), "begin");
@@ -86,7 +92,7 @@ class NcclMessages : public DeviceMessages {
  private:
   cudaStream_t stream_ = nullptr;
   ncclComm_t ranks_ = nullptr;
-  Mark packed_, arrived_;
+  Mark done_, packed_, arrived_;
 };
 
 /// Whether users leave the way of rows to the program.

@@ -38,7 +38,7 @@ struct RowExchange::Buffers {
   PrecisionBuffers<double> in_double;
   PrecisionBuffers<float> in_single;
   Milestone packed, unpacked;
-  ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
+  ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks, as outer ones are
   std::unique_ptr<DeviceMessages> on_devices;          ///< null: rows go through the host
 
   Buffers(const RankShare& share, bool single) : in_double(share, !single), in_single(share, single) {}
@@ -47,10 +47,11 @@ struct RowExchange::Buffers {
 namespace {
 
 template <class S>
-void pack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
+void pack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
+          const RankShare& share) {
   const int count = static_cast<int>(share.sent.extent(0));
   if (count > 0)
-    Kokkos::parallel_for("pack_rows", Range(0, count),
+    Kokkos::parallel_for("pack_rows", Range(space, 0, count),
                          PackedValues<PartialForce<S>, true>{rows, share.sent, 1, buffers.sent.device});
 }
 
@@ -123,12 +124,23 @@ void RowExchange::with_rows(const Do& act) const {
     act(nodal_.partial.in_double, buffers_->in_double);
 }
 
-Task RowExchange::send_task() {
-  Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
-              with_rows([this](const auto& rows, const auto& buffers) {
-                pack(rows, buffers, share_);
+std::vector<Task> RowExchange::begin_tasks() {
+  if (!buffers_->on_devices) return {};
+  Task task{"beginning of outer blocks", "b, c",
+            [this](const Instant&) { buffers_->on_devices->order(ExecutionSpace(), buffers_->copies); }};
+  task.recordable = false;
+  return {task};
+}
+
+const ExecutionSpace* RowExchange::outer_space() const { return buffers_->on_devices ? &buffers_->copies : nullptr; }
+
+Task RowExchange::send_task(bool beside) {
+  Task task{"forces on nodes of other ranks, sent", "b, c", [this, beside](const Instant&) {
+              with_rows([this, beside](const auto& rows, const auto& buffers) {
+                const ExecutionSpace space = beside ? buffers_->copies : ExecutionSpace();
+                pack(space, rows, buffers, share_);
                 if (buffers_->on_devices)
-                  return buffers_->on_devices->start(ExecutionSpace(), device_messages_of(buffers, share_));
+                  return buffers_->on_devices->start(space, device_messages_of(buffers, share_));
                 // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
                 if constexpr (on_device)
                   buffers_->packed.put(ExecutionSpace());

@@ -23,8 +23,14 @@ class RowExchange {
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
   void wait_for_rows(long steps_ahead = 0) const;
 
+  /// In whose order outer blocks may launch their forces, beside all others; null: the default one, and rows go through
+  /// the host.
+  const ExecutionSpace* outer_space() const;
+  /// The first of a step: what is launched there comes after the step before.
+  std::vector<Task> begin_tasks();
   /// To come after the outer blocks' forces: the rows are on their way from then on.
-  Task send_task();
+  /// @param beside these are in outer_space()
+  Task send_task(bool beside);
   /// Before anything that needs all forces.
   Task receive_task();
 

@@ -15,13 +15,12 @@ struct RowLoads {
   Array<const double*[3]> position, velocity;
   double elapsed;  ///< s since the last step
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(i); }
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(external.loaded(i)); }
 
   /// @tparam batch few where a kernel does much else: batches take registers
   /// @return the sum, N
   template <int batch>
-  KOKKOS_INLINE_FUNCTION Vector3 gather(const int i) const {
-    const LoadedRow loaded = external.loaded(i);
+  KOKKOS_INLINE_FUNCTION Vector3 gather(const LoadedRow& loaded) const {
     Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last,
                                         [&](int k) { return without_torque(external.shares(k)); });
     if (torques.count > 0) sum = sum + torque_forces(loaded);
@@ -71,7 +70,7 @@ struct SetLoads {
     team.team_barrier();
     for (int k = rank; k < law_count(); k += size) law(k);
     team.team_barrier();
-    for (int k = rank; k < row_count; k += size) rows.template gather<1>(k);
+    for (int k = rank; k < row_count; k += size) rows.template gather<1>(rows.external.loaded(k));
   }
 
   KOKKOS_INLINE_FUNCTION int chunk_count() const { return static_cast<int>(sets.sets.chunks.extent(0)); }

@@ -44,10 +44,9 @@ struct alignas(16) MorePlaces {
 
 /// What external forces and constraints ask of a shared node.
 struct alignas(16) SpecialNode {
-  int row = -1;         ///< in ExternalForces, -1: none
-  int loaded = -1;      ///< among its loaded rows, -1: none
-  int constraint = -1;  ///< row in the constraint table, -1: free
-  int unused = 0;
+  int row = -1;                     ///< in ExternalForces, -1: none
+  int first_share = 0, shares = 0;  ///< its contributions there
+  int constraint = -1;              ///< row in the constraint table, -1: free
 };
 
 /// What the blocks' elements do to their nodes, N: one row for each node of each block, in the precision of the

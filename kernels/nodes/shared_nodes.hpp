@@ -30,8 +30,10 @@ struct SharedForces {
     Vector3 external{{0, 0, 0}};
     if (special.row >= 0) {
       const Vector3 contact = force.external.contact_force(special.row);
-      if (rows_here && special.loaded >= 0)
-        external = rows.gather<2>(special.loaded) + contact;
+      if (rows_here && special.shares > 0)
+        external = rows.gather<2>({special.row, node.node & ~special_bit, special.first_share,
+                                   special.first_share + special.shares}) +
+                   contact;
       else
         external = row(force.external.load, special.row) + contact;
     }

@@ -88,11 +88,16 @@ void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal)
 /// What special nodes are asked for, of the shared ones from nodal.shared.first_special on.
 Array<SpecialNode*> special_nodes(const std::vector<SharedNode>& shared, const NodalState& nodal) {
   const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
-  const auto loaded = to_host(nodal.external.loaded_of_row);
+  const auto loaded_of_row = to_host(nodal.external.loaded_of_row);
+  const auto loaded = to_host(nodal.external.loaded);
   std::vector<SpecialNode> special;
   for (std::size_t i = nodal.shared.first_special; i < shared.size(); ++i) {
     const int n = shared[i].node & ~special_bit, r = external(n);
-    special.push_back({r, r >= 0 ? loaded(r) : -1, constraint(n), 0});
+    SpecialNode& one = special.emplace_back(SpecialNode{r, 0, 0, constraint(n)});
+    if (r < 0 || loaded_of_row(r) < 0) continue;
+    const LoadedRow& of_row = loaded(loaded_of_row(r));
+    one.first_share = of_row.first;
+    one.shares = of_row.last - of_row.first;
   }
   return to_device("special nodes", special);
 }

@@ -38,7 +38,7 @@ struct RowExchange::Buffers {
   PrecisionBuffers<double> in_double;
   PrecisionBuffers<float> in_single;
   Milestone packed, unpacked;
-  ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks, as outer ones are
+  ExecutionSpace copies = separate_spaces(1).front();  ///< beside the inner blocks
   std::unique_ptr<DeviceMessages> on_devices;          ///< null: rows go through the host
 
   Buffers(const RankShare& share, bool single) : in_double(share, !single), in_single(share, single) {}
@@ -56,10 +56,11 @@ void pack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, cons
 }
 
 template <class S>
-void unpack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
+void unpack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
+            const RankShare& share) {
   const int count = static_cast<int>(share.received.extent(0));
   if (count > 0)
-    Kokkos::parallel_for("unpack_rows", Range(0, count),
+    Kokkos::parallel_for("unpack_rows", Range(space, 0, count),
                          PackedValues<PartialForce<S>, false>{rows, share.received, 1, buffers.received.device});
 }
 
@@ -126,21 +127,30 @@ void RowExchange::with_rows(const Do& act) const {
 
 std::vector<Task> RowExchange::begin_tasks() {
   if (!buffers_->on_devices) return {};
-  Task task{"beginning of outer blocks", "b, c",
-            [this](const Instant&) { buffers_->on_devices->order(ExecutionSpace(), buffers_->copies); }};
+  Task task{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }};
   task.recordable = false;
   return {task};
 }
 
-const ExecutionSpace* RowExchange::outer_space() const { return buffers_->on_devices ? &buffers_->copies : nullptr; }
+const ExecutionSpace* RowExchange::outer_space() const {
+  return buffers_->on_devices ? &buffers_->on_devices->space() : nullptr;
+}
+
+template <class S>
+void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const {
+  const ExecutionSpace& space = *outer_space();
+  pack(space, rows, buffers, share_);
+  buffers_->on_devices->exchange(device_messages_of(buffers, share_));
+  unpack(space, rows, buffers, share_);
+  buffers_->unpacked.put(space);
+}
 
 Task RowExchange::send_task(bool beside) {
   Task task{"forces on nodes of other ranks, sent", "b, c", [this, beside](const Instant&) {
-              with_rows([this, beside](const auto& rows, const auto& buffers) {
-                const ExecutionSpace space = beside ? buffers_->copies : ExecutionSpace();
-                pack(space, rows, buffers, share_);
-                if (buffers_->on_devices)
-                  return buffers_->on_devices->start(space, device_messages_of(buffers, share_));
+              if (buffers_->on_devices && !beside) buffers_->on_devices->begin();
+              with_rows([this](const auto& rows, const auto& buffers) {
+                if (buffers_->on_devices) return exchange_on_devices(rows, buffers);
+                pack(ExecutionSpace(), rows, buffers, share_);
                 // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
                 if constexpr (on_device)
                   buffers_->packed.put(ExecutionSpace());
@@ -155,20 +165,17 @@ Task RowExchange::send_task(bool beside) {
 
 Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
+              if (buffers_->on_devices) {
+                buffers_->on_devices->finish();
+                return wait_for_rows(most_steps_ahead);
+              }
               with_rows([this](const auto& rows, const auto& buffers) {
-                if (buffers_->on_devices) {
-                  buffers_->on_devices->finish(ExecutionSpace());
-                  unpack(rows, buffers, share_);
-                  buffers_->unpacked.put(ExecutionSpace());
-                  wait_for_rows(most_steps_ahead);
-                  return;
-                }
                 if constexpr (on_device) {
                   buffers_->packed.wait();
                   start_messages(buffers, share_, buffers_->copies, transport_);
                 }
                 finish_messages(buffers, buffers_->copies, transport_);
-                unpack(rows, buffers, share_);
+                unpack(ExecutionSpace(), rows, buffers, share_);
               });
             }};
   task.stage = Stage::own_forces;

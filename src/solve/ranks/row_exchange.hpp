@@ -6,6 +6,9 @@
 
 namespace railwave {
 
+template <class S>
+struct PrecisionBuffers;
+
 /// Brings to each rank the rows of partial forces that others' blocks leave for its nodes. All ranks that have a node
 /// add its rows in the same order, so that it goes the same way on each.
 class RowExchange {
@@ -36,6 +39,10 @@ class RowExchange {
 
  private:
   struct Buffers;
+
+  /// In outer_space(), all of it.
+  template <class S>
+  void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
 
   /// Calls act(rows of partial forces, their buffers).
   template <class Do>

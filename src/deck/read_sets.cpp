@@ -97,10 +97,10 @@ void read_general_nodes(Call& call) {
     const std::string option = lower_case(card.text(0));
     if (option == "all")
       set.all = true;
-    else if (option != "node" && option != "part")
+    else if (option != "node" && option != "part" && option != "box")
       call.reader.report.refuse(
           call.cards.source(card), "SET_NODE_GENERAL",
-          fmt::format("option {} isn't read, only ALL, NODE and PART", for_message(card.text(0))));
+          fmt::format("option {} isn't read, only ALL, NODE, PART and BOX", for_message(card.text(0))));
     for (int i = 1; i < numbers_of_card; ++i) {
       if (option == "node") {
         const Number node = call.number(card, i, "node", Kind::node);
@@ -108,6 +108,9 @@ void read_general_nodes(Call& call) {
       } else if (option == "part") {
         const Number part = call.number(card, i, "part", Kind::part);
         if (part > 0) set.parts.push_back(part);
+      } else if (option == "box") {
+        const Number box = call.number(card, i, "box", Kind::define);
+        if (box > 0) set.boxes.push_back(box);
       }
     }
   }

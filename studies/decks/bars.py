@@ -102,6 +102,42 @@ class PlasticBar:
         ]
 
 
+class TaylorBar:
+    """Taylor's bar [Kamoulakos 1990]: a copper cylinder of 32.4 by 3.2 mm at 227 m/s on a rigid wall without friction,
+    80 us. In g, mm, ms, and so MPa, N and mJ. docs/materials.md has the same as a case, and where the published figures
+    are from."""
+
+    name, units = "taylor_bar", "mm,g,ms"
+    source = "Taylor's bar on a rigid wall, beside published figures [Kamoulakos 1990]"
+
+    def deck(self, coarse):
+        deck = Deck("Taylor's bar")
+        core, ring, layers = (4, 2, 27) if coarse else (6, 4, 54)
+        deck.cylinder(1, 3.2, (0.0001, 32.4001), core, ring, layers)
+        deck.part(1, "bar", 1)
+        # H = 100 MPa: E_t = E H / (E + H)
+        deck.add("*MAT_PLASTIC_KINEMATIC", card(1, 8.93e-3, 117e3, 0.35, 400.0, 99.9146, 1.0), card(0.0))
+        deck.add("*RIGIDWALL_PLANAR", card(0, 0, 0), card(0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0))
+        deck.add("*INITIAL_VELOCITY", "", card(0.0, 0.0, -227.0))
+        deck.add("*CONTROL_TERMINATION", card(0.08), "*DATABASE_RCFORC", card(1e-3))
+        return deck
+
+    def figures(self, results):
+        bar = results["fields/bar"]
+        before = 1e3 * bar["coordinates"][:]
+        after = before + 1e3 * bar["displacement"][-1]
+        foot = before[:, 2] < 0.001
+        length = after[:, 2].max() - after[foot, 2].min()
+        radius = np.hypot(after[foot, 0], after[foot, 1]).max()
+        energy = {name: results[f"history/energy/{name}"][:] for name in ("kinetic", "plastic")}
+        given = 0.5 * 8930 * np.pi * 0.0032**2 * 0.0324 * 227**2
+        return [
+            Figure("kinetic energy at the begin", energy["kinetic"][0], given, "J", "m v^2 / 2"),
+            Figure("final length", length, 21.445, "mm", "published: 21.42 to 21.47 mm"),
+            Figure("radius of the foot", radius, 7.115, "mm", "published: 7.02 to 7.21 mm"),
+        ]
+
+
 class TwoBars:
     """Two equal elastic bars; one strikes the other at 10 m/s."""
 

@@ -15,6 +15,13 @@ if(NOT Kokkos_ENABLE_OPENMP)
   message(FATAL_ERROR "The Kokkos in ${Kokkos_DIR} was built without OpenMP (Kokkos_ENABLE_OPENMP).")
 endif()
 
+# Whether kernels run on a GPU: its compilers want the memory for one source each, and device code is linked program by
+# program.
+set(RAILWAVE_DEVICE OFF)
+if(Kokkos_ENABLE_CUDA OR Kokkos_ENABLE_HIP)
+  set(RAILWAVE_DEVICE ON)
+endif()
+
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 
 find_package(Threads REQUIRED)

@@ -44,9 +44,11 @@ endif()
 # Kokkos with our options. Up to 4.7.0 it does not know two calls of CUDA 13, which a header then supplies.
 add_library(railwave_kokkos INTERFACE)
 target_link_libraries(railwave_kokkos INTERFACE Kokkos::kokkos)
+# Eigen works on the host only; without its device side nvcc has much less to warn of.
 if(Kokkos_ENABLE_CUDA)
-  # Eigen works on the host only; without its device side nvcc has much less to warn of.
   target_compile_definitions(railwave_kokkos INTERFACE EIGEN_NO_CUDA)
+elseif(Kokkos_ENABLE_HIP)
+  target_compile_definitions(railwave_kokkos INTERFACE EIGEN_NO_HIP)
 endif()
 if(Kokkos_ENABLE_CUDA AND Kokkos_VERSION VERSION_LESS_EQUAL 4.7.0)
   target_compile_options(railwave_kokkos INTERFACE
@@ -57,7 +59,7 @@ endif()
 # Compilers of GPUs want the memory for themselves, and keep one source each.
 option(RAILWAVE_UNITY "Compile several sources of a folder together" ON)
 function(railwave_unity target)
-  if(RAILWAVE_UNITY AND NOT Kokkos_ENABLE_CUDA)
+  if(RAILWAVE_UNITY AND NOT RAILWAVE_DEVICE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
   endif()
 endfunction()

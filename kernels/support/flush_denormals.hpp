@@ -10,7 +10,7 @@ namespace railwave {
 /// Has this thread take numbers below 1e-38 (single) or 1e-308 (double precision) for zero.
 struct FlushDenormals {
   KOKKOS_INLINE_FUNCTION void operator()(const int) const {
-#if defined(__SSE2__) && !defined(__CUDA_ARCH__)
+#if defined(__SSE2__) && !defined(RAILWAVE_DEVICE_CODE)
     constexpr unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x0040;
     _mm_setcsr(_mm_getcsr() | flush_to_zero | denormals_are_zero);
 #endif

@@ -4,7 +4,7 @@
 
 #include "kernels/support/spaces.hpp"
 
-#if !defined(KOKKOS_ENABLE_CUDA) && !defined(KOKKOS_ENABLE_HIP) && !defined(KOKKOS_ENABLE_SYCL)
+#ifndef RAILWAVE_DEVICE
 #define RAILWAVE_SIMD_LANES
 #include <experimental/simd>
 #if defined(__AVX512F__) || defined(__AVX2__)
@@ -149,14 +149,14 @@ struct BatchCorners {
 
 /// a b + c, fused where the machine can: written out so that it is rounded the same way wherever it is inlined.
 KOKKOS_INLINE_FUNCTION double multiply_add(double a, double b, double c) {
-#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMA) || defined(__FMA__)
+#if defined(RAILWAVE_DEVICE_CODE) || defined(FP_FAST_FMA) || defined(__FMA__)
   return fma(a, b, c);
 #else
   return a * b + c;
 #endif
 }
 KOKKOS_INLINE_FUNCTION float multiply_add(float a, float b, float c) {
-#if defined(__CUDA_ARCH__) || defined(FP_FAST_FMAF) || defined(__FMA__)
+#if defined(RAILWAVE_DEVICE_CODE) || defined(FP_FAST_FMAF) || defined(__FMA__)
   return fmaf(a, b, c);
 #else
   return a * b + c;

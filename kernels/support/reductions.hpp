@@ -22,15 +22,13 @@ class Reductions {
   /// @param use use(const double* sum) gets Term::values numbers at the next fetch()
   template <class Term, class Use>
   void sum(const Term& term, int count, Use use) {
-    constexpr int values = Term::values;
-    reduce<BlockSum<Term>, BlockSum<LeftSum<values>>, double>(term, count, values,
-                                                              [use](const double* left, int parts) {
-                                                                double sum[values] = {};
-                                                                for (int p = 0; p < parts; ++p)
-                                                                  for (int k = 0; k < values; ++k)
-                                                                    sum[k] += left[p * values + k];
-                                                                use(static_cast<const double*>(sum));
-                                                              });
+    const auto add_left = [use](const double* left, int parts) {
+      double sum[Term::values] = {};
+      for (int p = 0; p < parts; ++p)
+        for (int k = 0; k < Term::values; ++k) sum[k] += left[p * Term::values + k];
+      use(static_cast<const double*>(sum));
+    };
+    reduce<BlockSum<Term>, BlockSum<LeftSum<Term::values>>, double>(term, count, Term::values, add_left);
   }
 
   /// Queues the largest of each of the quantities of `term` over `count` items, with the items that have them.

@@ -3,7 +3,21 @@
 #include <Kokkos_Core.hpp>
 #include <string>
 
+/// RAILWAVE_DEVICE: kernels run on a GPU. RAILWAVE_DEVICE_CODE: the compiler is at the GPU's own code, not the host's.
+#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
+#define RAILWAVE_DEVICE
+#endif
+#if defined(__CUDA_ARCH__) || defined(__HIP_DEVICE_COMPILE__) || defined(__SYCL_DEVICE_ONLY__)
+#define RAILWAVE_DEVICE_CODE
+#endif
+
 namespace railwave {
+
+#ifdef RAILWAVE_DEVICE
+inline constexpr bool on_device = true;
+#else
+inline constexpr bool on_device = false;
+#endif
 
 /// Where everything runs: on the GPU where there is one, else on all processors. RAILWAVE_SERIAL, for comparison, is
 /// one processor without any threading library.
@@ -20,8 +34,10 @@ template <class T>
 using Array = Kokkos::View<T, MemorySpace>;
 
 /// Host memory that a GPU copies to by itself, without a detour.
-#ifdef KOKKOS_ENABLE_CUDA
+#if defined(RAILWAVE_DEVICE) && KOKKOS_VERSION >= 40000
 using PinnedSpace = Kokkos::SharedHostPinnedSpace;
+#elif defined(KOKKOS_ENABLE_HIP)
+using PinnedSpace = Kokkos::Experimental::HIPHostPinnedSpace;
 #else
 using PinnedSpace = Kokkos::HostSpace;
 #endif

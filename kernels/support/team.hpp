@@ -10,12 +10,6 @@ namespace railwave {
 using Team = Kokkos::TeamPolicy<ExecutionSpace>;
 using Scratch = ExecutionSpace::scratch_memory_space;
 
-#if defined(KOKKOS_ENABLE_CUDA) || defined(KOKKOS_ENABLE_HIP) || defined(KOKKOS_ENABLE_SYCL)
-inline constexpr bool on_device = true;
-#else
-inline constexpr bool on_device = false;
-#endif
-
 /// For long sums, each by a team: SumTeams(sums, threads_of_sum).
 using SumTeams = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<32>, AsArgument>;
 inline constexpr int threads_of_sum = on_device ? 32 : 1;

@@ -93,22 +93,49 @@ build_kokkos() {
     fi
 }
 
+# Sets kokkos_source to the tree that the user names, or to Debian's, which is fetched once; and kokkos_version.
+find_kokkos_source() {
+    kokkos_source="$deps_dir/kokkos-source"
+    if [ -n "${RAILWAVE_KOKKOS_SOURCE:-}" ]; then
+        kokkos_source=$RAILWAVE_KOKKOS_SOURCE
+        [ -f "$kokkos_source/CMakeLists.txt" ] || fail "RAILWAVE_KOKKOS_SOURCE=$kokkos_source is no Kokkos source tree"
+    elif [ ! -f "$kokkos_source/CMakeLists.txt" ]; then
+        fetch_kokkos_source "$kokkos_source"
+    fi
+    kokkos_version=$(kokkos_source_version "$kokkos_source")
+    version_at_least "$kokkos_version" "$kokkos_minimum" ||
+        fail "Kokkos $kokkos_version in $kokkos_source is too old, $kokkos_minimum is needed"
+}
+
+# With HIP, in .deps/kokkos-hip; its file built-from has source tree and architecture.
+kokkos_hip_link="$deps_dir/kokkos-hip"
+kokkos_hip_architecture=${RAILWAVE_HIP_ARCH:-VEGA908} # as Kokkos names it
+
+kokkos_hip_ready() {
+    [ "$(cat "$kokkos_hip_link/built-from" 2>/dev/null)" = \
+        "${RAILWAVE_KOKKOS_SOURCE:-Debian trilinos} $kokkos_hip_architecture" ]
+}
+
+setup_kokkos_hip() {
+    local build="$deps_dir/kokkos-hip-build" options=()
+    find_kokkos_source
+    mapfile -t options < <(kokkos_version_options "$kokkos_version")
+    say "building Kokkos $kokkos_version with HIP ($kokkos_hip_architecture) and OpenMP into .deps/kokkos-hip"
+    rm -rf "$kokkos_hip_link" "$build"
+    build_kokkos "$kokkos_source" "$build" "$kokkos_hip_link" -DCMAKE_CXX_COMPILER=hipcc -DKokkos_ENABLE_HIP=ON \
+        "-DKokkos_ARCH_$kokkos_hip_architecture=ON" "${options[@]}"
+    echo "${RAILWAVE_KOKKOS_SOURCE:-Debian trilinos} $kokkos_hip_architecture" >"$kokkos_hip_link/built-from"
+    rm -rf "$build" "$build.log"
+}
+
 setup_kokkos() {
     local source version prefix options=()
-    if [ -n "${RAILWAVE_KOKKOS_SOURCE:-}" ]; then
-        source=$RAILWAVE_KOKKOS_SOURCE
-        [ -f "$source/CMakeLists.txt" ] || fail "RAILWAVE_KOKKOS_SOURCE=$source is no Kokkos source tree"
-    else
-        if find_installed_kokkos; then
-            say "using the Kokkos in $(cat "$kokkos_system_mark")"
-            return 0
-        fi
-        source="$deps_dir/kokkos-source"
-        [ -f "$source/CMakeLists.txt" ] || fetch_kokkos_source "$source"
+    if [ -z "${RAILWAVE_KOKKOS_SOURCE:-}" ] && find_installed_kokkos; then
+        say "using the Kokkos in $(cat "$kokkos_system_mark")"
+        return 0
     fi
-    version=$(kokkos_source_version "$source")
-    version_at_least "$version" "$kokkos_minimum" ||
-        fail "Kokkos $version in $source is too old, $kokkos_minimum is needed"
+    find_kokkos_source
+    source=$kokkos_source version=$kokkos_version
     mapfile -t options < <(kokkos_version_options "$version")
 
     prefix="$deps_dir/kokkos-$version"

@@ -15,6 +15,8 @@ packages_to_test=(chromium chromium-driver clang-format python3-paraview python3
 packages_for_ranks=(libmetis-dev libopenmpi-dev openmpi-bin openssh-client)
 # The Python module.
 packages_for_python=(pybind11-dev python3-dev python3-numpy)
+# scripts/hip: AMD's compiler with its runtime's headers, and clang's OpenMP of the same version.
+packages_for_hip=(hipcc libomp-15-dev)
 # studies/vehicle: multibody dynamics (6 MB to fetch).
 packages_for_simbody=(libsimbody-dev)
 # The site of docs/: mkdocs, its theme, formulas, and the drawing of libraries.

@@ -94,8 +94,26 @@ std::vector<int> Conversion::members(const Nodes& nodes, const Source& source) {
   if (!set.parts.empty())
     for (const int e : elements_of({set.parts.begin(), set.parts.end()}))
       for (const int n : bodies.mesh().elements[e]) result.push_back(n);
+  for (const Number number : set.boxes) {
+    const auto box = deck.boxes.find(number);
+    if (box == deck.boxes.end())
+      fail(set.source, fmt::format("there is no box {} (of *DEFINE_BOX); define it, or mend the number", number));
+    report.use(box->second.source, "nodes within it, where something names them");
+    add_nodes_within(box->second, result);
+  }
   sort_unique(result);
   return result;
+}
+
+void Conversion::add_nodes_within(const Box& box, std::vector<int>& nodes) const {
+  for (std::size_t n = 0; n < deck.own_nodes; ++n) {
+    bool within = true;
+    for (int i = 0; i < 3; ++i) {
+      const double x = bodies.mesh().nodes[n][i];
+      within = within && x >= box.low[i] && x <= box.high[i];
+    }
+    if (within) nodes.push_back(static_cast<int>(n));
+  }
 }
 
 Target Conversion::target(const std::vector<int>& nodes) const {

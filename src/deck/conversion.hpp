@@ -71,6 +71,7 @@ struct Conversion {
 
   int node(Number number, const Source& source) const;  ///< position
   const NumberSet& part_set(Number number, const Source& source) const;
+  void add_nodes_within(const Box& box, std::vector<int>& nodes) const;
   std::vector<int> members(const Nodes& nodes, const Source& source);
   Target target(const std::vector<int>& nodes) const;
   std::string name_of(const Nodes& nodes) const;      ///< for a set of the mesh: the title, or the number

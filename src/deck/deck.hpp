@@ -90,6 +90,13 @@ struct NumberSet {
   std::vector<Range> ranges;
   std::vector<Number> parts;  ///< of a node set: all nodes of these
   bool all = false;
+  std::vector<Number> boxes;  ///< of a node set: all nodes within one of these
+};
+
+/// Along the axes, from its lowest to its highest corner.
+struct Box {
+  Source source;
+  Vec3 low{0, 0, 0}, high{0, 0, 0};
 };
 
 using Segment = std::array<Number, 4>;
@@ -172,6 +179,7 @@ struct InitialVelocity {
   enum class Of { all, node, node_set, part, part_set } of = Of::all;
   Number number = 0;
   Vec3 velocity{0, 0, 0};
+  Number axes = 0;     ///< along which the velocity is given, 0: x, y, z
   double turning = 0;  ///< rad per time, about axis through centre
   Vec3 centre{0, 0, 0}, axis{0, 0, 1};
 };
@@ -247,6 +255,7 @@ struct Deck {
   std::map<Number, SegmentSet> segment_sets;
   std::map<Number, Curve> curves;
   std::map<Number, Axes> axes;
+  std::map<Number, Box> boxes;
   std::map<Number, Direction> vectors, orientations;
   std::map<Number, Transformation> transformations;
   std::vector<Constraint> constraints;

@@ -39,7 +39,7 @@ Handler handler_of(const std::string& name) {
 bool has_directions(const std::string& name) {
   for (const char* beginning :
        {"INITIAL_", "LOAD_", "BOUNDARY_SPC", "BOUNDARY_PRESCRIBED", "RIGIDWALL", "DEFINE_COORDINATE_SYSTEM",
-        "DEFINE_COORDINATE_VECTOR", "DEFINE_VECTOR", "DEFINE_SD_ORIENTATION"})
+        "DEFINE_COORDINATE_VECTOR", "DEFINE_VECTOR", "DEFINE_SD_ORIENTATION", "DEFINE_BOX"})
     if (begins_with(name, beginning)) return true;
   return false;
 }

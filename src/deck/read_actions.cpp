@@ -110,8 +110,7 @@ void read_initial_velocity(Call& call) {
     call.reader.report.refuse(initial.source, "INITIAL_VELOCITY.NSIDEX", "exempted nodes (NSIDEX) aren't read");
   if (card.whole(2, "BOXID") != 0)
     call.reader.report.refuse(initial.source, "INITIAL_VELOCITY.BOXID", "velocities of a box aren't read; name nodes");
-  if (card.whole(4, "ICID") != 0)
-    call.reader.report.refuse(initial.source, "INITIAL_VELOCITY.ICID", "velocities in other axes (ICID) aren't read");
+  initial.axes = call.number(card, 4, "ICID", Kind::define);
   call.reader.deck.velocities.push_back(initial);
 }
 
@@ -151,8 +150,9 @@ void read_generated_velocity(Call& call) {
     if (second.whole(6, "PHASE") != 0)
       call.reader.report.refuse(initial.source, call.name + ".PHASE",
                                 "velocities after dynamic relaxation aren't read");
-    if (card.whole(7, "ICID") != 0)
-      call.reader.report.refuse(initial.source, call.name + ".ICID", "velocities in other axes (ICID) aren't read");
+    initial.axes = call.number(card, 7, "ICID", Kind::define);
+    if (initial.axes != 0 && initial.turning != 0)
+      call.reader.report.refuse(initial.source, call.name + ".ICID", "a rotation in other axes (ICID) isn't read");
     call.reader.deck.velocities.push_back(initial);
   }
 }

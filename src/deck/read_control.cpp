@@ -173,7 +173,7 @@ bool is_harmless(const std::string& name, std::string& why) {
       {"DEFINE_CURVE_", "used by nothing that is taken"},
       {"DEFINE_FUNCTION", "used by nothing that is taken"},
       {"DEFINE_TABLE", "used by nothing that is taken"},
-      {"DEFINE_BOX", "used by nothing that is taken"},
+      {"DEFINE_BOX_", "used by nothing that is taken"},
       {"DEFINE_COORDINATE", "used by nothing that is taken"},
       {"DEFINE_FRICTION", "used by nothing that is taken"},
       {"SET_", "used by nothing that is taken"},

@@ -187,6 +187,22 @@ void read_transformation(Call& call) {
   call.reader.deck.transformations[call.number(first, 0, "TRANID", Kind::define)] = all;
 }
 
+/// Boxes along the axes: number, then lowest and highest x, y, z in turn.
+void read_box(Call& call) {
+  while (call.cards.more()) {
+    const std::string title = call.titled ? call.cards.title() : "";
+    const DynaCard card = call.cards.take();
+    Box box;
+    box.source = call.cards.source(card);
+    const Number number = call.number(card, 0, "BOXID", Kind::define);
+    for (int i = 0; i < 3; ++i) {
+      box.low[i] = card.real(1 + 2 * i, "XMN");
+      box.high[i] = card.real(2 + 2 * i, "XMX");
+    }
+    call.reader.deck.boxes[number] = box;
+  }
+}
+
 }  // namespace
 
 const std::vector<HandlerEntry>& definition_handlers() {
@@ -194,6 +210,7 @@ const std::vector<HandlerEntry>& definition_handlers() {
                                                 {"DEFINE_COORDINATE_SYSTEM", read_coordinate_system},
                                                 {"DEFINE_COORDINATE_VECTOR", read_coordinate_vector},
                                                 {"DEFINE_COORDINATE_NODES", read_coordinate_nodes},
+                                                {"DEFINE_BOX", read_box},
                                                 {"DEFINE_VECTOR", read_vector},
                                                 {"DEFINE_SD_ORIENTATION", read_orientation},
                                                 {"DEFINE_TRANSFORMATION", read_transformation}};

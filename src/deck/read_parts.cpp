@@ -38,20 +38,28 @@ void read_part(Call& call) {
   }
 }
 
-void read_solid_section(Call& call) {
+/// Each section with source, number and kind; fill(section, card) does the rest.
+template <class Fill>
+void read_sections(Call& call, Section::Kind kind, const Fill& fill) {
   while (call.cards.more()) {
     if (call.titled) call.cards.title();
     const DynaCard card = call.cards.take();
     Section section;
     section.source = call.cards.source(card);
-    section.kind = Section::Kind::solid;
+    section.kind = kind;
+    fill(section, card);
+    define(call, call.reader.deck.sections, call.number(card, 0, "SECID", Kind::other), "section", section);
+  }
+}
+
+void read_solid_section(Call& call) {
+  read_sections(call, Section::Kind::solid, [&](Section& section, const DynaCard& card) {
     section.formulation = card.whole(1, "ELFORM");
     const Number form = section.formulation;
     const Number known[] = {-18, -2, -1, 0, 1, 2, 3, 9, 18};
     if (std::find(std::begin(known), std::end(known), form) == std::end(known))
       section.refusal = fmt::format("ELFORM {} is no hexahedron of a Lagrangian solid; take ELFORM 1", form);
-    define(call, call.reader.deck.sections, call.number(card, 0, "SECID", Kind::other), "section", section);
-  }
+  });
 }
 
 /// A circle of that area and moments, if it is one.
@@ -63,12 +71,7 @@ bool is_circle(double area, double moment, double other_moment, double polar) {
 }
 
 void read_beam_section(Call& call) {
-  while (call.cards.more()) {
-    if (call.titled) call.cards.title();
-    const DynaCard card = call.cards.take();
-    Section section;
-    section.source = call.cards.source(card);
-    section.kind = Section::Kind::beam;
+  read_sections(call, Section::Kind::beam, [&](Section& section, const DynaCard& card) {
     section.formulation = card.whole(1, "ELFORM");
     const Number shape = card.whole(4, "CST");
     const DynaCard second = call.cards.take();
@@ -93,17 +96,11 @@ void read_beam_section(Call& call) {
     } else {
       section.refusal = fmt::format("ELFORM {} is no Hughes-Liu (1) or resultant (2) beam", section.formulation);
     }
-    define(call, call.reader.deck.sections, call.number(card, 0, "SECID", Kind::other), "section", section);
-  }
+  });
 }
 
 void read_discrete_section(Call& call) {
-  while (call.cards.more()) {
-    if (call.titled) call.cards.title();
-    const DynaCard card = call.cards.take();
-    Section section;
-    section.source = call.cards.source(card);
-    section.kind = Section::Kind::discrete;
+  read_sections(call, Section::Kind::discrete, [&](Section& section, const DynaCard& card) {
     if (card.whole(1, "DRO") != 0) section.refusal = "torsional springs (DRO 1) aren't read";
     for (int i = 2; i < 6; ++i)
       if (card.real(i, "KD, V0, CL or FD") != 0)
@@ -112,8 +109,7 @@ void read_discrete_section(Call& call) {
       const DynaCard second = call.cards.take();
       if (second.real(0, "CDL") != 0 || second.real(1, "TDL") != 0) section.refusal = "deflection limits aren't read";
     }
-    define(call, call.reader.deck.sections, call.number(card, 0, "SECID", Kind::other), "section", section);
-  }
+  });
 }
 
 /// Sections of other elements only count where a part of hexahedra has them.
@@ -138,32 +134,31 @@ void add_refusal(Material& material, const std::string& key, const std::string& 
   material.more.push_back({text, key});
 }
 
-/// The same with what all materials of solids have on their first card.
-Material begin_solid_material(Call& call, const std::string& title, const DynaCard& card, Material::Kind kind) {
-  Material material = begin_material(call, title, card);
-  material.kind = kind;
-  material.density = card.real(1, "RO");
-  material.youngs_modulus = card.real(2, "E");
-  material.poissons_ratio = card.real(3, "PR");
-  return material;
-}
-
-void read_elastic(Call& call) {
+/// Each material with density and elasticity; fill(material, card) does the rest.
+template <class Fill>
+void read_solid_materials(Call& call, Material::Kind kind, const Fill& fill) {
   while (call.cards.more()) {
     const std::string title = call.titled ? call.cards.title() : "";
     const DynaCard card = call.cards.take();
-    Material material = begin_solid_material(call, title, card, Material::Kind::elastic);
-    if (card.real(4, "DA") != 0 || card.real(5, "DB") != 0)
-      add_refusal(material, "MAT_ELASTIC.DA", "DA and DB, the damping of beams, aren't read");
+    Material material = begin_material(call, title, card);
+    material.kind = kind;
+    material.density = card.real(1, "RO");
+    material.youngs_modulus = card.real(2, "E");
+    material.poissons_ratio = card.real(3, "PR");
+    fill(material, card);
     define(call, call.reader.deck.materials, call.number(card, 0, "MID", Kind::material), "material", material);
   }
 }
 
+void read_elastic(Call& call) {
+  read_solid_materials(call, Material::Kind::elastic, [&](Material& material, const DynaCard& card) {
+    if (card.real(4, "DA") != 0 || card.real(5, "DB") != 0)
+      add_refusal(material, "MAT_ELASTIC.DA", "DA and DB, the damping of beams, aren't read");
+  });
+}
+
 void read_kinematic(Call& call) {
-  while (call.cards.more()) {
-    const std::string title = call.titled ? call.cards.title() : "";
-    const DynaCard card = call.cards.take();
-    Material material = begin_solid_material(call, title, card, Material::Kind::plastic);
+  read_solid_materials(call, Material::Kind::plastic, [&](Material& material, const DynaCard& card) {
     material.yield_stress = card.real(4, "SIGY");
     material.tangent_modulus = card.real(5, "ETAN");
     material.hardening_beta = card.real(6, "BETA");
@@ -177,15 +172,11 @@ void read_kinematic(Call& call) {
       if (failure > 0 && failure < 1e10)
         add_refusal(material, "MAT_PLASTIC_KINEMATIC.FS", "FS makes elements fail, which they don't here");
     }
-    define(call, call.reader.deck.materials, call.number(card, 0, "MID", Kind::material), "material", material);
-  }
+  });
 }
 
 void read_piecewise(Call& call) {
-  while (call.cards.more()) {
-    const std::string title = call.titled ? call.cards.title() : "";
-    const DynaCard card = call.cards.take();
-    Material material = begin_solid_material(call, title, card, Material::Kind::plastic);
+  read_solid_materials(call, Material::Kind::plastic, [&](Material& material, const DynaCard& card) {
     material.yield_stress = card.real(4, "SIGY");
     material.tangent_modulus = card.real(5, "ETAN");
     const std::string name = "MAT_PIECEWISE_LINEAR_PLASTICITY";
@@ -210,8 +201,7 @@ void read_piecewise(Call& call) {
       material.refusal =
           "its hardening is a curve; give SIGY and ETAN (and no curve), or *MAT_PLASTIC_KINEMATIC, which is taken";
     }
-    define(call, call.reader.deck.materials, call.number(card, 0, "MID", Kind::material), "material", material);
-  }
+  });
 }
 
 template <Material::Kind kind>

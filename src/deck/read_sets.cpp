@@ -41,27 +41,17 @@ void keep_set(Call& call, std::map<Number, Set>& sets, Number number, const Set&
                                                    what, number, call.reader.lines.where(entry->second.source.place)));
 }
 
+/// Members, eight a line, or one where the set is a column.
 void read_list(Call& call) {
   const SetKind kind = kind_of(call.name);
+  const int each = call.name.find("_COLUMN") != std::string::npos ? 1 : numbers_of_card;
   Number number = 0;
   auto set = begin_set<NumberSet>(call, number, kind.called);
   while (call.cards.more()) {
     const DynaCard card = call.cards.take();
-    for (int i = 0; i < numbers_of_card && i < card.count(); ++i)
+    for (int i = 0; i < each && i < card.count(); ++i)
       if (const Number member = call.number(card, i, "member", kind.members); member > 0)
         set.ranges.push_back({member, member, 1});
-  }
-  keep_set(call, call.reader.deck.*kind.sets, number, set, kind.called);
-}
-
-void read_column(Call& call) {
-  const SetKind kind = kind_of(call.name);
-  Number number = 0;
-  auto set = begin_set<NumberSet>(call, number, kind.called);
-  while (call.cards.more()) {
-    const DynaCard card = call.cards.take();
-    const Number member = call.number(card, 0, "member", kind.members);
-    if (member > 0) set.ranges.push_back({member, member, 1});
   }
   keep_set(call, call.reader.deck.*kind.sets, number, set, kind.called);
 }
@@ -97,10 +87,10 @@ void read_general_nodes(Call& call) {
     const std::string option = lower_case(card.text(0));
     if (option == "all")
       set.all = true;
-    else if (option != "node" && option != "part")
+    else if (option != "node" && option != "part" && option != "box")
       call.reader.report.refuse(
           call.cards.source(card), "SET_NODE_GENERAL",
-          fmt::format("option {} isn't read, only ALL, NODE and PART", for_message(card.text(0))));
+          fmt::format("option {} isn't read, only ALL, NODE, PART and BOX", for_message(card.text(0))));
     for (int i = 1; i < numbers_of_card; ++i) {
       if (option == "node") {
         const Number node = call.number(card, i, "node", Kind::node);
@@ -108,6 +98,9 @@ void read_general_nodes(Call& call) {
       } else if (option == "part") {
         const Number part = call.number(card, i, "part", Kind::part);
         if (part > 0) set.parts.push_back(part);
+      } else if (option == "box") {
+        const Number box = call.number(card, i, "box", Kind::define);
+        if (box > 0) set.boxes.push_back(box);
       }
     }
   }
@@ -151,13 +144,13 @@ void read_general_segments(Call& call) {
 const std::vector<HandlerEntry>& set_handlers() {
   static const std::vector<HandlerEntry> all = {{"SET_NODE", read_list},
                                                 {"SET_NODE_LIST", read_list},
-                                                {"SET_NODE_COLUMN", read_column},
+                                                {"SET_NODE_COLUMN", read_list},
                                                 {"SET_NODE_LIST_GENERATE", read_generated},
                                                 {"SET_NODE_LIST_GENERATE_INCREMENT", read_generated},
                                                 {"SET_NODE_GENERAL", read_general_nodes},
                                                 {"SET_PART", read_list},
                                                 {"SET_PART_LIST", read_list},
-                                                {"SET_PART_COLUMN", read_column},
+                                                {"SET_PART_COLUMN", read_list},
                                                 {"SET_PART_LIST_GENERATE", read_generated},
                                                 {"SET_SOLID", read_list},
                                                 {"SET_SOLID_GENERATE", read_generated},

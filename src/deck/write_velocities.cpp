@@ -30,7 +30,17 @@ bool same_motion(const InitialVelocity* a, const InitialVelocity* b) {
   if (a == b) return true;
   const InitialVelocity none;
   const InitialVelocity &one = a ? *a : none, &other = b ? *b : none;
-  return one.velocity == other.velocity && one.turning == 0 && other.turning == 0;
+  return one.velocity == other.velocity && one.axes == other.axes && one.turning == 0 && other.turning == 0;
+}
+
+/// Along x, y, z.
+Vec3 velocity_of(const Conversion& conversion, const InitialVelocity& initial) {
+  if (initial.axes == 0) return initial.velocity;
+  const auto axes = conversion.axes(initial.axes, initial.source);
+  Vec3 velocity{0, 0, 0};
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) velocity[i] += initial.velocity[k] * axes[k][i];
+  return velocity;
 }
 
 void write_velocity(Conversion& conversion, const std::string& mover, const InitialVelocity& initial) {
@@ -40,7 +50,7 @@ void write_velocity(Conversion& conversion, const std::string& mover, const Init
   CaseText& text = conversion.text;
   text.section("initial_motion." + mover);
   text.key("parts", toml(std::vector<std::string>{mover}));
-  text.key("velocity", scaled(units.velocity(), initial.velocity));
+  text.key("velocity", scaled(units.velocity(), velocity_of(conversion, initial)));
   if (initial.turning != 0) {
     if (!(length(initial.axis) > 0)) conversion.fail(initial.source, "OMEGA turns about no axis; give NX, NY, NZ");
     text.key("angular_velocity", scaled(initial.turning / units.time / length(initial.axis), initial.axis));

@@ -11,7 +11,7 @@ import unittest
 import h5py
 import numpy as np
 
-sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+sys.path.insert(0, os.path.join(os.environ["RAILWAVE_SOURCE_DIR"], "studies", "decks"))
 from deck_writer import Deck, card  # noqa: E402
 
 PROGRAM = os.path.join(os.environ["RAILWAVE_BIN_DIR"], "railwave")

@@ -192,6 +192,38 @@ TEST_CASE("a pressure on segments that look inwards pulls") {
   CHECK(in.loads[0].pressure == -2);
 }
 
+TEST_CASE("an initial velocity along axes of its own is turned") {
+  Decks decks;
+  const std::string axes = "*DEFINE_COORDINATE_SYSTEM\n4,0,0,0,0,1,0\n-1,0,0\n";  // x' along y, y' along -x
+  const auto generated = decks.scene_of(decks.take(cube + axes + "*INITIAL_VELOCITY_GENERATION\n1,2,0,3,5,7,0,4\n\n"));
+  CHECK(generated.initial_motions[0].velocity == std::array<double, 3>{-5, 3, 7});
+  const auto all = decks.scene_of(decks.take(cube + axes + "*INITIAL_VELOCITY\n0,0,0,0,4\n3,5,7\n"));
+  CHECK(all.initial_motions[0].velocity == std::array<double, 3>{-5, 3, 7});
+  CHECK_THAT(decks.refusal(cube + axes + "*INITIAL_VELOCITY_GENERATION\n1,2,9,3,5,7,0,4\n\n"),
+             ContainsSubstring("a rotation in other axes"));
+}
+
+TEST_CASE("the step follows elements that are squeezed where bodies are fast for their yield stress") {
+  Decks decks;
+  std::string text = cube;
+  text.replace(text.find(steel), steel.size(), "*MAT_PLASTIC_KINEMATIC\n1,7800,2.1e11,.3,4e8,1e9,1\n0\n");
+  const auto renewed = [&](const char* speed) {
+    const auto scene = decks.scene_of(decks.take(text + "*INITIAL_VELOCITY\n\n0,0," + speed + "\n"));
+    return scene.solver.step_estimate == scene::StepEstimate::global && scene.solver.renew_steps == 40;
+  };
+  CHECK(renewed("-72"));  // 7800 kg/m3 72^2 m2/s2 = 0.101 400 MPa
+  CHECK_FALSE(renewed("-71"));
+}
+
+TEST_CASE("a set has the nodes within boxes, their faces included") {
+  Decks decks;
+  const std::string set = "*SET_NODE_GENERAL\n6\nBOX,2\n*BOUNDARY_SPC_SET\n6,0,1,1,1\n";
+  const auto import = decks.take(cube + set + "*DEFINE_BOX\n2,-1,1,-1,0.5,0,0.5\n");
+  const Mesh mesh = decks.mesh_of(import);
+  CHECK(mesh.node_sets.at("nodes_6") == std::vector<int>{0, 1});  // of the lower face, those at y = 0
+  CHECK_THAT(decks.refusal(cube + set), ContainsSubstring("there is no box 2"));
+}
+
 TEST_CASE("units are asked for where SI cannot be meant") {
   Decks decks;
   std::string text = cube;

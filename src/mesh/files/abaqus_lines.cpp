@@ -11,9 +11,6 @@
 namespace railwave {
 namespace {
 
-constexpr int deepest_include = 16;
-constexpr int most_includes = 10000;
-
 std::string upper_case_without_blanks(std::string_view text) {
   std::string result;
   for (char c : text) {
@@ -56,48 +53,11 @@ AbaqusLines::AbaqusLines(const std::string& path, std::vector<std::string>& file
   open(path, nullptr);
 }
 
-std::string AbaqusLines::where(const FilePlace& place) const {
-  return fmt::format("{}:{}:", files_[place.file], place.position);
-}
-
 void AbaqusLines::open(const std::string& path, const FilePlace* from) {
-  const auto here = from ? where(*from) + " " : std::string();
-  std::error_code error;
-  const auto real_path = std::filesystem::weakly_canonical(path, error).string();
-  int depth = 0;
-  // By who named whom: a file that includes another in its last line has been read to its end by now.
-  for (int file = from ? from->file : -1; file >= 0; file = opened_[file].from, ++depth)
-    if (opened_[file].real_path == real_path)
-      throw InputError(
-          fmt::format("{}includes {}, which is being read already; a file can't include itself", here, path));
-  if (depth > deepest_include)
-    throw InputError(fmt::format("{}includes {}: more than {} files inside one another; put them into fewer", here,
-                                 path, deepest_include));
-  if (++includes_ > most_includes)
-    throw InputError(
-        fmt::format("{}includes {}: more than {} inclusions; put them into fewer files", here, path, most_includes));
   auto source = std::make_unique<Source>();
-  try {
-    source->text = read_whole_file(path);
-  } catch (const InputError& problem) {
-    throw InputError(here + (from ? "includes " : "") + problem.what());
-  }
-  opened_.push_back({real_path, from ? from->file : -1});
-  source->file = static_cast<int>(files_.size());
-  if (source->text.compare(0, 3, "\xef\xbb\xbf") == 0) source->offset = 3;  // byte order mark of UTF-8
-  files_.push_back(path);
+  source->text = files_.open(path, from);
+  source->file = files_.last();
   sources_.push_back(std::move(source));
-}
-
-void AbaqusLines::check_text(std::string_view line) const {
-  for (char c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 && c != '\t' && c != '\r' && c != '\f')
-      throw InputError(
-          fmt::format("{} there is a byte 0x{:02x}, so this isn't a text file; give an Abaqus or CalculiX "
-                      "input file saved as plain text",
-                      where(current_place_), byte));
-  }
 }
 
 bool AbaqusLines::fill() {
@@ -121,7 +81,7 @@ bool AbaqusLines::fill_plain() {
     const auto length = std::min(rest.find('\n'), rest.size());
     source.offset += length + 1;
     current_place_ = {source.file, ++source.line};
-    check_text(rest.substr(0, length));
+    files_.check_text(rest.substr(0, length), current_place_, "an Abaqus or CalculiX input file");
     current_ = trim(rest.substr(0, length));
     filled_ = !current_.empty() && current_.substr(0, 2) != "**";
   }
@@ -171,7 +131,7 @@ void AbaqusLines::include(const AbaqusKeyword& keyword) {
   if (input == keyword.parameters.end() || input->second.empty())
     throw InputError(
         fmt::format("{} *{} names no file; write *{}, INPUT=file", where(keyword.place), keyword.name, keyword.name));
-  const std::filesystem::path folder = std::filesystem::path(files_[keyword.place.file]).parent_path();
+  const std::filesystem::path folder = std::filesystem::path(files_.path(keyword.place.file)).parent_path();
   open((folder / input->second).string(), &keyword.place);
 }
 

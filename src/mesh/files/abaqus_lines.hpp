@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/files/included_files.hpp"
 #include "mesh/files/numbered_mesh.hpp"
 
 namespace railwave {
@@ -46,7 +47,7 @@ class AbaqusLines {
   /// Goes on with another file's lines, then returns to this one (*INCLUDE, and INPUT= of *NODE and *ELEMENT).
   void include(const AbaqusKeyword& keyword);
 
-  std::string where(const FilePlace& place) const;
+  std::string where(const FilePlace& place) const { return files_.where(place); }
 
  private:
   struct Source {
@@ -61,21 +62,13 @@ class AbaqusLines {
   void open(const std::string& path, const FilePlace* from);
   void drop_line() { filled_ = false; }
   AbaqusKeyword read_keyword();
-  void check_text(std::string_view line) const;
 
-  struct Opened {
-    std::string real_path;  // to notice a file that includes itself
-    int from;               // the file that named it; -1: none
-  };
-
-  std::vector<std::string>& files_;
-  std::vector<Opened> opened_;                    // by number, as files_
+  IncludedFiles files_;
   std::vector<std::unique_ptr<Source>> sources_;  // the innermost last
   std::string_view current_;
   FilePlace current_place_;
   FilePlace place_;
   bool filled_ = false;
-  int includes_ = 0;
 };
 
 }  // namespace railwave

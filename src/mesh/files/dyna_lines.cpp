@@ -13,9 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int deepest_include = 16;
-constexpr int most_includes = 10000;
-
 std::string upper_case(std::string_view text) {
   std::string result(text);
   for (char& c : result)
@@ -54,52 +51,19 @@ DynaLines::DynaLines(const std::string& path, std::vector<std::string>& files) :
   open(path, nullptr, 0);
 }
 
-std::string DynaLines::where(const FilePlace& place) const {
-  return fmt::format("{}:{}:", files_[place.file], place.position);
-}
-
 int DynaLines::add_scope(const DynaScope& scope) {
   scopes_.push_back(scope);
   return static_cast<int>(scopes_.size()) - 1;
 }
 
 void DynaLines::open(const std::string& path, const FilePlace* from, int scope) {
-  const auto here = from ? where(*from) + " " : std::string();
-  std::error_code error;
-  const auto real_path = fs::weakly_canonical(path, error).string();
-  int depth = 0;
-  for (int file = from ? from->file : -1; file >= 0; file = opened_[file].from, ++depth)
-    if (opened_[file].real_path == real_path)
-      throw InputError(
-          fmt::format("{}includes {}, which is being read already; a file can't include itself", here, path));
-  if (depth > deepest_include)
-    throw InputError(fmt::format("{}includes {}: more than {} files inside one another; put them into fewer", here,
-                                 path, deepest_include));
-  if (++includes_ > most_includes)
-    throw InputError(
-        fmt::format("{}includes {}: more than {} inclusions; put them into fewer files", here, path, most_includes));
-  try {
-    texts_.push_back(std::make_unique<std::string>(read_whole_file(path)));
-  } catch (const InputError& problem) {
-    throw InputError(here + (from ? "includes " : "") + problem.what());
-  }
-  opened_.push_back({real_path, from ? from->file : -1});
-  Source source{*texts_.back(), static_cast<int>(files_.size()), scope,
-                sources_.empty() ? DynaFormat::standard : sources_.back().format};
-  if (source.text.substr(0, 3) == "\xef\xbb\xbf") source.offset = 3;  // byte order mark of UTF-8
-  files_.push_back(path);
-  sources_.push_back(source);
+  texts_.push_back(std::make_unique<std::string>(files_.open(path, from)));
+  sources_.push_back(
+      {*texts_.back(), files_.last(), scope, sources_.empty() ? DynaFormat::standard : sources_.back().format});
 }
 
 void DynaLines::check_text(std::string_view line) const {
-  for (char c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 && c != '\t' && c != '\r' && c != '\f' && byte != 0x1a)
-      throw InputError(
-          fmt::format("{} there is a byte 0x{:02x}, so this isn't a text file; give an LS-DYNA keyword deck saved as "
-                      "plain text",
-                      where(current_place_), byte));
-  }
+  files_.check_text(line, current_place_, "an LS-DYNA keyword deck", "\x1a");
   if (line.substr(0, 14) == "-----BEGIN PGP")
     throw InputError(
         fmt::format("{} the deck is encrypted from here on, which only LS-DYNA can read; ask whoever "
@@ -193,7 +157,7 @@ void DynaLines::set_format(DynaKeyword& keyword, std::string_view rest) {
 
 std::string DynaLines::find(const std::string& name, const FilePlace& from) const {
   if (fs::path(name).is_absolute()) return name;
-  const fs::path beside = fs::path(files_[from.file]).parent_path(), main = fs::path(files_.front()).parent_path();
+  const fs::path beside = fs::path(files_.path(from.file)).parent_path(), main = fs::path(files_.path(0)).parent_path();
   std::vector<fs::path> places{main / name, beside / name};
   for (const std::string& folder : folders_) {
     places.push_back(fs::path(folder) / name);

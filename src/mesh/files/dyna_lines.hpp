@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "mesh/files/included_files.hpp"
 #include "mesh/files/numbered_mesh.hpp"
 
 /// The lines of an LS-DYNA keyword deck. Format: LS-DYNA Keyword User's Manual, volume I, "Getting started" and
@@ -56,10 +57,10 @@ class DynaLines {
   const std::vector<DynaScope>& scopes() const { return scopes_; }
 
   /// The file that included a file; -1: none.
-  int includer(int file) const { return opened_[file].from; }
+  int includer(int file) const { return files_.includer(file); }
 
   /// "path:line:".
-  std::string where(const FilePlace& place) const;
+  std::string where(const FilePlace& place) const { return files_.where(place); }
 
   /// Goes on with the files of an *INCLUDE or *INCLUDE_TRANSFORM, then returns to this one.
   /// @param scope of what they hold
@@ -76,10 +77,6 @@ class DynaLines {
     std::size_t offset = 0;
     std::int64_t line = 0;
   };
-  struct Opened {
-    std::string real_path;  // to notice a file that includes itself
-    int from;               // the file that named it; -1: none
-  };
 
   void open(const std::string& path, const FilePlace* from, int scope);
   std::string find(const std::string& name, const FilePlace& from) const;
@@ -89,16 +86,14 @@ class DynaLines {
   void set_format(DynaKeyword& keyword, std::string_view rest);
   void obey_include(const DynaKeyword& keyword);
 
-  std::vector<std::string>& files_;
+  IncludedFiles files_;
   std::vector<std::unique_ptr<std::string>> texts_;
-  std::vector<Opened> opened_;   // by number, as files_
   std::vector<Source> sources_;  // the innermost last
   std::vector<DynaScope> scopes_{1};
   std::vector<std::string> folders_;
   std::string_view current_;
   FilePlace current_place_;
   bool filled_ = false;
-  int includes_ = 0;
 };
 
 /// File names of an *INCLUDE's lines: one each, continued where a line ends in " +".

@@ -32,9 +32,11 @@ std::pair<int, int> friction_values(const scene::Contact& contact, const Contact
   int value = -1, slaves = 0;
   with_type(ContactLaws{}, law.number, [&](auto type) {
     using Law = typename decltype(type)::type;
-    if (!contact.falling_friction() || ContactLawTrait<Law>::friction_now < 0) return;
-    value = ContactLawTrait<Law>::friction_now;
-    slaves = static_cast<int>(law.state.extent(0)) / Law::state_values;
+    if constexpr (ContactLawTrait<Law>::friction_now >= 0) {
+      if (!contact.falling_friction()) return;
+      value = ContactLawTrait<Law>::friction_now;
+      slaves = static_cast<int>(law.state.extent(0)) / Law::state_values;
+    }
   });
   return {value * slaves, (value + 1) * slaves};
 }

@@ -13,20 +13,51 @@ class Deck:
     def add(self, *lines):
         self.cards += lines
 
-    def grid(self, part, places, held=None):
-        """Hexahedra between places of shape (nx, ny, nz, 3); held: TC codes of the nodes by (i, j, k), or None.
+    def grid(self, part, places, held=None, shared=None):
+        """Hexahedra between places of shape (nx, ny, nz, 3); held: TC codes of the nodes by (i, j, k), or None; shared:
+        nodes by place, of grids that meet at common nodes.
 
         Returns the node numbers, an array of shape (nx, ny, nz)."""
         shape = places.shape[:3]
-        first = len(self.nodes) + 1
-        numbers = first + np.arange(np.prod(shape)).reshape(shape)
+        numbers = np.zeros(shape, dtype=int)
         for index in np.ndindex(shape):
-            code = held(*index) if held else 0
-            self.nodes.append((numbers[index], *places[index], code))
+            place = tuple(np.round(places[index], 9) + 0.0)
+            if shared is not None and place in shared:
+                numbers[index] = shared[place]
+                continue
+            numbers[index] = len(self.nodes) + 1
+            self.nodes.append((numbers[index], *places[index], held(*index) if held else 0))
+            if shared is not None:
+                shared[place] = numbers[index]
         for i, j, k in np.ndindex(*(n - 1 for n in shape)):
             corners = [numbers[i + a, j + b, k + c] for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
             self.solids.append((len(self.solids) + 1, part, *corners))
         return numbers
+
+    def cylinder(self, part, radius, ends, core, ring, layers):
+        """A cylinder along z from ends[0] to ends[1]: a square core of core x core elements across, four sectors of
+        ring elements around it."""
+        heights = np.linspace(*ends, layers + 1)
+        half = 0.5 * radius  # of the core's side
+        edge = np.linspace(-1, 1, core + 1)
+
+        def stand(flat):
+            """Places of shape (nx, ny, 2) at all heights."""
+            flat = np.repeat(flat[:, :, None], len(heights), axis=2)
+            return np.concatenate([flat, np.broadcast_to(heights[:, None], (*flat.shape[:3], 1))], axis=3)
+
+        square = half * np.stack(np.meshgrid(edge, edge, indexing="ij"), axis=-1)
+        square *= 1 - 0.15 * (np.hypot(*np.moveaxis(square, -1, 0)) / (half * np.sqrt(2)))[..., None] ** 2
+        shared = {}
+        self.grid(part, stand(square), shared=shared)
+        angle = np.pi / 4 * edge
+        outer = radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        share = np.linspace(0, 1, ring + 1)[:, None, None]
+        sector = (1 - share) * square[-1] + share * outer
+        for quarter in range(4):
+            c, s = ((1, 0), (0, 1), (-1, 0), (0, -1))[quarter]
+            turned = np.stack([c * sector[..., 0] - s * sector[..., 1], s * sector[..., 0] + c * sector[..., 1]], -1)
+            self.grid(part, stand(turned), shared=shared)
 
     def block(self, part, low, high, divisions, held=None):
         """A block of equal hexahedra from one corner to the other."""

@@ -356,6 +356,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   const Named<Visitor> own = of("model_");
   own(ArrayUse::constant, "constraints", model.constraints);
   own(ArrayUse::constant, "shared_nodes", model.shared_nodes);
+  own(ArrayUse::constant, "own_nodes", model.own_nodes);
   own(ArrayUse::constant, "node_levels", model.subcycling.node_levels.level);
   // The account of damping takes the rows of the step before.
   bool damped = false;

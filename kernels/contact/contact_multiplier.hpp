@@ -24,9 +24,13 @@ struct FreeMotion {
   }
 
   /// m, movement in the step.
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
-    const NodeArrays& nodes = acceleration.force.nodes;
-    Vector3 force = acceleration.force(n) + nodes.mass(n) * acceleration.gravity;
+  /// @param at its row of external forces
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(const SharedNode& shared, int at) const {
+    const NodalForce& forces = acceleration.force;
+    const NodeArrays& nodes = forces.nodes;
+    const int n = shared.node & ~special_bit;
+    const auto first = forces.first_rows(shared);
+    Vector3 force = forces.with_rows(forces.external.force(at), shared, first) + nodes.mass(n) * acceleration.gravity;
     if (body_acceleration.extent(0) != 0) force = force + nodes.mass(n) * row(body_acceleration, n);
     return step * row(nodes.velocity, n) + acceleration.constrain(n, compliance(n) * force);
   }
@@ -83,7 +87,7 @@ struct ContactMultiplier {
   /// @param i of the window's nodes: how many of them are near is known on the device only
   template <class Phase>
   KOKKOS_INLINE_FUNCTION void item(const Phase& phase, const int i) const {
-    if (i < window.near_count(0)) run(phase, window.entries(window.near(i)));
+    if (i < window.near_count(0)) run(phase, i);
   }
 
   /// What every multiplier has of its row's nodes, in registers: memory is asked for all at once, and not for one after
@@ -104,7 +108,8 @@ struct ContactMultiplier {
   }
 
   /// Locate, project; the last step's force is where the iteration starts.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Begin& /*phase*/, const int i) const {
+    const WindowEntry near = window.entries(window.near(i));
     const ContactArrays& contact = search.contact;
     const int s = near.slave;
     const Vector3 slave = row(search.position, near.node);
@@ -123,7 +128,9 @@ struct ContactMultiplier {
       contact.place(s, 0) = now.place.xi;
       contact.place(s, 1) = now.place.eta;
     }
-    MultiplierRow& r = multipliers.rows(s);
+    MultiplierRow& r = multipliers.rows(i);
+    r.slave = s;
+    r.node = near.node;
     const Segment segment = contact.surface(now.segment);
     const bool active = now.gap < near_share * norm(search.diagonal(segment)) || (touched && is_distance(now.gap));
     const Vector3 moved =
@@ -195,18 +202,18 @@ struct ContactMultiplier {
       double share[MouthCorner::pieces];
       search.shares_of(mouth, share);
       for (int piece = 1; piece < MouthCorner::pieces; ++piece) {
-        const int beside[1] = {mouth.node[piece]}, at = external_row(mouth.node[piece]);
+        const int at = external_row(mouth.node[piece]);
         const double weight = share[piece] * nodes.weight[k + 1];
         r.row[nodes.count] = at;
         r.weight[nodes.count] = weight;
         ++nodes.count;
-        count_and_list(beside, &at, &weight);
+        count_and_list<1>(&at, &weight);
       }
       node[k + 1] = mouth.node[0];
       nodes.weight[k + 1] *= share[0];
     }
     for (int k = 0; k < nodes_of_multiplier; ++k) nodes.row[k] = external_row(node[k]);
-    count_and_list(node, nodes.row, nodes.weight);
+    count_and_list<nodes_of_multiplier>(nodes.row, nodes.weight);
     r.count = nodes.count;
     for (int k = 0; k < nodes_of_multiplier; ++k) {
       r.row[k] = nodes.row[k];
@@ -223,7 +230,7 @@ struct ContactMultiplier {
 
   /// Who first pushes nodes lists them.
   template <int count>
-  KOKKOS_INLINE_FUNCTION void count_and_list(const int (&node)[count], const int* at, const double* weight) const {
+  KOKKOS_INLINE_FUNCTION void count_and_list(const int* at, const double* weight) const {
     bool first[count];
     int firsts = 0;
     for (int k = 0; k < count; ++k) first[k] = count_at(at[k], weight[k]);
@@ -232,7 +239,6 @@ struct ContactMultiplier {
     int place = Kokkos::atomic_fetch_add(&free_nodes.listed_count(0), firsts);
     for (int k = 0; k < count; ++k) {
       if (!first[k]) continue;
-      free_nodes.nodes(at[k]).node = node[k];
       free_nodes.listed(place++) = at[k];
     }
   }
@@ -265,10 +271,10 @@ struct ContactMultiplier {
     int slips;
   };
 
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const WindowEntry& near) const {
-    MultiplierRow& r = multipliers.rows(near.slave);
-    if (r.active == 0) return;
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Correct& /*phase*/, const int i) const {
+    MultiplierRow& r = multipliers.rows(i);
     const RowNodes nodes = nodes_of(r);
+    if (r.active == 0) return;
     const Vector3 before = r.change;
     const Corrected now = corrected(r, nodes);
     r.free = now.free;
@@ -323,10 +329,11 @@ struct ContactMultiplier {
 
   /// The last sweep; leaves forces and status for the next step and for those who read them, and books the work done
   /// since the last.
-  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const WindowEntry& near) const {
+  KOKKOS_INLINE_FUNCTION void run(const Multiplier::Finish& /*phase*/, const int i) const {
     const ContactArrays& contact = search.contact;
-    const int s = near.slave;
-    const MultiplierRow& r = multipliers.rows(s);
+    const MultiplierRow& r = multipliers.rows(i);
+    const int s = r.slave;
+    const RowNodes nodes = nodes_of(r);
     const Vector3 pressed = row(contact.normal_force, s), rubbed = row(contact.tangential_force, s);
     const Vector3 normal = r.normal, moved = r.moved;
     const double gap = r.gap, gap_before = contact.gap(s);
@@ -335,7 +342,6 @@ struct ContactMultiplier {
     int slips = r.slips;
     const bool active = r.active != 0;
     if (active) {
-      const RowNodes nodes = nodes_of(r);
       const Vector3 begun = r.begun;
       const Corrected now = corrected(r, nodes);
       force = now.force;
@@ -345,7 +351,7 @@ struct ContactMultiplier {
     }
     if constexpr (Normals::curved) {
       const SegmentPlace place{contact.place(s, 0), contact.place(s, 1)};
-      if (active) book_work(s, near.node, contact.tracked(s), place, pressing * normal);
+      if (active) book_work(s, r.node, contact.tracked(s), place, pressing * normal);
     } else {
       const bool closes = is_distance(gap_before) && is_distance(gap);
       if (closes) multipliers.impact_energy(s) -= 0.5 * (norm(pressed) + pressing) * (gap - gap_before);
@@ -378,12 +384,14 @@ struct PredictFreeNodes {
     if (i >= free_nodes.listed_count(0)) return;
     const int at = free_nodes.listed(i);
     const NodeArrays& nodes = motion.acceleration.force.nodes;
+    const SharedNode shared = free_nodes.shared(at);
+    const int n = shared.node & ~special_bit;
     FreeNode free;
-    free.node = free_nodes.nodes(at).node;
-    free.constraint = nodes.constraint(free.node);
-    free.compliance = motion.compliance(free.node);
+    free.constraint = nodes.constraint(n);
+    free.compliance = motion.compliance(n);
     free.together = free.compliance * multiplicity_quantum * static_cast<double>(free_nodes.multiplicity(at));
-    free.predicted = motion(free.node);
+    free.predicted = motion(shared, at);
+    free.unused = 0;
     free_nodes.nodes(at) = free;
     free_nodes.multiplicity(at) = 0;
     for (int parity = 0; parity < 2; ++parity)

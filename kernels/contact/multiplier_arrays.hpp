@@ -2,8 +2,7 @@
 
 #include <cstdint>
 
-#include "kernels/support/spaces.hpp"
-#include "kernels/support/vector3.hpp"
+#include "kernels/nodes/nodes.hpp"
 
 namespace railwave {
 
@@ -15,12 +14,13 @@ struct alignas(16) FreeNode {
   Vector3 predicted;  ///< m, its movement
   double compliance;  ///< m/N, of FreeMotion
   double together;    ///< m/N, the same times how many multipliers push it, each counted by its weight
-  int node;           ///< of the model
   int constraint;     ///< row in the constraint table, -1: free
+  int unused;
 };
 
 /// The nodes that multipliers of any contact pair move, by row of the external forces.
 struct FreeNodeArrays {
+  Array<SharedNode*> shared;            ///< which nodes they are, and where elements' forces on them lie
   Array<FreeNode*> nodes;               ///< those that are listed hold in a step
   Array<std::uint64_t*> multiplicity;   ///< sum of weights of the multipliers that push it, in whole quanta; zero
                                         ///< between steps. Kokkos knows 64-bit atomics by this type alone
@@ -32,6 +32,10 @@ struct FreeNodeArrays {
 
 /// What a slave node's multiplier needs in a step.
 struct alignas(16) MultiplierRow {
+  int slave;  ///< position among the pair's slave nodes
+  int node;   ///< of the model
+  int slips;
+  int active;
   Vector3 normal;
   Vector3 free;       ///< m, movement of the slave over the master's material in the step with the last step's forces
   Vector3 force;      ///< N on the slave, so far
@@ -46,12 +50,10 @@ struct alignas(16) MultiplierRow {
   int count;          ///< of nodes
   int row[most_nodes_of_multiplier];        ///< of the external forces: the slave's and the segment's nodes
   double weight[most_nodes_of_multiplier];  ///< 1, and minus the shape functions
-  int slips;
-  int active;
 };
 
 struct MultiplierArrays {
-  Array<MultiplierRow*> rows;            ///< by slave; those of near nodes hold in a step
+  Array<MultiplierRow*> rows;            ///< of near nodes, in their order; they hold in a step
   Array<double* [3]> way_since_stuck;    ///< m, by slave
   int most_nodes = nodes_of_multiplier;  ///< of a row
   Array<double*> impact_energy;          ///< J, by slave: what normal forces have taken out of the bodies so far

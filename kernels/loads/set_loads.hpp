@@ -15,16 +15,17 @@ struct RowLoads {
   Array<const double*[3]> position, velocity;
   double elapsed;  ///< s since the last step
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(i); }
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const { gather<batch_of_few_threads>(external.loaded(i)); }
 
-  /// @tparam batch one where a kernel does much else: batches take registers
+  /// @tparam batch few where a kernel does much else: batches take registers
+  /// @return the sum, N
   template <int batch>
-  KOKKOS_INLINE_FUNCTION void gather(const int i) const {
-    const LoadedRow loaded = external.loaded(i);
+  KOKKOS_INLINE_FUNCTION Vector3 gather(const LoadedRow& loaded) const {
     Vector3 sum = add_in_batches<batch>({{0, 0, 0}}, loaded.first, loaded.last,
                                         [&](int k) { return without_torque(external.shares(k)); });
     if (torques.count > 0) sum = sum + torque_forces(loaded);
     for (int c = 0; c < 3; ++c) external.sum.load(loaded.row, c) = sum[c];
+    return sum;
   }
 
   /// What a load's own kernel has put in place, or a connector's force; nothing of torques.
@@ -44,7 +45,7 @@ struct RowLoads {
       const Vector3 arm =
           row(position, loaded.node) - Vector3{{torques.now(t, 0), torques.now(t, 1), torques.now(t, 2)}};
       const Vector3 force = (share.weight * torques.now(t, 3)) * cross(row(torques.axis, t), arm);
-      set_contribution(external, velocity, share.contribution, force, elapsed);
+      set_contribution(external, velocity, share.contribution, loaded.node, force, elapsed);
       sum = sum + force;
     }
     return sum;
@@ -69,7 +70,7 @@ struct SetLoads {
     team.team_barrier();
     for (int k = rank; k < law_count(); k += size) law(k);
     team.team_barrier();
-    for (int k = rank; k < row_count; k += size) rows.template gather<1>(k);
+    for (int k = rank; k < row_count; k += size) rows.template gather<1>(rows.external.loaded(k));
   }
 
   KOKKOS_INLINE_FUNCTION int chunk_count() const { return static_cast<int>(sets.sets.chunks.extent(0)); }

@@ -35,12 +35,17 @@ struct ExternalForces {
 
 /// Puts a load's new value in place and books the work done since the last step, by the trapezoidal rule over the
 /// motion from t_(n-1) to t_n; `elapsed` is zero at a run's first step, when nothing has moved yet.
+/// @param n its node
 KOKKOS_INLINE_FUNCTION void set_contribution(const ExternalForces& external, const Array<const double* [3]>& velocity,
-                                             int c, const Vector3& now, double elapsed) {
-  const int n = external.contribution_node(c);
+                                             int c, int n, const Vector3& now, double elapsed) {
   const Vector3 before = row(external.contribution, c);
   external.work(c) += 0.5 * elapsed * dot(before + now, row(velocity, n));
   for (int i = 0; i < 3; ++i) external.contribution(c, i) = now[i];
+}
+
+KOKKOS_INLINE_FUNCTION void set_contribution(const ExternalForces& external, const Array<const double* [3]>& velocity,
+                                             int c, const Vector3& now, double elapsed) {
+  set_contribution(external, velocity, c, external.contribution_node(c), now, elapsed);
 }
 
 /// Forces of fixed direction (nodal forces, tractions on the reference area) times a curve's value.

@@ -2,6 +2,7 @@
 
 #include "kernels/nodes/external_force_sum.hpp"
 #include "kernels/support/lanes.hpp"
+#include "kernels/support/team.hpp"
 
 namespace railwave {
 
@@ -25,11 +26,35 @@ struct alignas(4 * sizeof(S)) PartialForce {
   S x[4];
 };
 
+/// A node of several blocks, or of one that does not advance it by itself: where its partial forces lie, with what is
+/// asked of memory at once. Most belong to two blocks.
+struct alignas(16) SharedNode {
+  int node;      ///< with `special_bit` where external forces or a constraint concern it
+  int place[2];  ///< its first partial forces, -1: none
+  int more;      ///< 0: there are no others; else one more than where MorePlaces has them
+};
+inline constexpr int special_bit = static_cast<int>(0x80000000u);
+
+/// A shared node's further partial forces.
+struct alignas(16) MorePlaces {
+  static constexpr int count = 6;
+  int place[count];  ///< -1: none
+  int first, last;   ///< in NodeArrays::partial_place: those for which there is no room here
+};
+
+/// What external forces and constraints ask of a shared node.
+struct alignas(16) SpecialNode {
+  int row = -1;                     ///< in ExternalForces, -1: none
+  int first_share = 0, shares = 0;  ///< its contributions there
+  int constraint = -1;              ///< row in the constraint table, -1: free
+};
+
 /// What the blocks' elements do to their nodes, N: one row for each node of each block, in the precision of the
 /// elements.
 struct PartialForces {
   Array<PartialForce<double>*> in_double;
   Array<PartialForce<float>*> in_single;
+  Array<MorePlaces*> more;
   bool single_precision = false;
 
   KOKKOS_INLINE_FUNCTION Vector3 operator()(int place) const {
@@ -40,15 +65,31 @@ struct PartialForces {
     const PartialForce<double> f = in_double(place);
     return {{f.x[0], f.x[1], f.x[2]}};
   }
-};
 
-/// A node that no block advances by itself, with what is asked of it at once: most belong to two blocks.
-struct alignas(16) SharedNode {
-  int node;      ///< with `special_bit` where external forces or a constraint concern it
-  int place[2];  ///< its first partial forces, -1: none
-  int more;      ///< 1: there are others, 0: none
+  /// Some rows, of which memory is asked at once: on a GPU a node's thread does little but wait.
+  template <int count>
+  struct Rows {
+    Vector3 force[count];
+    bool there[count];
+
+    KOKKOS_INLINE_FUNCTION Vector3 added_to(Vector3 sum) const {
+      for (int k = 0; k < count; ++k)
+        if (there[k]) sum = sum + force[k];
+      return sum;
+    }
+  };
+
+  /// @param place -1: none
+  /// @param any a row that there is
+  template <int count>
+  KOKKOS_INLINE_FUNCTION Rows<count> rows(const int (&place)[count], int any) const {
+    Rows<count> rows;
+    for (int k = 0; k < count; ++k) rows.there[k] = place[k] >= 0;
+    for (int k = 0; k < count; ++k)
+      if (on_device || rows.there[k]) rows.force[k] = (*this)(rows.there[k] ? place[k] : any);
+    return rows;
+  }
 };
-inline constexpr int special_bit = static_cast<int>(0x80000000u);
 
 /// Sum of the element forces on a node and of its external forces, in fixed order, N.
 struct NodalForce {
@@ -61,23 +102,36 @@ struct NodalForce {
     return r >= 0 ? external.force(r) : Vector3{{0, 0, 0}};
   }
 
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const { return with_partials(external_force(n), n, 0); }
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(int n) const {
+    return with_partials(external_force(n), nodes.first_partial(n), nodes.first_partial(n + 1));
+  }
 
-  /// Adds a node's partial forces from the given one on.
-  KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int n, int from) const {
-    for (int c = nodes.first_partial(n) + from; c < nodes.first_partial(n + 1); ++c)
-      force = force + partial(nodes.partial_place(c));
+  /// Adds partial forces.
+  /// @param first, last in NodeArrays::partial_place
+  KOKKOS_INLINE_FUNCTION Vector3 with_partials(Vector3 force, int first, int last) const {
+    constexpr int batch = on_device ? 4 : 1;
+    for (int c = first; c < last; c += batch) {
+      int place[batch];
+      for (int k = 0; k < batch; ++k) place[k] = c + k < last ? nodes.partial_place(c + k) : -1;
+      force = partial.rows(place, place[0]).added_to(force);
+    }
     return force;
   }
 
-  /// The same for a shared node.
-  KOKKOS_INLINE_FUNCTION Vector3 operator()(const SharedNode& shared) const {
-    const int n = shared.node & ~special_bit;
-    Vector3 force{{0, 0, 0}};
-    if (shared.node < 0) force = external_force(n);
-    for (int k = 0; k < 2; ++k)
-      if (shared.place[k] >= 0) force = force + partial(shared.place[k]);
-    return shared.more == 0 ? force : with_partials(force, n, 2);
+  /// The first partial forces of a shared node.
+  KOKKOS_INLINE_FUNCTION PartialForces::Rows<2> first_rows(const SharedNode& shared) const {
+    if (shared.place[0] < 0) return {{}, {false, false}};
+    return partial.rows(shared.place, shared.place[0]);
+  }
+
+  /// Sum of a shared node's partial forces and others, N.
+  /// @param first of first_rows()
+  KOKKOS_INLINE_FUNCTION Vector3 with_rows(Vector3 force, const SharedNode& shared,
+                                           const PartialForces::Rows<2>& first) const {
+    if (shared.more == 0) return first.added_to(force);
+    const MorePlaces more = partial.more(shared.more - 1);
+    const PartialForces::Rows<MorePlaces::count> others = partial.rows(more.place, shared.place[0]);
+    return with_partials(others.added_to(first.added_to(force)), more.first, more.last);
   }
 };
 

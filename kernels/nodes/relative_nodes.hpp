@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kernels/loads/set_loads.hpp"
 #include "kernels/nodes/corotating_frame.hpp"
+#include "kernels/nodes/shared_nodes.hpp"
 #include "kernels/support/lanes.hpp"
 #include "kernels/support/team.hpp"
 
@@ -76,37 +76,30 @@ struct RelativeAdvance {
 /// SharedNodeUpdate for nodes in single precision. Those that external forces or constraints concern get their
 /// positions and velocities in double precision too: contact, loads and connectors know no other.
 struct RelativeSharedUpdate {
-  NodalAcceleration acceleration;
+  SharedForces forces;
   RelativeAdvance advance;
-  Array<const SharedNode*> shared;
   Array<const FrameArm*> arm;  ///< of each shared node
-  RowLoads rows;
-  bool rows_here;
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
-    const SharedNode node = shared(i);
+    const SharedNode node = forces.shared.nodes(i);
+    const SpecialNode special = forces.shared.special_of(i);
     const FrameArm own = arm(i);
-    const NodeArrays& in_double = acceleration.force.nodes;
+    const NodeArrays& in_double = forces.acceleration.force.nodes;
     const int n = node.node & ~special_bit;
-    const bool special = node.node < 0;
     const FrameStep& frame = advance.nodes.frame(own.frame);
-    const int r = special ? in_double.external_row(n) : -1;
-    if (rows_here && r >= 0 && rows.external.loaded_of_row(r) >= 0) rows.gather<1>(rows.external.loaded_of_row(r));
     float a[3];
-    advance.acceleration(advance.nodes.node(n).inverse_mass, acceleration.force(node), a);
-    if (special) {
-      const Vector3 free = acceleration.constrain(n, {{a[0], a[1], a[2]}});
-      for (int k = 0; k < 3; ++k) a[k] = static_cast<float>(free[k]);
-    }
+    advance.acceleration(advance.nodes.node(n).inverse_mass, forces(node, special), a);
+    const Vector3 free = projected(forces.acceleration.constraints, special.constraint, {{a[0], a[1], a[2]}});
+    for (int k = 0; k < 3; ++k) a[k] = static_cast<float>(free[k]);
     const RelativeNode after = advance.move(n, a, frame.change_at_start, own.x);
-    if (special) {
+    if (node.node < 0) {
       const Vector3 X = row(in_double.reference, n), x = frame.next.position(X), v = frame.next.velocity_of(X);
       for (int k = 0; k < 3; ++k) {
         in_double.position(n, k) = x[k] + static_cast<double>(after.displacement[k]);
         in_double.velocity(n, k) = v[k] + static_cast<double>(after.velocity[k]);
       }
     }
-    if (r >= 0) acceleration.force.external.clear_contact(r);
+    forces.clear_contact(special);
   }
 };
 

@@ -4,14 +4,51 @@
 
 namespace railwave {
 
-/// Step 3 of the thesis's table 2.1 for the nodes that the blocks have left. Where the laws of torques and connectors
-/// have been evaluated but not yet shared out, a node works out its own loads here, beside the many that have none.
-struct SharedNodeUpdate {
+/// The nodes that no block advances by itself.
+struct SharedNodes {
+  Array<SharedNode*> nodes;
+  Array<SpecialNode*> special;  ///< of those from `first_special` on
+  int first_special = 0;        ///< external forces and constraints concern none before it
+
+  KOKKOS_INLINE_FUNCTION SpecialNode special_of(int i) const {
+    return i < first_special ? SpecialNode{} : special(i - first_special);
+  }
+};
+
+/// Step 3 of the thesis's table 2.1 for shared nodes. Where the laws of torques and connectors have been evaluated but
+/// not yet shared out, a node works out its own loads here, beside the many that have none.
+struct SharedForces {
   NodalAcceleration acceleration;
-  NodeAdvance advance;
-  Array<const SharedNode*> shared;
+  SharedNodes shared;
   RowLoads rows;
   bool rows_here;
+
+  /// N, but for gravity.
+  KOKKOS_INLINE_FUNCTION Vector3 operator()(const SharedNode& node, const SpecialNode& special) const {
+    const NodalForce& force = acceleration.force;
+    const auto first = force.first_rows(node);
+    Vector3 external{{0, 0, 0}};
+    if (special.row >= 0) {
+      const Vector3 contact = force.external.contact_force(special.row);
+      if (rows_here && special.shares > 0)
+        external = rows.gather<2>({special.row, node.node & ~special_bit, special.first_share,
+                                   special.first_share + special.shares}) +
+                   contact;
+      else
+        external = row(force.external.load, special.row) + contact;
+    }
+    return force.with_rows(external, node, first);
+  }
+
+  /// Contact forces, once used, are cleared for the next instant.
+  KOKKOS_INLINE_FUNCTION void clear_contact(const SpecialNode& special) const {
+    if (special.row >= 0) acceleration.force.external.clear_contact(special.row);
+  }
+};
+
+struct SharedNodeUpdate {
+  SharedForces forces;
+  NodeAdvance advance;
 
 #ifdef RAILWAVE_SIMD_LANES
   /// So many nodes later what is asked of memory now has come; 12 and 24 are as good.
@@ -21,7 +58,7 @@ struct SharedNodeUpdate {
     const int n = node.node & ~special_bit;
     prefetch(&advance.nodes.position(n, 0));
     prefetch(&advance.nodes.velocity(n, 0));
-    const PartialForces& partial = acceleration.force.partial;
+    const PartialForces& partial = forces.acceleration.force.partial;
     if (partial.single_precision) return;
     for (int place : node.place)
       if (place >= 0) prefetch(&partial.in_double(place));
@@ -30,18 +67,16 @@ struct SharedNodeUpdate {
 
   KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
 #ifdef RAILWAVE_SIMD_LANES
-    if (i + ahead < static_cast<int>(shared.extent(0))) prefetch_node(shared(i + ahead));
+    if (i + ahead < static_cast<int>(forces.shared.nodes.extent(0))) prefetch_node(forces.shared.nodes(i + ahead));
 #endif
-    const SharedNode node = shared(i);
+    const SharedNode node = forces.shared.nodes(i);
+    const SpecialNode special = forces.shared.special_of(i);
     const int n = node.node & ~special_bit;
     const double inverse_mass = 1.0 / advance.nodes.mass(n);
     const Vector3 x = row(advance.nodes.position, n), v = row(advance.nodes.velocity, n);
-    const int r = node.node < 0 ? advance.nodes.external_row(n) : -1;
-    if (rows_here && r >= 0 && rows.external.loaded_of_row(r) >= 0) rows.gather<1>(rows.external.loaded_of_row(r));
-    Vector3 a = advance.acceleration(inverse_mass, acceleration.force(node));
-    if (node.node < 0) a = acceleration.constrain(n, a);
-    advance.move(n, a, x, v);
-    if (r >= 0) acceleration.force.external.clear_contact(r);
+    const Vector3 a = advance.acceleration(inverse_mass, forces(node, special));
+    advance.move(n, projected(forces.acceleration.constraints, special.constraint, a), x, v);
+    forces.clear_contact(special);
   }
 };
 

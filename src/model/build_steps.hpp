@@ -89,10 +89,10 @@ void build_stable_step(Model& model, Transport* transport = nullptr);
 void help_with_stable_step(Model& model, Transport& transport);
 /// subcycling.cpp: levels of nodes
 void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);
-/// node_arrays.cpp: on a device, shared nodes that multipliers and prescribed motions do not concern come first, to be
-/// moved beside these
-void set_early_nodes_apart(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
-                           NodalState& nodal);
+/// node_arrays.cpp: of shared nodes those that nothing but elements concern come first, and last those of multipliers
+/// and prescribed motions, beside which a device moves the others
+void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
+                        NodalState& nodal);
 /// left_out.cpp: what the scene does not need and the run will not compute
 std::vector<std::string> what_is_left_out(const scene::Scene& scene);
 

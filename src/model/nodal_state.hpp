@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "kernels/contact/multiplier_arrays.hpp"
-#include "kernels/nodes/nodes.hpp"
+#include "kernels/nodes/shared_nodes.hpp"
 #include "kernels/support/reduction_space.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "model/subcycling.hpp"
@@ -18,9 +18,9 @@ struct NodalState {
   Array<double* [3][3]> constraints;
   Subcycling subcycling;
   PartialForces partial;
-  Array<SharedNode*> shared_nodes;  ///< those that no block advances by itself
-  int early_shared = 0;             ///< so many of them, the first, know neither multipliers nor prescribed motions
-  Array<int*> own_nodes;            ///< those that a rank moves; empty: all
+  SharedNodes shared;    ///< those that no block advances by itself
+  int early_shared = 0;  ///< so many of them, the first, know neither multipliers nor prescribed motions
+  Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;
   FreeNodeArrays free_nodes;   ///< of contacts by multipliers; empty without
   Vector3 gravity{{0, 0, 0}};  ///< m/s2

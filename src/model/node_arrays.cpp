@@ -66,16 +66,27 @@ void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal)
   const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
   const auto place = to_host(nodal.nodes.partial_place);
   std::vector<SharedNode> listed;
+  std::vector<MorePlaces> more;
   std::vector<char> alone(nodal.nodes.count, 1);
+  const auto of_rows = to_host(nodal.free_nodes.shared);
   for (int n = 0; n < nodal.nodes.count; ++n) {
     const int count = first(n + 1) - first(n);
     const bool special = external(n) >= 0 || constraint(n) >= 0;
     if (count == 1 && !special) continue;
     alone[n] = 0;
-    listed.push_back({special ? n | special_bit : n,
-                      {count > 0 ? place(first(n)) : -1, count > 1 ? place(first(n) + 1) : -1},
-                      count > 2 ? 1 : 0});
+    const auto place_at = [&](int k) { return k < count ? place(first(n) + k) : -1; };
+    if (count > 2) {
+      MorePlaces& others = more.emplace_back();
+      for (int k = 0; k < MorePlaces::count; ++k) others.place[k] = place_at(2 + k);
+      others.last = first(n + 1);
+      others.first = std::min(others.last, first(n) + 2 + MorePlaces::count);
+    }
+    const SharedNode& node = listed.emplace_back(SharedNode{
+        special ? n | special_bit : n, {place_at(0), place_at(1)}, count > 2 ? static_cast<int>(more.size()) : 0});
+    if (external(n) >= 0 && of_rows.extent(0) > 0) of_rows(external(n)) = node;
   }
+  Kokkos::deep_copy(nodal.free_nodes.shared, of_rows);
+  nodal.partial.more = to_device("further places of shared nodes", more);
   for (const ElementGroup& group : groups) {
     const auto nodes = to_host(group.blocks.node);
     // What fills up a row repeats its first node, and so may carry the bit too. When kernels advance nodes, they read
@@ -84,7 +95,25 @@ void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal)
       if (alone[nodes(k)] != 0) nodes(k) |= advance_bit;
     Kokkos::deep_copy(group.blocks.node, nodes);
   }
-  nodal.shared_nodes = to_device("shared nodes", listed);
+  nodal.shared.nodes = to_device("shared nodes", listed);
+  nodal.shared.first_special = static_cast<int>(listed.size());
+}
+
+/// What special nodes are asked for, of the shared ones from nodal.shared.first_special on.
+Array<SpecialNode*> special_nodes(const std::vector<SharedNode>& shared, const NodalState& nodal) {
+  const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
+  const auto loaded_of_row = to_host(nodal.external.loaded_of_row);
+  const auto loaded = to_host(nodal.external.loaded);
+  std::vector<SpecialNode> special;
+  for (std::size_t i = nodal.shared.first_special; i < shared.size(); ++i) {
+    const int n = shared[i].node & ~special_bit, r = external(n);
+    SpecialNode& one = special.emplace_back(SpecialNode{r, 0, 0, constraint(n)});
+    if (r < 0 || loaded_of_row(r) < 0) continue;
+    const LoadedRow& of_row = loaded(loaded_of_row(r));
+    one.first_share = of_row.first;
+    one.shares = of_row.last - of_row.first;
+  }
+  return to_device("special nodes", special);
 }
 
 }  // namespace
@@ -136,9 +165,10 @@ void put_at_reference(const NodeArrays& nodes) {
   }
 }
 
-void set_early_nodes_apart(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
-                           NodalState& nodal) {
+void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vector<PrescribedSet>& prescribed,
+                        NodalState& nodal) {
   nodal.early_shared = 0;
+  if (nodal.subcycling.levels > 1) return;  // they are in order of levels, and take no notice of special ones
   std::vector<char> late(nodal.nodes.count, 0);
   bool any = false;
   const auto mark = [&](const std::vector<int>& nodes) {
@@ -151,13 +181,15 @@ void set_early_nodes_apart(const std::vector<ContactPair>& contacts, const std::
     mark(pair.master_nodes);
   }
   for (const PrescribedSet& set : prescribed) mark(to_vector(set.nodes));
-  if (!on_device || !any || nodal.subcycling.levels > 1) return;
-  const auto shared = to_host(nodal.shared_nodes);
-  const auto first_late =
-      std::stable_partition(shared.data(), shared.data() + shared.extent(0),
-                            [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
-  nodal.early_shared = static_cast<int>(first_late - shared.data());
-  Kokkos::deep_copy(nodal.shared_nodes, shared);
+  std::vector<SharedNode> shared = to_vector(nodal.shared.nodes);
+  const auto first_special =
+      std::stable_partition(shared.begin(), shared.end(), [](const SharedNode& one) { return one.node >= 0; });
+  const auto first_late = std::stable_partition(
+      first_special, shared.end(), [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
+  if (on_device && any) nodal.early_shared = static_cast<int>(first_late - shared.begin());
+  nodal.shared.first_special = static_cast<int>(first_special - shared.begin());
+  nodal.shared.nodes = to_device("shared nodes", shared);
+  nodal.shared.special = special_nodes(shared, nodal);
 }
 
 }  // namespace railwave

@@ -56,11 +56,11 @@ void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflecti
   const auto level = node_levels(nodal, ends);
   subcycling.node_levels.level = to_device("node levels", level);
 
-  const auto shared = to_host(nodal.shared_nodes);
+  const auto shared = to_host(nodal.shared.nodes);
   const auto level_of = [&](const SharedNode& node) { return level[node.node & ~special_bit]; };
   std::stable_sort(shared.data(), shared.data() + shared.extent(0),
                    [&](const SharedNode& a, const SharedNode& b) { return level_of(a) < level_of(b); });
-  Kokkos::deep_copy(nodal.shared_nodes, shared);
+  Kokkos::deep_copy(nodal.shared.nodes, shared);
   for (int l = 0; l < subcycling.levels; ++l)
     subcycling.shared_end.push_back(static_cast<int>(std::count_if(
         shared.data(), shared.data() + shared.extent(0), [&](const SharedNode& n) { return level_of(n) <= l; })));

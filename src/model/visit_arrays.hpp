@@ -280,6 +280,7 @@ void visit_arrays(const Named<Visitor>& visit, ContactPair& pair) {
 
 template <class Visitor>
 void visit_arrays(const Named<Visitor>& visit, FreeNodeArrays& free_nodes) {
+  visit(ArrayUse::constant, "shared", free_nodes.shared);
   visit(ArrayUse::scratch, "nodes", free_nodes.nodes);
   visit(ArrayUse::scratch, "multiplicity", free_nodes.multiplicity);
   visit(ArrayUse::scratch, "change", free_nodes.change);
@@ -355,8 +356,10 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   if (model.global_estimate) visit_arrays(of("global_estimate_"), *model.global_estimate);
   const Named<Visitor> own = of("model_");
   own(ArrayUse::constant, "constraints", model.constraints);
-  own(ArrayUse::constant, "shared_nodes", model.shared_nodes);
+  own(ArrayUse::constant, "shared_nodes", model.shared.nodes);
+  own(ArrayUse::constant, "special_nodes", model.shared.special);
   own(ArrayUse::constant, "own_nodes", model.own_nodes);
+  own(ArrayUse::constant, "more_places", model.partial.more);
   own(ArrayUse::constant, "node_levels", model.subcycling.node_levels.level);
   // The account of damping takes the rows of the step before.
   bool damped = false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "solve/ranks/row_exchange.hpp"
@@ -63,10 +64,33 @@ std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* e
 
 }  // namespace
 
+namespace {
+
+/// Whether outer blocks need nothing that the same step launches in the default order.
+bool outer_blocks_may_go_beside(const ElementModel& elements) {
+  return std::none_of(elements.elements.begin(), elements.elements.end(), [](const ElementGroup& group) {
+    return group.damping.active() || group.blocks.frame.extent(0) > 0;
+  });
+}
+
+Task in_space(Task task, const ExecutionSpace& space) {
+  task.run = [run = std::move(task.run), &space](const Instant& instant) {
+    Instant here = instant;
+    here.own_space = &space;
+    run(here);
+  };
+  return task;
+}
+
+}  // namespace
+
 std::vector<Task> shared_element_tasks(Model& model, StepKind kind, RowExchange& exchange) {
   const RankShare& share = exchange.share();
+  const ExecutionSpace* beside = outer_blocks_may_go_beside(model) ? exchange.outer_space() : nullptr;
   std::vector<Task> tasks = element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true});
-  tasks.push_back(exchange.send_task());
+  if (beside != nullptr)
+    for (Task& task : tasks) task = in_space(std::move(task), *beside);
+  tasks.push_back(exchange.send_task(beside != nullptr));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, {}, {&share.inner, false}));
   tasks.push_back(exchange.receive_task());
   return tasks;
@@ -77,6 +101,7 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
+  if (exchange != nullptr) append(tasks, exchange->begin_tasks());
   append(tasks, placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0));
   append(tasks, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
   append(tasks, exchange != nullptr ? shared_element_tasks(model, kind, *exchange)

@@ -21,6 +21,10 @@ namespace {
 /// A graph of so many steps makes what is launched before each, and the gap there, a hundredth of its time.
 constexpr int default_steps = 16;
 
+/// The same of the first graph after a device has waited for its host: it takes the less to launch the smaller it is,
+/// and the next one is launched meanwhile.
+constexpr long steps_of_first = 4;
+
 /// Steps of the largest graph: RAILWAVE_STEP_GRAPHS; 0, with which all steps are plain, also where a tool listens, as
 /// it would not be told of launches within graphs.
 int most_steps() {
@@ -133,6 +137,7 @@ struct StepRecording::Recordings {
     if (own && launched) space.fence();
     launched = false;
     others_launched = true;
+    idle = true;
   }
   /// Before launches in the own one.
   void begin() {
@@ -202,6 +207,7 @@ struct StepRecording::Recordings {
   const bool own;               ///< not the default one
   bool launched = false;        ///< in that space since finish()
   bool others_launched = true;  ///< in the default one since begin()
+  bool idle = true;             ///< the device has waited since the last graph
   const int most;
   std::vector<Task> plain, recordable;
   StepValues<double> load_values;
@@ -241,7 +247,8 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
     if (all.own) here.own_space = &all.space;
     run_tasks(all.plain, here, model.step);
   }
-  const long steps = all.steps_of_graph(quiet);
+  const long steps = all.steps_of_graph(all.idle && !all.own ? std::min(quiet, steps_of_first) : quiet);
+  all.idle = false;
   if (auto now = all.state(); now != all.recorded_in) {
     all.space.fence();
     all.graphs.clear();

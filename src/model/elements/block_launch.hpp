@@ -31,26 +31,31 @@ struct LaunchBoundsOf<ForcesTogether<Block, Friction>> {
   using type = typename LaunchBoundsOf<Block>::type;
 };
 
+/// @param space in whose order
 template <class Functor>
-void launch_teams(int teams, std::size_t scratch_size, const Functor& functor) {
+void launch_teams(int teams, std::size_t scratch_size, const Functor& functor,
+                  const ExecutionSpace& space = ExecutionSpace()) {
   using Policy = Kokkos::TeamPolicy<ExecutionSpace, typename LaunchBoundsOf<Functor>::type, AsArgument>;
   const int team_size = on_device ? elements_of_block : 1;
-  Kokkos::parallel_for("blocks", Policy(teams, team_size).set_scratch_size(0, Kokkos::PerTeam(scratch_size)), functor);
+  Kokkos::parallel_for("blocks", Policy(space, teams, team_size).set_scratch_size(0, Kokkos::PerTeam(scratch_size)),
+                       functor);
 }
 
 /// Runs a functor with one team for each block.
 template <class Functor>
-void launch_blocks(const ElementBlocks& blocks, const Functor& functor) {
-  launch_teams(blocks.count, Functor::scratch_size(blocks), functor);
+void launch_blocks(const ElementBlocks& blocks, const Functor& functor,
+                   const ExecutionSpace& space = ExecutionSpace()) {
+  launch_teams(blocks.count, Functor::scratch_size(blocks), functor, space);
 }
 
 /// The same for some blocks only, which the functor has as `listed`. @param listed null: all
 template <class Functor>
-void launch_blocks(const ElementBlocks& blocks, const Array<int*>* listed, Functor functor) {
-  if (listed == nullptr) return launch_blocks(blocks, functor);
+void launch_blocks(const ElementBlocks& blocks, const Array<int*>* listed, Functor functor,
+                   const ExecutionSpace& space = ExecutionSpace()) {
+  if (listed == nullptr) return launch_blocks(blocks, functor, space);
   if (listed->extent(0) == 0) return;
   functor.listed = *listed;
-  launch_teams(static_cast<int>(listed->extent(0)), Functor::scratch_size(blocks), functor);
+  launch_teams(static_cast<int>(listed->extent(0)), Functor::scratch_size(blocks), functor, space);
 }
 
 }  // namespace railwave

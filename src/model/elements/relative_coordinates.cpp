@@ -75,7 +75,7 @@ void set_arms(const Assembly& assembly, const std::vector<ElementGroup>& groups,
     }
     Kokkos::deep_copy(group.relative.arm, arm);
   }
-  const auto shared = to_host(nodal.shared_nodes);
+  const auto shared = to_host(nodal.shared.nodes);
   const auto arm = Kokkos::create_mirror_view(nodal.relative.shared_arm);
   for (std::size_t i = 0; i < shared.extent(0); ++i) {
     const int node = shared(i).node & ~special_bit;
@@ -112,7 +112,7 @@ void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGr
   for (const auto& [first, count] : assembled.assembly.beam_nodes)
     if (count > 0) relative.range.push_back({first, count});
   relative.node = unset_array<RelativeNode*>("relative nodes", nodal.nodes.count);
-  relative.shared_arm = unset_array<FrameArm*>("arms of shared nodes", nodal.shared_nodes.extent(0));
+  relative.shared_arm = unset_array<FrameArm*>("arms of shared nodes", nodal.shared.nodes.extent(0));
   relative.motion = unset_array<FrameMotion*>("co-rotating frames", relative.range.size());
   relative.steps = unset_array<FrameStep*>("steps of frames", steps_of_block * relative.range.size());
   std::vector<int> of_slave;

@@ -74,9 +74,10 @@ void build_external_forces(const Assembly& assembly, const Contributions& contri
   nodal.nodes.external_row = to_device("external row", row_of_node);
 
   if (std::any_of(contacts.begin(), contacts.end(), [](const ContactPair& pair) { return !pair.has_springs(); }))
-    nodal.free_nodes = {Array<FreeNode*>("free nodes", rows), Array<std::uint64_t*>("multiplicity", rows),
-                        Array<std::uint64_t* [2][3]>("change of multipliers", rows),
-                        Array<int*>("listed free nodes", rows), Array<int*>("number of listed free nodes", 1)};
+    nodal.free_nodes = {
+        Array<SharedNode*>("nodes of rows", rows),   Array<FreeNode*>("free nodes", rows),
+        Array<std::uint64_t*>("multiplicity", rows), Array<std::uint64_t* [2][3]>("change of multipliers", rows),
+        Array<int*>("listed free nodes", rows),      Array<int*>("number of listed free nodes", 1)};
 
   std::vector<int> master_rows;
   for (int n : ties.masters) master_rows.push_back(row_of_node[n]);

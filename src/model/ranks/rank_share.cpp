@@ -32,17 +32,24 @@ bool is_outer(const RankLayout& layout, int node) {
 
 /// Of the model's shared nodes, in their order, those that a rank moves.
 void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
-  const auto all = to_vector(model.shared_nodes);
+  SharedNodes& shared = model.shared;
+  const auto all = to_vector(shared.nodes);
+  const auto all_special = to_vector(shared.special);
   const auto first = to_vector(model.nodes.first_partial);
   std::vector<SharedNode> kept;
+  std::vector<SpecialNode> special;
   std::vector<int> kept_before(all.size() + 1, 0);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int n = all[i].node & ~special_bit;
     const bool of_no_block = first[n + 1] == first[n];
-    if (layout.touches[rank][n] != 0 || (rank == 0 && of_no_block)) kept.push_back(all[i]);
+    if (layout.touches[rank][n] != 0 || (rank == 0 && of_no_block)) {
+      kept.push_back(all[i]);
+      if (i >= static_cast<std::size_t>(shared.first_special)) special.push_back(all_special[i - shared.first_special]);
+    }
     kept_before[i + 1] = static_cast<int>(kept.size());
   }
-  model.shared_nodes = to_device("shared nodes of this rank", kept);
+  shared = {to_device("shared nodes of this rank", kept), to_device("special nodes of this rank", special),
+            kept_before[shared.first_special]};
   model.early_shared = kept_before[model.early_shared];
   for (int& end : model.subcycling.shared_end) end = kept_before[end];
 }

@@ -45,7 +45,8 @@ struct MeanMotionSum {
     for (int i = 0; i < 3; ++i) sum[i] += of_place * moved[i];
     if (of_motion == 0) return;  // a tied node has next to no mass: its own acceleration may be no number
     Vector3 a = acceleration.plain(n);
-    Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * acceleration(n);
+    const Vector3 own = acceleration.levels.level.extent(0) == 0 ? a : acceleration(n);
+    Vector3 v = row(nodes.velocity, n) + (acceleration.levels.steps(n) * lag) * own;
     if (const int r = driven.extent(0) > 0 ? driven(k) : -1; r >= 0) {
       a = a + row(driven_acceleration, r);
       v = v + lag * row(driven_acceleration, r);
@@ -175,8 +176,23 @@ void queue_mean_motions(const PartedLists& parts, std::vector<MeanMotion>& means
 
 }  // namespace
 
-HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part,
-                                 SampledRanks* others) {
+namespace {
+
+/// What histories need besides what the monitor does, when the sums are fetched.
+void queue_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others,
+                          Reductions& sums) {
+  // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
+  find_driven_accelerations(model, model.prescribed, step, model.motion_histories);
+  sum_all_parts(model, SampledSums::histories, step, others);
+  queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
+  queue_element_means(model, sample.elements, sums);
+  queue_load_totals(model, model, model.beams, sample.loads, sums);
+  queue_reactions(model, model.prescribed, step, sample.reactions, sums);
+}
+
+/// All that is asked for is waited for once.
+HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others,
+                        bool with_histories) {
   HistorySample sample;
   sample.time = model.time;
   sample.step = model.step;
@@ -185,6 +201,7 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
   Reductions sums(*model.reduction_space);
   queue_energies(model, step, sample.energy, by_part != nullptr, sums);
   for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
+  if (with_histories) queue_history_values(model, step, sample, others, sums);
   sums.fetch();
   if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -193,26 +210,26 @@ HistorySample sample_for_monitor(const Model& model, double step, std::vector<Pa
     if (pair.partner >= 0) add_other_half(pairs[c], pairs[pair.partner]);
     sample.contacts.push_back(pairs[c]);
   }
+  if (with_histories && model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
   return sample;
 }
 
+}  // namespace
+
+HistorySample sample_for_monitor(const Model& model, double step, std::vector<PartEnergy>* by_part,
+                                 SampledRanks* others) {
+  return sample_at(model, step, by_part, others, false);
+}
+
 void add_history_values(const Model& model, double step, HistorySample& sample, SampledRanks* others) {
-  // Nodes that a prescribed motion moves are rank 0's, as all of their blocks are.
-  find_driven_accelerations(model, model.prescribed, step, model.motion_histories);
-  sum_all_parts(model, SampledSums::histories, step, others);
   Reductions sums(*model.reduction_space);
-  queue_mean_motions(model.motion_histories.parts, sample.sets, sums);
-  queue_element_means(model, sample.elements, sums);
-  queue_load_totals(model, model, model.beams, sample.loads, sums);
-  queue_reactions(model, model.prescribed, step, sample.reactions, sums);
+  queue_history_values(model, step, sample, others, sums);
   sums.fetch();
   if (model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
 }
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others) {
-  HistorySample sample = sample_for_monitor(model, step, by_part, others);
-  add_history_values(model, step, sample, others);
-  return sample;
+  return sample_at(model, step, by_part, others, true);
 }
 
 }  // namespace railwave

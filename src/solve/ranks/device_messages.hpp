@@ -9,7 +9,8 @@
 
 namespace railwave {
 
-/// Messages from one GPU's memory to another's, in the order of launches: the host waits for none of them.
+/// Messages from one GPU's memory to another's, in the order of launches in a space of their own: the host waits for
+/// none of them.
 class DeviceMessages {
  public:
   virtual ~DeviceMessages() = default;
@@ -23,10 +24,14 @@ class DeviceMessages {
     std::size_t received_bytes;
   };
 
-  /// They leave when all is done that has been launched in a space, beside what is launched there next.
-  virtual void start(const ExecutionSpace& space, const std::vector<Message>& messages) = 0;
-  /// What is launched in the space from now on comes after them.
-  virtual void finish(const ExecutionSpace& space) = 0;
+  /// Its launches come before those of others that wait for a place on the device.
+  virtual const ExecutionSpace& space() const = 0;
+  /// What is launched in space() from now on comes after all that has been launched in the default order.
+  virtual void begin() = 0;
+  /// They leave when all is done that has been launched in space(); what is launched there next comes after them.
+  virtual void exchange(const std::vector<Message>& messages) = 0;
+  /// What is launched in the default order from now on comes after all that has been launched in space().
+  virtual void finish() = 0;
 };
 
 /// By NCCL, where the program was built with it and each rank has a GPU of its own, but for

@@ -47,46 +47,66 @@ class Mark {
   cudaEvent_t event_ = nullptr;
 };
 
-class NcclMessages : public DeviceMessages {
+/// A stream whose launches come before those of others.
+class UrgentStream {
  public:
-  /// @param id of rank 0, known to all
-  NcclMessages(const ncclUniqueId& id, const Transport& transport) {
-    // Rows go from one rank to one other. Multicast would be set up for nothing.
-    setenv("NCCL_NVLS_ENABLE", "0", 0);
-    // Before blocks that wait for a place on the device: few of them leave none for a message.
+  UrgentStream() {
     int least = 0, greatest = 0;
     check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
     check(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest), "make a stream");
-    const ncclResult_t result = ncclCommInitRank(&ranks_, transport.ranks(), id, transport.rank());
-    if (result == ncclSuccess) return;
+  }
+  ~UrgentStream() {
+    cudaStreamSynchronize(stream_);
     cudaStreamDestroy(stream_);
-    check(result, "join the ranks");
+  }
+  UrgentStream(const UrgentStream&) = delete;
+  UrgentStream& operator=(const UrgentStream&) = delete;
+
+  cudaStream_t get() const { return stream_; }
+
+ private:
+  cudaStream_t stream_ = nullptr;
+};
+
+class NcclMessages : public DeviceMessages {
+ public:
+  /// @param id of rank 0, known to all
+  NcclMessages(const ncclUniqueId& id, const Transport& transport) : space_(stream_.get()) {
+    // Rows go from one rank to one other. Multicast would be set up for nothing.
+    setenv("NCCL_NVLS_ENABLE", "0", 0);
+    // A message takes a tenth of a step, and what waits for one takes room from elements: few of its blocks are enough.
+    setenv("NCCL_MAX_P2P_NCHANNELS", "2", 0);
+    check(ncclCommInitRank(&ranks_, transport.ranks(), id, transport.rank()), "join the ranks");
   }
   ~NcclMessages() override {
-    cudaStreamSynchronize(stream_);
+    cudaStreamSynchronize(stream_.get());
     ncclCommDestroy(ranks_);
-    cudaStreamDestroy(stream_);
   }
   NcclMessages(const NcclMessages&) = delete;
   NcclMessages& operator=(const NcclMessages&) = delete;
 
-  void start(const ExecutionSpace& space, const std::vector<Message>& messages) override {
-    packed_.pass(space.cuda_stream(), stream_);
+  const ExecutionSpace& space() const override { return space_; }
+
+  void begin() override { begun_.pass(ExecutionSpace().cuda_stream(), stream_.get()); }
+
+  void exchange(const std::vector<Message>& messages) override {
     check(ncclGroupStart(), "begin");
     for (const Message& one : messages) {
-      if (one.sent_bytes > 0) check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, stream_), "send");
+      if (one.sent_bytes > 0)
+        check(ncclSend(one.sent, one.sent_bytes, ncclChar, one.other, ranks_, stream_.get()), "send");
       if (one.received_bytes > 0)
-        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, stream_), "receive");
+        check(ncclRecv(one.received, one.received_bytes, ncclChar, one.other, ranks_, stream_.get()), "receive");
     }
     check(ncclGroupEnd(), "exchange rows");
   }
 
-  void finish(const ExecutionSpace& space) override { arrived_.pass(stream_, space.cuda_stream()); }
+  void finish() override { done_.pass(stream_.get(), ExecutionSpace().cuda_stream()); }
 
  private:
-  cudaStream_t stream_ = nullptr;
+  UrgentStream stream_;
+  ExecutionSpace space_;
   ncclComm_t ranks_ = nullptr;
-  Mark packed_, arrived_;
+  Mark begun_, done_;
 };
 
 /// Whether users leave the way of rows to the program.

@@ -47,18 +47,20 @@ struct RowExchange::Buffers {
 namespace {
 
 template <class S>
-void pack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
+void pack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
+          const RankShare& share) {
   const int count = static_cast<int>(share.sent.extent(0));
   if (count > 0)
-    Kokkos::parallel_for("pack_rows", Range(0, count),
+    Kokkos::parallel_for("pack_rows", Range(space, 0, count),
                          PackedValues<PartialForce<S>, true>{rows, share.sent, 1, buffers.sent.device});
 }
 
 template <class S>
-void unpack(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers, const RankShare& share) {
+void unpack(const ExecutionSpace& space, const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers,
+            const RankShare& share) {
   const int count = static_cast<int>(share.received.extent(0));
   if (count > 0)
-    Kokkos::parallel_for("unpack_rows", Range(0, count),
+    Kokkos::parallel_for("unpack_rows", Range(space, 0, count),
                          PackedValues<PartialForce<S>, false>{rows, share.received, 1, buffers.received.device});
 }
 
@@ -123,12 +125,32 @@ void RowExchange::with_rows(const Do& act) const {
     act(nodal_.partial.in_double, buffers_->in_double);
 }
 
-Task RowExchange::send_task() {
-  Task task{"forces on nodes of other ranks, sent", "b, c", [this](const Instant&) {
+std::vector<Task> RowExchange::begin_tasks() {
+  if (!buffers_->on_devices) return {};
+  Task task{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }};
+  task.recordable = false;
+  return {task};
+}
+
+const ExecutionSpace* RowExchange::outer_space() const {
+  return buffers_->on_devices ? &buffers_->on_devices->space() : nullptr;
+}
+
+template <class S>
+void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const {
+  const ExecutionSpace& space = *outer_space();
+  pack(space, rows, buffers, share_);
+  buffers_->on_devices->exchange(device_messages_of(buffers, share_));
+  unpack(space, rows, buffers, share_);
+  buffers_->unpacked.put(space);
+}
+
+Task RowExchange::send_task(bool beside) {
+  Task task{"forces on nodes of other ranks, sent", "b, c", [this, beside](const Instant&) {
+              if (buffers_->on_devices && !beside) buffers_->on_devices->begin();
               with_rows([this](const auto& rows, const auto& buffers) {
-                pack(rows, buffers, share_);
-                if (buffers_->on_devices)
-                  return buffers_->on_devices->start(ExecutionSpace(), device_messages_of(buffers, share_));
+                if (buffers_->on_devices) return exchange_on_devices(rows, buffers);
+                pack(ExecutionSpace(), rows, buffers, share_);
                 // A host is done with them now; a device has yet to begin, and gets the inner blocks first.
                 if constexpr (on_device)
                   buffers_->packed.put(ExecutionSpace());
@@ -143,20 +165,17 @@ Task RowExchange::send_task() {
 
 Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
+              if (buffers_->on_devices) {
+                buffers_->on_devices->finish();
+                return wait_for_rows(most_steps_ahead);
+              }
               with_rows([this](const auto& rows, const auto& buffers) {
-                if (buffers_->on_devices) {
-                  buffers_->on_devices->finish(ExecutionSpace());
-                  unpack(rows, buffers, share_);
-                  buffers_->unpacked.put(ExecutionSpace());
-                  wait_for_rows(most_steps_ahead);
-                  return;
-                }
                 if constexpr (on_device) {
                   buffers_->packed.wait();
                   start_messages(buffers, share_, buffers_->copies, transport_);
                 }
                 finish_messages(buffers, buffers_->copies, transport_);
-                unpack(rows, buffers, share_);
+                unpack(ExecutionSpace(), rows, buffers, share_);
               });
             }};
   task.stage = Stage::own_forces;

@@ -6,6 +6,9 @@
 
 namespace railwave {
 
+template <class S>
+struct PrecisionBuffers;
+
 /// Brings to each rank the rows of partial forces that others' blocks leave for its nodes. All ranks that have a node
 /// add its rows in the same order, so that it goes the same way on each.
 class RowExchange {
@@ -23,13 +26,23 @@ class RowExchange {
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
   void wait_for_rows(long steps_ahead = 0) const;
 
+  /// In whose order outer blocks may launch their forces, beside all others; null: the default one, and rows go through
+  /// the host.
+  const ExecutionSpace* outer_space() const;
+  /// The first of a step: what is launched there comes after the step before.
+  std::vector<Task> begin_tasks();
   /// To come after the outer blocks' forces: the rows are on their way from then on.
-  Task send_task();
+  /// @param beside these are in outer_space()
+  Task send_task(bool beside);
   /// Before anything that needs all forces.
   Task receive_task();
 
  private:
   struct Buffers;
+
+  /// In outer_space(), all of it.
+  template <class S>
+  void exchange_on_devices(const Array<PartialForce<S>*>& rows, const PrecisionBuffers<S>& buffers) const;
 
   /// Calls act(rows of partial forces, their buffers).
   template <class Do>

@@ -59,7 +59,7 @@ void block_forces(const NodalState& nodal, const ElementGroup& group, const Node
       return;
     }
   }
-  launch_blocks(group.blocks, launch.listed, force);
+  launch_blocks(group.blocks, launch.listed, force, instant.space());
 }
 
 inline NodeAdvance advance_of(const NodalState& nodal, const ElementGroup& group, double step,

@@ -20,7 +20,7 @@ Task subcycled_task(const NodalState& nodal, bool shared_alone) {
             const int phase = nodal.subcycling.phase(nodal.step);
             SubcycledNodeUpdate update{nodal.subcycled_acceleration(), node_advance(nodal, instant.step), {}};
             update.acceleration.phase = phase;
-            if (shared_alone) update.shared = nodal.shared_nodes;
+            if (shared_alone) update.shared = nodal.shared.nodes;
             const int count = shared_alone ? nodal.subcycling.shared_end[phase] : nodal.nodes.count;
             if (count > 0) Kokkos::parallel_for("subcycled_nodes", Range(0, count), update);
           }};
@@ -36,29 +36,32 @@ Task relative_blocks_task(const NodalState& nodal, const std::vector<ElementGrou
           }};
 }
 
-/// Of nodal.shared_nodes.
+/// Of nodal.shared.
 struct SharedRange {
   std::string name;
   int begin, end;
 };
 
 /// @param rows_are_due the loads that follow from sets are left to the nodes that feel them
+SharedForces shared_forces(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const Instant& instant) {
+  return {nodal.acceleration(), nodal.shared, row_loads(nodal, loads, instant.elapsed), rows_are_due};
+}
+
 Task relative_shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due,
                           const SharedRange& range) {
   return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
-            Kokkos::parallel_for("shared_nodes", Range(range.begin, range.end),
-                                 RelativeSharedUpdate{nodal.acceleration(), relative_advance(nodal, {}, instant.step),
-                                                      nodal.shared_nodes, nodal.relative.shared_arm,
-                                                      row_loads(nodal, loads, instant.elapsed), rows_are_due});
+            Kokkos::parallel_for(
+                "shared_nodes", Range(range.begin, range.end),
+                RelativeSharedUpdate{shared_forces(nodal, loads, rows_are_due, instant),
+                                     relative_advance(nodal, {}, instant.step), nodal.relative.shared_arm});
           }};
 }
 
 Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_due, const SharedRange& range) {
   return {range.name, "f to j", [&nodal, &loads, rows_are_due, range](const Instant& instant) {
-            Kokkos::parallel_for(
-                "shared_nodes", Range(range.begin, range.end),
-                SharedNodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step), nodal.shared_nodes,
-                                 row_loads(nodal, loads, instant.elapsed), rows_are_due});
+            Kokkos::parallel_for("shared_nodes", Range(range.begin, range.end),
+                                 SharedNodeUpdate{shared_forces(nodal, loads, rows_are_due, instant),
+                                                  node_advance(nodal, instant.step)});
           }};
 }
 
@@ -128,7 +131,7 @@ std::vector<Task> node_tasks(const NodalState& nodal, const std::vector<ElementG
     append(tasks,
            placed({(relative ? relative_shared_task : shared_task)(nodal, loads, along.sets, range)}, stage, lane));
   };
-  const int all = static_cast<int>(nodal.shared_nodes.extent(0)), early = inner_have_moved ? nodal.early_shared : 0;
+  const int all = static_cast<int>(nodal.shared.nodes.extent(0)), early = inner_have_moved ? nodal.early_shared : 0;
   const std::string name = "nodes that element blocks share";
   if (early > 0) add({name + ", beside multipliers and prescribed motions", 0, early}, Stage::motion, 1);
   add({name, early, all}, Stage::other_motion, 0);

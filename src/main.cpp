@@ -86,7 +86,7 @@ int run_case(const Arguments& arguments) {
   const KokkosScope kokkos;
   Model model;
   std::vector<std::string> notes;
-  build_model(scene, assemble(scene, notes), model);
+  build_model(scene, assemble(scene, notes), model, others.transport());
   report("note", notes, std::cout);
   if (others.transport() != nullptr) refuse_on_ranks(model);
   check_run_places(scene, files);  // again, now that meshes have read what they include

@@ -194,8 +194,10 @@ struct NodalAcceleration {
 struct NodeUpdate {
   NodalAcceleration acceleration;
   NodeAdvance advance;
+  Array<const int*> listed = {};  ///< nodes to move; empty: all
 
-  KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const int i) const {
+    const int n = listed.extent(0) > 0 ? listed(i) : i;
     advance.move(n, acceleration(n));
     if (advance.nodes.external_row(n) >= 0) acceleration.force.external.clear_contact(advance.nodes.external_row(n));
   }

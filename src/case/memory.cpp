@@ -8,6 +8,9 @@
 #include <limits>
 #include <regex>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 
 #include "case/error.hpp"
@@ -53,6 +56,17 @@ double left_of_container() {
 
 double available_memory() {
   return std::min({1024 * entry_of("/proc/meminfo", "MemAvailable:"), left_of_address_space(), left_of_container()});
+}
+
+double peak_memory() {
+  const double kilobytes = entry_of("/proc/self/status", "VmHWM:");
+  return std::isfinite(kilobytes) ? 1024 * kilobytes : 0;
+}
+
+void give_freed_memory_back() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 std::string bytes_text(double bytes) {

@@ -14,6 +14,12 @@ inline constexpr double bytes_of_mesh_element = 250, bytes_of_model_element = 23
 /// (ulimit -v) or for the container around it. Infinity where the system doesn't tell.
 double available_memory();
 
+/// The most bytes of memory that this process has taken so far; 0 where the system doesn't tell.
+double peak_memory();
+
+/// Small pieces that were freed go back to the system where they are whole pages.
+void give_freed_memory_back();
+
 /// "3.2 GB", by powers of 1000.
 std::string bytes_text(double bytes);
 

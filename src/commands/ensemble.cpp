@@ -16,12 +16,12 @@
 #include "commands/threads.hpp"
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
+#include "model/ranks/transport.hpp"
 #include "output/checkpoint_file.hpp"
 #include "output/progress.hpp"
 #include "output/results_file.hpp"
 #include "output/run_places.hpp"
 #include "output/settled_file.hpp"
-#include "solve/ranks/transport.hpp"
 #include "solve/time_loop.hpp"
 
 namespace railwave {

@@ -26,18 +26,19 @@ void complain(int rank, const std::exception& error) {
 }
 
 /// Whoever reads sees what rank 0 says; it says the same of the case.
-int build(const std::string& case_file, const std::vector<std::string>& overrides, Model& model) {
+int build(const std::string& case_file, const std::vector<std::string>& overrides, Transport& transport, Model& model) {
   try {
     scene::Scene scene = read_case(case_file, overrides, nullptr);
     place_contact_zones(scene);
     std::vector<std::string> notes;
-    build_model(scene, assemble(scene, notes), model);
+    build_model(scene, assemble(scene, notes), model, &transport);
     refuse_on_ranks(model);
     return done;
   } catch (const InputError&) {
     return wrong_input;
   } catch (const std::exception& error) {
-    complain(rank_of_process(), error);
+    if (transport.followers_have_ended) return done;  // another rank has failed, and says so
+    complain(transport.rank(), error);
     return failed;
   }
 }
@@ -52,7 +53,8 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   if (!transport) return failed;
   const KokkosScope kokkos;
   Model model;
-  const int built = build(case_file, overrides, model);
+  const int built = build(case_file, overrides, *transport, model);
+  if (transport->followers_have_ended) return built;  // all know that it is over
   if (!transport->all_agree(built == done)) return built;
   try {
     follow_rank_0(model, *transport);
@@ -64,7 +66,7 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
 }
 
 OtherRanks::~OtherRanks() {
-  if (!transport_) return;
+  if (!transport_ || transport_->followers_have_ended) return;
   if (told_)
     end_followers(*transport_);
   else

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "solve/ranks/transport.hpp"
+#include "model/ranks/transport.hpp"
 
 /// Runs of several processes, which mpirun starts. Rank 0 is the program as it is alone: it reads, writes, reports and
 /// decides; the others say nothing and compute what it asks for.

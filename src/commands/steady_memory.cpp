@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t of_libraries = std::size_t{16} << 20;  ///< bytes: many times what they take to begin
 std::atomic<bool> begun{false};
+constexpr int of_own_pages = 1 << 20;  ///< bytes
 constexpr std::size_t of_stack = std::size_t{1} << 20;
 
 void expect(std::size_t bytes) {
@@ -53,6 +54,8 @@ void end_for_want_of_memory() noexcept {
 
 void steady_memory() {
   if (std::getenv("MALLOC_ARENA_MAX") == nullptr) mallopt(M_ARENA_MAX, 1);
+  // Arrays of a model have pages of their own, which go back to the system when they are freed.
+  if (std::getenv("MALLOC_MMAP_THRESHOLD_") == nullptr) mallopt(M_MMAP_THRESHOLD, of_own_pages);
   rlimit limit{};
   const bool known = getrlimit(RLIMIT_STACK, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
   const std::size_t stack = known ? std::min<std::size_t>(of_stack, limit.rlim_cur / 4) : of_stack;

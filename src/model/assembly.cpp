@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "case/activity.hpp"
 #include "case/complaints.hpp"
@@ -94,18 +96,30 @@ Mesh mesh_of(const scene::Scene& scene, const scene::Part& part, std::map<std::s
   return submesh(mesh, set->second);
 }
 
-void append(Assembly& assembly, const Mesh& mesh, const std::string& part) {
+/// Puts values behind others, where there are none without a copy.
+template <class T>
+void put_behind(std::vector<T>& all, std::vector<T>&& more) {
+  if (all.empty())
+    all = std::move(more);
+  else
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+std::vector<int> numbers_from(int first, std::size_t count) {
+  std::vector<int> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+void append(Assembly& assembly, Mesh&& mesh, const std::string& part) {
   const int first_node = static_cast<int>(assembly.nodes.size());
   const int first_element = static_cast<int>(assembly.elements.size());
-  for (const Vec3& node : mesh.nodes) assembly.nodes.push_back(node);
-  for (auto corners : mesh.elements) {
+  assembly.node_sets[part] = numbers_from(first_node, mesh.nodes.size());
+  assembly.element_sets[part] = numbers_from(first_element, mesh.elements.size());
+  for (auto& corners : mesh.elements)
     for (int& n : corners) n += first_node;
-    assembly.elements.push_back(corners);
-  }
-  auto& all_nodes = assembly.node_sets[part];
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) all_nodes.push_back(first_node + static_cast<int>(n));
-  auto& all_elements = assembly.element_sets[part];
-  for (std::size_t e = 0; e < mesh.elements.size(); ++e) all_elements.push_back(first_element + static_cast<int>(e));
+  put_behind(assembly.nodes, std::move(mesh.nodes));
+  put_behind(assembly.elements, std::move(mesh.elements));
   for (const auto& [name, nodes] : mesh.node_sets)
     for (int n : nodes) assembly.node_sets[part + "." + name].push_back(first_node + n);
   for (const auto& [name, elements] : mesh.element_sets)
@@ -320,7 +334,7 @@ Assembly assemble(const scene::Scene& scene, std::vector<std::string>& notes) {
     range.element_count = static_cast<int>(mesh.elements.size());
     range.material = static_cast<int>(find_entry(scene.materials, part.material) - scene.materials.data());
     assembly.parts.push_back(range);
-    append(assembly, mesh, part.name);
+    append(assembly, std::move(mesh), part.name);
   }
   shared.clear();
   for (const scene::PointMass& point : scene.points) {

@@ -12,6 +12,7 @@
 #include "model/elements/element_model.hpp"
 #include "model/loads/load_model.hpp"
 #include "model/nodal_state.hpp"
+#include "model/ranks/transport.hpp"
 
 /// The steps of build_model, each in a file of its own.
 namespace railwave {
@@ -26,12 +27,26 @@ void refuse_unknown_methods(const scene::Scene& scene);
 void expect_model_memory(const Assembly& assembly);
 /// element_groups.cpp: InputError for an element that is inverted or flat
 void check_elements(const AssembledScene& assembled);
-/// element_groups.cpp: blocks, hourglass scales, lengths, masses
-void build_elements(AssembledScene& assembled, const AbsorbingLayers& absorbing, ElementModel& elements,
-                    PartialForces& partial);
-/// node_arrays.cpp: state, gather lists, constraints
-void build_node_arrays(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, const Ties& ties,
-                       NodalState& nodal);
+/// element_groups.cpp: lengths of elements, masses of nodes
+void weigh_elements(AssembledScene& assembled);
+/// element_groups.cpp: groups of blocks with their nodes and constants of materials
+void build_blocks(const AssembledScene& assembled, const AbsorbingLayers& absorbing, ElementModel& elements);
+/// fill_blocks.cpp: what elements of blocks are computed with beside their nodes
+/// @param rank whose blocks are filled, where ElementGroup::owner says whose they are; -1: all
+void fill_blocks(const AssembledScene& assembled, const AbsorbingLayers& absorbing, int rank, ElementModel& elements);
+/// fill_blocks.cpp: what steps change of blocks, and what they leave for the nodes
+void build_block_state(ElementModel& elements, PartialForces& partial);
+/// node_arrays.cpp: masses, constraints
+void build_node_masses(const AssembledScene& assembled, const Ties& ties, NodalState& nodal);
+/// node_arrays.cpp: which rows of partial forces a node adds, and which nodes blocks advance
+void build_gather(std::vector<ElementGroup>& groups, NodalState& nodal);
+/// node_arrays.cpp: places, reference and present, and velocities
+/// @param wanted by node, those whose places are set; empty: all
+void build_node_places(const Assembly& assembly, const std::vector<char>& wanted, NodeArrays& nodes);
+/// node_arrays.cpp: the reference of these nodes; of others it stays
+void set_reference(const Assembly& assembly, const std::vector<char>& wanted, const NodeArrays& nodes);
+/// node_arrays.cpp: positions as in the reference
+void put_at_reference(const NodeArrays& nodes);
 /// relative_coordinates.cpp: nodes in single precision
 void build_relative_nodes(const AssembledScene& assembled, std::vector<ElementGroup>& groups, Ties& ties,
                           NodalState& nodal);
@@ -68,7 +83,10 @@ void refuse_contradictions(const AssembledScene& assembled, const std::vector<Co
 void resolve_rolling(AssembledScene& assembled);
 /// stable_step.cpp: the stable step by each estimate, which may need the frequency of the whole model. plan_steps then
 /// sets the size and number of steps
-void build_stable_step(Model& model);
+/// @param transport of the ranks that make the model together; null: this process is alone
+void build_stable_step(Model& model, Transport* transport = nullptr);
+/// stable_step.cpp: what other ranks do while rank 0 builds the stable step
+void help_with_stable_step(Model& model, Transport& transport);
 /// subcycling.cpp: levels of nodes
 void build_subcycling(const std::vector<ElementGroup>& groups, const NonReflectingEnds& ends, NodalState& nodal);
 /// node_arrays.cpp: of shared nodes those that nothing but elements concern come first, and last those of multipliers

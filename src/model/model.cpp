@@ -1,28 +1,47 @@
 #include "model/model.hpp"
 
+#include <utility>
+
 #include "case/activity.hpp"
+#include "case/memory.hpp"
+#include "kernels/support/set_zero.hpp"
 #include "model/beams/beams.hpp"
 #include "model/boundaries/absorbing_boundaries.hpp"
 #include "model/build_steps.hpp"
 #include "model/contact/contact_law.hpp"
+#include "model/host_copy.hpp"
+#include "model/ranks/block_partition.hpp"
+#include "model/ranks/rank_share.hpp"
 #include "model/visit_arrays.hpp"
 
 namespace railwave {
 
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
-void build_model(const scene::Scene& scene, const Assembly& assembly, Model& model) {
-  refuse_unknown_methods(scene);
-  model.scene = scene;
-  model.assembly = assembly;
-  model.gravity = {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
-  expect_model_memory(model.assembly);
-  Activity laying("ordering the elements");
-  check_elements(model);
-  model.order =
-      order_in_blocks(model.assembly, scene.solver.subcycling ? element_levels(scene, assembly) : std::vector<int>{});
-  model.absorbing = absorbing_layers(scene, model.assembly);
-  build_elements(model, model.absorbing, model, model.partial);
+namespace {
+
+/// Nodes of a rank's blocks; on rank 0 also those of no block, and those that are written.
+std::vector<char> nodes_of_rank(const Model& model, int rank) {
+  std::vector<char> wanted(model.nodes.count, 0);
+  if (rank == 0) {
+    for (int n : nodes_of_fields(model.scene, model.assembly)) wanted[n] = 1;
+    for (int n : to_vector(model.sets.nodes)) wanted[n] = 1;
+  }
+  const auto first = to_vector(model.nodes.first_partial);
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (rank == 0 && first[n + 1] == first[n]) wanted[n] = 1;
+  for (const ElementGroup& group : model.elements) {
+    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p)
+      for (int l = 0; group.owner[p] == rank && l < count[p]; ++l)
+        wanted[node[static_cast<std::size_t>(p) * group.blocks.node_stride + l] & ~advance_bit] = 1;
+  }
+  return wanted;
+}
+
+/// All that there is of a model before its elements' arrays.
+void build_surroundings(Model& model) {
+  weigh_elements(model);
   build_beams(model, model.beams);
   {
     const Activity activity("laying out contacts and ties");
@@ -36,18 +55,56 @@ void build_model(const scene::Scene& scene, const Assembly& assembly, Model& mod
   build_prescribed_motions(model, model.prescribed);
   refuse_contradictions(model, model.contacts);
   resolve_rolling(model);
-  build_node_arrays(model, model.elements, model.ties, model);
+  build_node_masses(model, model.ties, model);
+}
+
+void estimate_step(Model& model, Transport* transport) {
+  const Activity estimating("estimating the stable step");
+  if (transport != nullptr && transport->rank() > 0)
+    help_with_stable_step(model, *transport);
+  else
+    build_stable_step(model, transport);
+}
+
+}  // namespace
+
+void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Transport* transport) {
+  refuse_unknown_methods(scene);
+  model.scene = scene;
+  model.assembly = std::move(assembly);
+  model.gravity = {{scene.gravity[0], scene.gravity[1], scene.gravity[2]}};
+  expect_model_memory(model.assembly);
+  Activity laying("ordering the elements");
+  check_elements(model);
+  model.order = order_in_blocks(model.assembly,
+                                scene.solver.subcycling ? element_levels(scene, model.assembly) : std::vector<int>{});
+  model.absorbing = absorbing_layers(scene, model.assembly);
+  build_surroundings(model);
+  // From here on ranks wait for each other.
+  if (transport != nullptr) meet(*transport);
+  const int rank = transport != nullptr ? transport->rank() : 0;
+  const bool all = transport == nullptr || (rank == 0 && rank_0_needs_all(scene));
+  if (all) build_node_places(model.assembly, {}, model.nodes);
+  if (all) reset_to_start(model);
+  estimate_step(model, transport);
+  build_blocks(model, model.absorbing, model);
+  model.order.mesh_number = std::vector<int>();  // no longer asked for
+  build_gather(model.elements, model);
+  if (transport != nullptr) deal_out_blocks(model, *transport);
+  if (!all) build_node_places(model.assembly, nodes_of_rank(model, rank), model.nodes);
+  fill_blocks(model, model.absorbing, all ? -1 : rank, model);
+  model.filled = all;
+  build_block_state(model, model.partial);
   build_relative_nodes(model, model.elements, model.ties, model);
   build_element_histories(model, model);
   build_motion_histories(model.ties, model.prescribed, model);
   build_sum_parts(model.nodes.count, model, model);
   model.left_out = what_is_left_out(model.scene);
   reset_to_start(model);
-  const Activity estimating("estimating the stable step");
-  build_stable_step(model);
   build_subcycling(model.elements, model.ends, model);
   order_shared_nodes(model.contacts, model.prescribed, model);
-  plan_steps(model.scene, model.subcycling.cycle(), model);
+  if (rank == 0) plan_steps(model.scene, model.subcycling.cycle(), model);
+  give_freed_memory_back();
 }
 
 namespace {
@@ -57,11 +114,7 @@ struct ZeroState {
   template <class View>
   void operator()(ArrayUse use, const std::string& /*name*/, View& view, ArrayShape /*shape*/) const {
     if (use == ArrayUse::constant || view.span() == 0) return;
-    if constexpr (!std::is_const_v<typename View::value_type>) {
-      const Kokkos::View<unsigned char*, MemorySpace, Kokkos::MemoryTraits<Kokkos::Unmanaged>> bytes(
-          reinterpret_cast<unsigned char*>(view.data()), view.span() * sizeof(typename View::value_type));
-      Kokkos::deep_copy(bytes, static_cast<unsigned char>(0));
-    }
+    if constexpr (!std::is_const_v<typename View::value_type>) set_zero(view);
   }
 };
 
@@ -78,7 +131,7 @@ struct CountBytes {
 void reset_to_start(Model& model) {
   ZeroState zero;
   visit_model_arrays(zero, model);
-  Kokkos::deep_copy(model.nodes.position, model.nodes.reference);
+  put_at_reference(model.nodes);
   for (const ElementGroup& group : model.elements) renew_frames(model.nodes, group);
   reset_beams(model.beams, model.nodes);
   hold_ends(model.ends, model.nodes.position, {});
@@ -94,6 +147,13 @@ void reset_to_start(Model& model) {
   model.time = 0;
   model.step = 0;
   model.velocity_lag = 0;
+}
+
+void fill_rest(Model& model) {
+  if (model.filled) return;
+  fill_blocks(model, model.absorbing, -1, model);
+  set_reference(model.assembly, {}, model.nodes);
+  model.filled = true;
 }
 
 std::size_t device_bytes(const Model& model) {

@@ -17,6 +17,7 @@
 namespace railwave {
 
 struct BeamModel;
+class Transport;
 
 /// A scene ready to be computed: its modules, each with its arrays on the device and the host data that describe them.
 /// What works with one module takes that alone; its header says what a module is.
@@ -36,7 +37,13 @@ struct Model : AssembledScene, NodalState, StepSizes, ElementModel, LoadModel {
 void build_model(const scene::Scene& scene, Model& model);
 
 /// The same from an assembly made elsewhere, one part of it for each of the scene's.
-void build_model(const scene::Scene& scene, const Assembly& assembly, Model& model);
+/// @param transport of ranks that make the model together, each with the arrays of its own blocks; null: this process
+/// is alone. Throws std::runtime_error too where another rank could not make it
+void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Transport* transport = nullptr);
+
+/// From now on all blocks and nodes have the constant arrays that one process has, where a rank's model had those of
+/// its own alone.
+void fill_rest(Model& model);
 
 /// Bytes of all device arrays.
 std::size_t device_bytes(const Model& model);

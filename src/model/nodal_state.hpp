@@ -20,6 +20,7 @@ struct NodalState {
   PartialForces partial;
   SharedNodes shared;    ///< those that no block advances by itself
   int early_shared = 0;  ///< so many of them, the first, know neither multipliers nor prescribed motions
+  Array<int*> own_nodes;  ///< those that a rank moves; empty: all
   ExternalForces external;
   FreeNodeArrays free_nodes;   ///< of contacts by multipliers; empty without
   Vector3 gravity{{0, 0, 0}};  ///< m/s2

@@ -358,6 +358,7 @@ void visit_model_arrays(Visitor& visitor, Model& model) {
   own(ArrayUse::constant, "constraints", model.constraints);
   own(ArrayUse::constant, "shared_nodes", model.shared.nodes);
   own(ArrayUse::constant, "special_nodes", model.shared.special);
+  own(ArrayUse::constant, "own_nodes", model.own_nodes);
   own(ArrayUse::constant, "more_places", model.partial.more);
   own(ArrayUse::constant, "node_levels", model.subcycling.node_levels.level);
   // The account of damping takes the rows of the step before.

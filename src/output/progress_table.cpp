@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "case/memory.hpp"
 #include "output/histories/history_values.hpp"
 
 namespace railwave {
@@ -18,6 +19,12 @@ double size(const Vec3& vector) { return std::hypot(vector[0], vector[1], vector
 
 /// "3.4 %", "0.012 %"; "-" where there is nothing to compare with.
 std::string share(double part, double whole) { return whole > 0 ? fmt::format("{:.2g} %", 100 * part / whole) : "-"; }
+
+std::string memory_text(const std::vector<double>& memory) {
+  std::vector<std::string> each;
+  for (double bytes : memory) each.push_back(bytes_text(bytes));
+  return fmt::format("memory taken at most{}: {}", each.size() > 1 ? ", by rank" : "", fmt::join(each, ", "));
+}
 
 }  // namespace
 
@@ -150,6 +157,7 @@ void ProgressTable::end(const RunSummary& summary) {
   for (const std::string& line : summary.swings) out_ << "  " << line << '\n';
   for (const std::string& line : summary.step_estimates) out_ << "  step " << line << '\n';
   for (const std::string& line : summary.subcycling) out_ << "  subcycling: " << line << '\n';
+  if (!summary.memory.empty() && summary.memory[0] > 0) out_ << "  " << memory_text(summary.memory) << '\n';
   if (!summary.ranks.empty()) out_ << "  " << summary.ranks << '\n';
   out_ << fmt::format("  wall time {}, {:.2f} million element-steps per second ({} elements)\n",
                       duration_text(summary.wall_seconds), 1e-6 * summary.element_steps_per_second,

@@ -40,6 +40,7 @@ struct RunSummary {
   double wall_seconds = 0;
   double element_steps_per_second = 0;  ///< of the element updates that were made
   std::vector<std::string> swings;      ///< where the run began unsettled: how its contact forces oscillated
+  std::vector<double> memory;           ///< bytes, by rank: the most that each process has taken
   std::string ranks;                  ///< of a run over several: how rows went, what came to rank 0; empty: one process
   std::optional<Fault> fault;         ///< what stopped it, if the monitor did
   std::vector<std::string> warnings;  ///< what may have cost accuracy

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "case/memory.hpp"
 #include "model/checks/doubts.hpp"
 #include "solve/launch_graph.hpp"
 #include "solve/monitor/account.hpp"
@@ -100,7 +101,7 @@ class TimeLoop {
         recording_(model, plans_.of(StepKind::advancing), space) {
     if (keeping.from) take_up(*keeping.from);
     summary_.first_step = model.step;
-    if (leader_) leader_->begin();
+    if (leader_) leader_->begin(keeping.from == nullptr);
   }
 
   /// Takes a step, or the steps of a graph. @return false: the run has ended
@@ -164,6 +165,7 @@ class TimeLoop {
     summary_.completed = summary_.reason.empty();
     summary_.left_out = model_.left_out;
     if (leader_) summary_.ranks = leader_->summary();
+    summary_.memory = leader_ ? leader_->peak_memories() : std::vector<double>{peak_memory()};
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
     summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
@@ -272,7 +274,7 @@ class TimeLoop {
   }
 
   void monitor_and_output() {
-    if (leader_ && fields_due_.any()) leader_->gather();
+    if (leader_ && fields_due_.any()) leader_->gather_fields();
     if (only_fields_) {  // energies and sums of forces are nobody's then, and take longer than the fields
       HistorySample sample;
       sample.time = model_.time;

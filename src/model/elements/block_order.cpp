@@ -1,6 +1,7 @@
 #include "model/elements/block_order.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "kernels/elements/element_blocks.hpp"
 
@@ -60,16 +61,27 @@ std::vector<int> node_order(const Assembly& assembly, const std::vector<int>& el
   return number;
 }
 
+/// Moves each value to its new place, without a second list of them: they are the largest that a mesh has.
+template <class T>
+void put_in_order(std::vector<T>& values, const std::vector<int>& place) {
+  std::vector<bool> moved(values.size(), false);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (moved[k]) continue;
+    T value = values[k];
+    for (auto to = static_cast<std::size_t>(place[k]); !moved[to]; to = static_cast<std::size_t>(place[to])) {
+      std::swap(value, values[to]);
+      moved[to] = true;
+    }
+  }
+}
+
 void renumber(Assembly& assembly, const std::vector<int>& elements, const std::vector<int>& node_number) {
   std::vector<int> element_number(elements.size());
   for (std::size_t k = 0; k < elements.size(); ++k) element_number[elements[k]] = static_cast<int>(k);
-  std::vector<Vec3> nodes(assembly.nodes.size());
-  for (std::size_t n = 0; n < nodes.size(); ++n) nodes[node_number[n]] = assembly.nodes[n];
-  assembly.nodes = std::move(nodes);
-  std::vector<std::array<int, 8>> corners(elements.size());
-  for (std::size_t k = 0; k < elements.size(); ++k)
-    for (int N = 0; N < 8; ++N) corners[k][N] = node_number[assembly.elements[elements[k]][N]];
-  assembly.elements = std::move(corners);
+  put_in_order(assembly.nodes, node_number);
+  for (auto& corners : assembly.elements)
+    for (int& n : corners) n = node_number[n];
+  put_in_order(assembly.elements, element_number);
   for (auto& chain : assembly.beam_chains)
     for (int& n : chain.nodes) n = node_number[n];
   for (auto& [name, set] : assembly.node_sets)

@@ -114,7 +114,7 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   model.scene = scene;
   model.assembly = assembly;
   model.absorbing = absorbing_layers(scene, assembly);
-  build_elements(model, model.absorbing, model, model.partial);
+  weigh_elements(model);
   build_contacts(model, model.contacts);
   model.connectors.cells = connector_cells(scene, assembly, model.mass);
   build_stable_step(model);

@@ -35,6 +35,8 @@ struct ElementGroup {
   int first_partial = 0;            ///< row of the first block's first node in the partial forces
   std::vector<int> first_element;   ///< of each block, in the assembly's numbering
   std::vector<int> element_count;   ///< of each block
+  std::vector<int> part_of_row;     ///< position in the scene's parts of each row of constants
+  std::vector<int> owner;           ///< rank that computes each block; empty: there is but this process
   Array<double* [2]> block_energy;  ///< J, elastic and hourglass, of each block: where the account works
   Array<double*> slot_sums;         ///< J, work of flow of every so many slots of each block; empty: nothing flows
   Array<double* [energies_of_block]> block_sums;  ///< J, of each block: what the account adds
@@ -53,6 +55,7 @@ struct ElementHistories;
 /// The elements of a model with their materials.
 struct ElementModel {
   bool in_single = false;  ///< they are computed in single precision
+  bool filled = true;      ///< all blocks have their arrays; false: those that this rank computes, see fill_rest()
   BlockOrder order;
   std::vector<ElementGroup> elements;
   PartedLists node_parts;  ///< one list of all nodes, each with the first block that has it

@@ -7,7 +7,7 @@
 
 namespace railwave {
 
-MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials, std::size_t slots) {
+MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials) {
   MaterialArrays arrays;
   arrays.number = number;
   with_material_type(arrays, [&](auto type) {
@@ -23,7 +23,6 @@ MaterialArrays material_arrays(int number, const std::vector<const scene::Materi
     arrays.constants = to_device("material constants", rows);
     arrays.history_values = Material::history_values;
   });
-  if (arrays.flows()) arrays.history = Array<double*>("material history", arrays.history_values * slots);
   return arrays;
 }
 

@@ -79,9 +79,9 @@ void with_material(const ElementGroup& group, const Work& work) {
                      [&](auto type) { work(material_of<typename decltype(type)::type>(group.material)); });
 }
 
-/// The arrays, but for `volume`, of a group whose elements are of case materials that all have the number `number`.
-/// @param slots of its blocks
-MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials, std::size_t slots);
+/// The arrays, but for `history` and `volume`, of a group whose elements are of case materials that all have the number
+/// `number`.
+MaterialArrays material_arrays(int number, const std::vector<const scene::Material*>& materials);
 
 /// For the summary: what of materials the scene leaves out.
 std::vector<std::string> materials_left_out(const scene::Scene& scene);

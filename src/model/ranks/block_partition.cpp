@@ -10,9 +10,11 @@
 #endif
 
 #include "case/error.hpp"
+#include "case/memory.hpp"
 #include "model/beams/beams.hpp"
 #include "model/host_copy.hpp"
 #include "model/ranks/rank_share.hpp"
+#include "model/ranks/transport.hpp"
 
 namespace railwave {
 namespace {
@@ -180,7 +182,7 @@ void refuse_on_ranks(const Model& model) {
     throw InputError(
         "this program was built without MPI and METIS: it runs on one rank only; scripts/setup --mpi installs both, "
         "then build it anew");
-  if (model.relative.active())
+  if (model.scene.solver.precision == scene::Precision::single_precision)
     throw InputError(
         fmt::format("{}: [solver] precision: nodes in single precision are for one rank only; take precision = "
                     "\"mixed\" or \"double\", or run it as one process",
@@ -209,6 +211,25 @@ BlockPartition partition_blocks(const Model& model, int ranks) {
   return partition;
 }
 
+void deal_out_blocks(Model& model, Transport& transport) {
+  BlockPartition partition;
+  if (transport.rank() == 0) partition = partition_blocks(model, transport.ranks());
+  meet(transport);
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    std::vector<int>& owner = model.elements[g].owner;
+    owner.resize(model.elements[g].blocks.count);
+    if (transport.rank() == 0) owner = partition.owner[g];
+    transport.broadcast(owner.data(), sizeof(int) * owner.size());
+  }
+}
+
+BlockPartition partition_of(const Model& model, int ranks) {
+  BlockPartition partition;
+  partition.ranks = ranks;
+  for (const ElementGroup& group : model.elements) partition.owner.push_back(group.owner);
+  return partition;
+}
+
 std::vector<std::string> describe_ranks(const Model& model, const BlockPartition& partition) {
   std::vector<std::string> lines;
   const RankLayout layout = lay_out_ranks(model, partition);
@@ -228,6 +249,16 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
       "rank 0 has all {} elements beside contact, ties, loads and ends; the largest share of work is {:.2f} times the "
       "mean, so {} ranks are at most {:.2f} times as fast as one",
       partition.bound_elements, partition.imbalance(), partition.ranks, partition.ranks / partition.imbalance()));
+  std::vector<std::string> memory;
+  for (const RankMemory& one : forecast_memory(model, partition)) memory.push_back(bytes_text(one.peak()));
+  BlockPartition alone;
+  alone.elements = {model.element_count()};
+  lines.push_back(fmt::format("memory at most, about, by rank: {}; one process alone: {}", fmt::join(memory, ", "),
+                              bytes_text(forecast_memory(model, alone).front().peak())));
+  if (rank_0_needs_all(model.scene))
+    lines.emplace_back(
+        "rank 0 has the arrays of the whole scene: it settles it or sets it in motion, finds contact, or searches the "
+        "whole scene's step");
   return lines;
 }
 

@@ -31,6 +31,29 @@ void refuse_on_ranks(const Model& model);
 /// Throws what refuse_on_ranks() throws.
 BlockPartition partition_blocks(const Model& model, int ranks);
 
+/// Gives each block its owner on all ranks, as rank 0 has dealt them out: whatever the others' processors make of
+/// METIS. Throws what partition_blocks() throws, on other ranks std::runtime_error.
+void deal_out_blocks(Model& model, Transport& transport);
+
+/// The partition that deal_out_blocks() has left in a model: owners alone.
+BlockPartition partition_of(const Model& model, int ranks);
+
+/// Whether rank 0 needs all arrays before it deals a scene out: to settle it, to set it in motion, to find contact, and
+/// to search the frequencies of more than its elements. On a GPU memory is taken when arrays are made, not when they
+/// are touched.
+bool rank_0_needs_all(const scene::Scene& scene);
+
+/// What a process is expected to take at most, bytes: while the model is made; in steps, before a checkpoint or a field
+/// that is made of whole blocks brings everything to rank 0.
+struct RankMemory {
+  double making = 0, steps = 0;
+  double peak() const { return making > steps ? making : steps; }
+};
+
+/// By rank; of one process where the partition is for one.
+/// @param model whole, as one process has it
+std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition& partition);
+
 /// What a run over several ranks would be like, a line each.
 std::vector<std::string> describe_ranks(const Model& model, const BlockPartition& partition);
 

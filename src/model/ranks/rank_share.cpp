@@ -84,11 +84,26 @@ RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
   return layout;
 }
 
+std::vector<int> nodes_of_fields(const scene::Scene& scene, const Assembly& assembly) {
+  std::vector<int> nodes;
+  for (const std::string& name : scene.output.field_sets) {
+    if (const auto set = assembly.node_sets.find(name); set != assembly.node_sets.end())
+      nodes.insert(nodes.end(), set->second.begin(), set->second.end());
+    if (const auto set = assembly.element_sets.find(name); set != assembly.element_sets.end())
+      for (int e : set->second) nodes.insert(nodes.end(), assembly.elements[e].begin(), assembly.elements[e].end());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
 ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank) {
   ShareItems items;
   items.rank = rank;
   for (int n = 0; n < model.nodes.count; ++n)
     if (layout.touches[rank][n] != 0) items.nodes.push_back(n);
+  for (int n : nodes_of_fields(model.scene, model.assembly))
+    if (layout.touches[rank][n] != 0) items.shown.push_back(n);
   for (const auto& owner : partition.owner) {
     auto& blocks = items.blocks.emplace_back();
     for (std::size_t p = 0; p < owner.size(); ++p)
@@ -155,7 +170,9 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   share.sent = to_device("rows sent", sent);
   share.received = to_device("rows received", received);
   keep_shared_nodes(model, layout, rank);
-  keep_sums(model, items_of(model, partition, layout, rank));
+  const ShareItems items = items_of(model, partition, layout, rank);
+  model.own_nodes = to_device("own nodes", own_items(model, items).nodes);
+  keep_sums(model, items);
   return share;
 }
 

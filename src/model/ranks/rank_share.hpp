@@ -20,7 +20,11 @@ struct ShareItems {
   int rank = 0;
   std::vector<int> nodes;                ///< of its blocks
   std::vector<std::vector<int>> blocks;  ///< by group
+  std::vector<int> shown;                ///< of the nodes those of sets whose fields are written
 };
+
+/// Nodes of the sets that output.field_sets names, ascending.
+std::vector<int> nodes_of_fields(const scene::Scene& scene, const Assembly& assembly);
 
 /// Parts of lists that a rank sums.
 std::vector<int> parts_of_rank(const PartedLists& lists, const std::vector<ElementGroup>& groups,
@@ -35,8 +39,9 @@ OwnItems own_items(const Model& model, const ShareItems& items);
 
 ShareItems items_of(const Model& model, const BlockPartition& partition, const RankLayout& layout, int rank);
 
-/// What a rank computes of a model in steps of a run, in lists on the device. Every rank has the whole model's arrays,
-/// of which those of its own blocks and their nodes are true between outputs; on rank 0 all are at outputs.
+/// What a rank computes of a model in steps of a run, in lists on the device. Arrays have the whole model's numbers on
+/// every rank; a rank fills and touches what belongs to its own blocks and their nodes, and on a host the rest takes no
+/// memory. On rank 0 all are true at outputs.
 struct RankShare {
   struct Neighbour {
     int rank;

@@ -7,6 +7,7 @@
 #include "kernels/support/reductions.hpp"
 #include "kernels/ties/tie.hpp"
 #include "model/elements/hourglass_scale.hpp"
+#include "model/time_step/estimate_share.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "model/time_step/tangent_springs.hpp"
 
@@ -30,8 +31,9 @@ KOKKOS_INLINE_FUNCTION double scattered(std::uint64_t number) {
 struct StartVector {
   NodeVector f;
   Array<const double*> mass;
+  std::uint64_t first;  ///< number of the first node in the scene
   KOKKOS_INLINE_FUNCTION void operator()(const int n) const {
-    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(3 * static_cast<std::uint64_t>(n) + i);
+    for (int i = 0; i < 3; ++i) f(n, i) = std::sqrt(mass(n)) * scattered(3 * (first + n) + i);
   }
 };
 
@@ -51,12 +53,6 @@ struct Scale {
     for (int i = 0; i < 3; ++i) w(n, i) *= factor;
   }
 };
-
-double inner(ReductionSpace& space, const NodeVector& a, const NodeVector& b) {
-  double sum = 0;
-  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, space);
-  return sum;
-}
 
 }  // namespace
 
@@ -87,6 +83,13 @@ GlobalEstimate::GlobalEstimate(const AssembledScene& assembled, const NodalState
   displacement_ = unset_array<double* [3]>("tangent displacement", nodes);
 }
 
+double GlobalEstimate::inner(const NodeVector& a, const NodeVector& b) const {
+  if (share_ != nullptr) return share_->sum(a, b);
+  double sum = 0;
+  block_sum(InnerProduct{a, b}, static_cast<int>(a.extent(0)), &sum, *nodal_.reduction_space);
+  return sum;
+}
+
 void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result) {
   SpringCollector collector;
   collector.add_connectors(assembled_.scene, cells_);
@@ -110,8 +113,9 @@ void GlobalEstimate::set_springs(const ContactReach& within, GlobalStep& result)
 }
 
 void GlobalEstimate::apply(double inverse_time) {
-  const int nodes = static_cast<int>(assembled_.assembly.nodes.size());
+  const int nodes = static_cast<int>(now_.extent(0));
   Kokkos::parallel_for("tangent_displacement", Range(0, nodes), ToDisplacement{now_, displacement_, nodal_.nodes.mass});
+  if (share_ != nullptr) share_->bring(displacement_);
   const TieArrays& ties = ties_.arrays;
   if (ties.active())
     Kokkos::parallel_for("tangent_ties", SpreadRange(0, ties.slave_count),
@@ -143,12 +147,12 @@ void GlobalEstimate::apply(double inverse_time) {
 
 double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, const Bounds& bounds,
                                           GlobalStep& result) {
-  const int nodes = static_cast<int>(assembled_.assembly.nodes.size());
-  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, nodal_.nodes.mass});
+  const int nodes = static_cast<int>(now_.extent(0));
+  const std::uint64_t first = share_ != nullptr ? share_->first_node() : 0;
+  Kokkos::parallel_for("tangent_start", Range(0, nodes), StartVector{now_, nodal_.nodes.mass, first});
   Kokkos::parallel_for("tangent_weighted", Range(0, nodes),
                        ToWeighted{now_, nodal_.nodes.mass, nodal_.nodes.constraint, nodal_.constraints});
-  ReductionSpace& space = *nodal_.reduction_space;
-  const double size = std::sqrt(inner(space, now_, now_));
+  const double size = std::sqrt(inner(now_, now_));
   if (!(size > 0)) return 0;  // everything is held
   Kokkos::parallel_for("tangent_scale", Range(0, nodes), Scale{now_, 1 / size});
   Kokkos::deep_copy(before_, 0.0);
@@ -158,10 +162,10 @@ double GlobalEstimate::largest_eigenvalue(double inverse_time, double accuracy, 
   while (true) {
     apply(inverse_time);
     ++result.applications;
-    diagonal.push_back(inner(space, now_, image_));
+    diagonal.push_back(inner(now_, image_));
     Kokkos::parallel_for("tangent_recur", Range(0, nodes),
                          Recur{image_, now_, before_, diagonal.back(), beside.empty() ? 0.0 : beside.back()});
-    beside.push_back(std::sqrt(inner(space, image_, image_)));
+    beside.push_back(std::sqrt(inner(image_, image_)));
     const int iterations = static_cast<int>(diagonal.size());
     const bool exhausted = beside.back() <= 1e-10 * std::fabs(diagonal.front());
     if (exhausted || iterations % iterations_between_checks == 0 || iterations == most_iterations) {
@@ -193,9 +197,8 @@ GlobalStep GlobalEstimate::at_least(const ContactReach& within, double least) {
   return solve(least, Guess::least, std::move(result));
 }
 
-GlobalStep GlobalEstimate::of_elements(double longest) {
+GlobalStep GlobalEstimate::of_elements(const ContactOnNodes& contact, double longest) {
   SpringCollector collector;
-  const ContactOnNodes contact = contact_on_nodes(assembled_, contacts_);
   for (int n = 0; n < static_cast<int>(contact.stiffness.size()); ++n)
     if (contact.stiffness[n] > 0) collector.add_ground(n, 2 * contact.stiffness[n], 2 * contact.damping[n]);
   tangent_.set_springs(collector.on_device());

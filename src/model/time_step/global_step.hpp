@@ -15,6 +15,7 @@ namespace railwave {
 
 template <class Visitor>
 struct Named;  // model/visit_arrays.hpp
+class EstimateShare;
 
 /// The largest eigenvalue of the tridiagonal matrix that Lanczos' recurrence has made of a symmetric operator so far.
 struct RitzValue {
@@ -60,7 +61,11 @@ class GlobalEstimate {
   /// The longest step up to `longest` that is stable for the elements with everything that contact may put on them,
   /// wherever the bodies touch; without connectors and beams. A spring k between two nodes is at most 2 k from each to
   /// the ground: (u - w)^2 <= 2 u^2 + 2 w^2, with equality where the two move against each other.
-  GlobalStep of_elements(double longest);
+  /// @param contact springs of all contacts on the nodes
+  GlobalStep of_elements(const ContactOnNodes& contact, double longest);
+
+  /// The scene is a rank's share: sums are over all ranks, see estimate_share.hpp.
+  void set_share(const EstimateShare* share) { share_ = share; }
 
   template <class Visitor>
   friend void visit_arrays(const Named<Visitor>& visit, GlobalEstimate& estimate);
@@ -72,6 +77,7 @@ class GlobalEstimate {
   void set_springs(const ContactReach& within, GlobalStep& result);
   GlobalStep solve(double guess, Guess is, GlobalStep result);
   void apply(double inverse_time);
+  double inner(const NodeVector& a, const NodeVector& b) const;
   /// Where the search of the largest eigenvalue may end early.
   struct Bounds {
     double enough = 0;  ///< a Ritz value with three times its residual below this will do; 0: none
@@ -85,6 +91,7 @@ class GlobalEstimate {
   const std::vector<ContactPair>& contacts_;
   const Ties& ties_;
   const AbsorbingLayers& absorbing_;
+  const EstimateShare* share_ = nullptr;
   TangentOperator tangent_;
   NodeVector now_, before_, image_, displacement_;
 };

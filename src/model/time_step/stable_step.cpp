@@ -13,6 +13,7 @@
 #include "model/contact/contact_springs.hpp"
 #include "model/model.hpp"
 #include "model/time_step/automatic_step.hpp"
+#include "model/time_step/estimate_share.hpp"
 #include "model/time_step/global_step.hpp"
 #include "model/time_step/stable_step.hpp"
 
@@ -192,25 +193,81 @@ std::shared_ptr<GlobalEstimate> global_estimate_of(const Model& model) {
                                           model.absorbing);
 }
 
+/// What rank 0 has the others do before steps are taken: search the highest frequency of the elements, or not.
+struct SearchOrder {
+  int shared = 0;
+  double longest = 0;  ///< s
+};
+
+/// Rank 0's order, once in making a model, whatever comes of it.
+class SearchLeader {
+ public:
+  explicit SearchLeader(Transport* transport) : transport_(transport) {}
+  ~SearchLeader() {
+    try {
+      order({});
+    } catch (const std::exception&) {
+      // The others find out at their next meeting.
+    }
+  }
+  SearchLeader(const SearchLeader&) = delete;
+  SearchLeader& operator=(const SearchLeader&) = delete;
+
+  /// Null where each process searches for itself.
+  Transport* transport() const { return transport_; }
+  void order(SearchOrder one) {
+    if (transport_ != nullptr && !given_) transport_->broadcast(&one, sizeof one);
+    given_ = true;
+  }
+
+ private:
+  Transport* transport_;
+  bool given_ = false;
+};
+
+/// Springs of contacts; empty where there are none.
+ContactOnNodes springs_of_contacts(const Model& model) {
+  return has_contact_springs(model.contacts) ? contact_on_nodes(model, model.contacts) : ContactOnNodes{};
+}
+
+/// Of all ranks together: each calls it.
+double search_together(const Model& model, const ContactOnNodes& springs, double longest, Transport& transport) {
+  EstimateShare share(model, model, transport);
+  const ContactOnNodes contact = share.own_part(springs);
+  const Ties no_ties;
+  const std::vector<ConnectorCell> no_cells;
+  GlobalEstimate estimate(share.assembled(), share.nodal(), no_cells, model.contacts, no_ties, model.absorbing);
+  estimate.set_share(&share);
+  share.forget_mesh();
+  meet(transport);
+  return estimate.of_elements(contact, longest).step;
+}
+
 /// What heights promise is the limit of waves inside a body: free surfaces, edges and corners, bodies few elements
 /// thick, and contact on top of that go below it. Where the eigenvalues do not vouch for a step, the scene's own
 /// highest frequency is asked. A model without nodes (of which levels are counted) can't be.
-double stable_together(const Model& model, double by_elements, double by_eigenvalues) {
+double stable_together(const Model& model, double by_elements, double by_eigenvalues, SearchLeader& leader) {
   if (by_eigenvalues >= by_elements || model.nodes.count == 0) return by_elements;
-  return std::fmax(by_eigenvalues, global_estimate_of(model)->of_elements(by_elements).step);
+  double step = 0;
+  if (leader.transport() != nullptr && EstimateShare::possible(model.scene)) {
+    leader.order({1, by_elements});
+    step = search_together(model, springs_of_contacts(model), by_elements, *leader.transport());
+  } else {
+    step = global_estimate_of(model)->of_elements(springs_of_contacts(model), by_elements).step;
+  }
+  return std::fmax(by_eigenvalues, step);
 }
 
-void estimate_by_elements(Model& model) {
+void estimate_by_elements(Model& model, SearchLeader& leader) {
   StableStep& stable = model.stable_step;
-  const EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
-  const auto heights = element_steps(model, model.absorbing, eigenvalues);
+  EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
+  auto heights = element_steps(model, model.absorbing, eigenvalues);
   std::tie(stable.element, stable.elements) = least_of(heights);
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
   stable.by_elements = stable.elements;
   stable.by_eigenvalues = stable.eigenvalue;
   // Multipliers are constraints: they add no frequency above the elements' own.
-  if (std::any_of(model.contacts.begin(), model.contacts.end(),
-                  [](const ContactPair& pair) { return pair.has_springs(); })) {
+  if (has_contact_springs(model.contacts)) {
     const auto at_node = steps_at_nodes(model.assembly, heights);
     const ContactOnNodes contact = contact_on_nodes(model, model.contacts);
     stable.contact =
@@ -222,7 +279,9 @@ void estimate_by_elements(Model& model) {
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
-  stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues);
+  eigenvalues = {};
+  heights = std::vector<double>();
+  stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues, leader);
   const bool strikes = strikes_undamped(model.scene, model.contacts);
   if (strikes && stable.contact > 0 && stable.contact < stable.elements) stable.by_elements *= springs_that_open;
   if (strikes && stable.eigenvalue_contact > 0 && stable.eigenvalue_contact < stable.eigenvalue)
@@ -296,9 +355,22 @@ void renew_global_step(const scene::Scene& scene, const std::vector<ContactPair>
   stable.seen = std::move(found.seen);
 }
 
-void build_stable_step(Model& model) {
+void help_with_stable_step(Model& model, Transport& transport) {
+  const ContactOnNodes springs = springs_of_contacts(model);
+  // Rank 0 alone asks for them from here on.
+  model.mass = std::vector<double>();
+  model.element_length = std::vector<double>();
+  SearchOrder order;
+  transport.broadcast(&order, sizeof order);
+  if (order.shared != 0) search_together(model, springs, order.longest, transport);
+}
+
+void build_stable_step(Model& model, Transport* transport) {
   StableStep& stable = model.stable_step;
-  estimate_by_elements(model);
+  {
+    SearchLeader leader(transport);
+    estimate_by_elements(model, leader);
+  }
   const scene::StepEstimate choice = model.scene.solver.step_estimate;
   stable.limit = choice == scene::StepEstimate::eigenvalue ? stable.by_eigenvalues : stable.by_elements;
   if (choice == scene::StepEstimate::global) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "kernels/support/spaces.hpp"
-#include "solve/ranks/transport.hpp"
+#include "model/ranks/transport.hpp"
 
 namespace railwave {
 

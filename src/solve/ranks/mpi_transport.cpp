@@ -1,4 +1,4 @@
-#include "solve/ranks/transport.hpp"
+#include "model/ranks/transport.hpp"
 
 #ifdef RAILWAVE_MPI
 #include <mpi.h>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "case/memory.hpp"
 #include "model/host_copy.hpp"
 #include "solve/monitor/account.hpp"
 
@@ -37,19 +38,6 @@ void send_to_rank_0(Transport& transport, const T& value) {
   transport.finish();
 }
 
-/// The same on all ranks, whatever their processors make of METIS.
-BlockPartition common_partition(const Model& model, Transport& transport) {
-  BlockPartition partition;
-  if (transport.rank() == 0) {
-    partition = partition_blocks(model, transport.ranks());
-  } else {
-    partition.ranks = transport.ranks();
-    for (const ElementGroup& group : model.elements) partition.owner.emplace_back(group.blocks.count, 0);
-  }
-  for (std::vector<int>& owner : partition.owner) transport.broadcast(owner.data(), sizeof(int) * owner.size());
-  return partition;
-}
-
 /// Of a model as it was built: alike for the same case, settings and program.
 std::uint64_t fingerprint(const Model& model) {
   std::uint64_t hash = 14695981039346656037ull;  // of Fowler, Noll and Vo
@@ -65,6 +53,12 @@ std::uint64_t fingerprint(const Model& model) {
   return hash;
 }
 
+/// Steps of another rank than 0 need the arrays alone.
+void forget_mesh(Model& model) {
+  model.assembly = {};
+  model.order = {};
+}
+
 Instant instant_of(const RankOrder& order) {
   Instant instant;
   instant.time = order.time;
@@ -78,11 +72,12 @@ Instant instant_of(const RankOrder& order) {
 RankLeader::RankLeader(Model& model, Transport& transport)
     : model_(model), transport_(transport), state_transfer_(model, transport) {
   give_order(RankOrder::deal_out, {});
-  const BlockPartition partition = common_partition(model, transport);
+  const BlockPartition partition = partition_of(model, transport.ranks());
   const RankLayout layout = lay_out_ranks(model, partition);
   for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition, layout, r));
   own_ = own_items(model, items_[0]);
   exchange_ = std::make_unique<RowExchange>(model, take_share(model, partition, layout, 0), transport);
+  give_freed_memory_back();
 }
 
 RankLeader::~RankLeader() {
@@ -107,7 +102,9 @@ void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long s
   transport_.broadcast(&order, sizeof order);
 }
 
-void RankLeader::begin() {
+void RankLeader::begin(bool at_start) {
+  // Models begin alike where nothing has moved them yet.
+  if (at_start && !model_.filled) return;
   give_order(RankOrder::take_state, {});
   for (int r = 1; r < transport_.ranks(); ++r) state_transfer_.send(r, items_[r], Transferred::state);
   whole_ = true;
@@ -135,9 +132,20 @@ void RankLeader::take(Transferred what) {
 
 void RankLeader::gather() {
   if (whole_) return;
+  fill_rest(model_);
   give_order(RankOrder::gather, {});
   take(Transferred::state);
   whole_ = true;
+}
+
+void RankLeader::gather_fields() {
+  if (whole_) return;
+  const auto& fields = model_.scene.output.fields;
+  const bool places =
+      std::all_of(fields.begin(), fields.end(), [](const auto& name) { return name == "displacement"; });
+  if (!places) return gather();
+  give_order(RankOrder::gather_places, {});
+  take(Transferred::places);
 }
 
 void RankLeader::begin_sums(SampledSums what, double step) {
@@ -171,6 +179,16 @@ double RankLeader::largest_rate(double own) {
   return own;
 }
 
+std::vector<double> RankLeader::peak_memories() {
+  give_order(RankOrder::memory, {});
+  std::vector<double> peaks(transport_.ranks(), peak_memory());
+  for (int r = 1; r < transport_.ranks(); ++r) {
+    transport_.start_receive(r, &peaks[r], sizeof(double));
+    transport_.finish();
+  }
+  return peaks;
+}
+
 std::string RankLeader::summary() const {
   const auto each = [this](Transferred what) {
     const long count = counts_[static_cast<int>(what)];
@@ -200,8 +218,8 @@ void follow_rank_0(Model& model, Transport& transport) {
     throw std::runtime_error(
         "this process has another model than rank 0: all that mpirun starts must be given the same program, case and "
         "settings");
-  const BlockPartition partition = common_partition(model, transport);
-  const RankLayout layout = lay_out_ranks(model, partition);
+  const BlockPartition partition = partition_of(model, transport.ranks());
+  RankLayout layout = lay_out_ranks(model, partition);
   const ShareItems items = items_of(model, partition, layout, transport.rank());
   RowExchange exchange(model, take_share(model, partition, layout, transport.rank()), transport);
   StateTransfer state_transfer(model, transport);
@@ -209,6 +227,9 @@ void follow_rank_0(Model& model, Transport& transport) {
   std::unique_ptr<MonitorArrays> monitored;
   if (model.scene.monitor.active)
     monitored = std::make_unique<MonitorArrays>(model.assembly, std::vector<ContactPair>(), &own);
+  layout = {};
+  forget_mesh(model);
+  give_freed_memory_back();
   const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
              sampled = follower_plan(model, StepKind::sampled, exchange);
   const auto move = [&](const Plan& plan, const Instant& instant) {
@@ -241,6 +262,9 @@ void follow_rank_0(Model& model, Transport& transport) {
       case RankOrder::gather:
         state_transfer.send(0, items, Transferred::state);
         break;
+      case RankOrder::gather_places:
+        state_transfer.send(0, items, Transferred::places);
+        break;
       case RankOrder::energies:
         sum_own_parts(model, SampledSums::energies, order.size);
         state_transfer.send(0, items, Transferred::energies);
@@ -254,6 +278,9 @@ void follow_rank_0(Model& model, Transport& transport) {
         break;
       case RankOrder::rate:
         send_to_rank_0(transport, monitored->largest_rate(model));
+        break;
+      case RankOrder::memory:
+        send_to_rank_0(transport, peak_memory());
         break;
       case RankOrder::move:
         move(sampled, instant);

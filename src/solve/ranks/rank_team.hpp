@@ -18,8 +18,10 @@ enum class Transferred : int {
   state,     ///< what the rank's blocks change: places and velocities of their nodes, the forces that stand in their
              ///< rows, histories of materials, energies dissipated
   energies,  ///< sums of its parts, see SampledSums
-  histories
+  histories,
+  places  ///< of nodes whose fields are written
 };
+inline constexpr int transferred_kinds = 4;
 
 /// Brings values of a rank's blocks between that rank and rank 0.
 class StateTransfer {
@@ -39,7 +41,7 @@ class StateTransfer {
   Model& model_;
   Transport& transport_;
   std::unique_ptr<Kept> kept_;
-  double bytes_[3] = {};
+  double bytes_[transferred_kinds] = {};
 };
 
 /// What rank 0 has the others do.
@@ -50,11 +52,13 @@ struct RankOrder {
     advance,     ///< so many steps
     sample,      ///< the forces of an instant, as for outputs
     gather,      ///< the state of the blocks
-    move,        ///< the nodes, after a sample
-    energies,    ///< sums of energies, after a sample
-    histories,   ///< sums of motions, stresses and strains
-    measures,    ///< of the monitor
-    rate,        ///< at which the fastest element turns
+    gather_places,
+    move,       ///< the nodes, after a sample
+    energies,   ///< sums of energies, after a sample
+    histories,  ///< sums of motions, stresses and strains
+    measures,   ///< of the monitor
+    rate,       ///< at which the fastest element turns
+    memory,     ///< the most that was taken
     end
   };
   Kind kind = end;
@@ -78,7 +82,8 @@ class RankLeader : public SampledRanks {
   RankLeader& operator=(const RankLeader&) = delete;
 
   /// Deals the model out as it stands: from now on its arrays are whole only after gather().
-  void begin();
+  /// @param at_start it is as it was built, or settled and set in motion; false: taken up from a checkpoint
+  void begin(bool at_start);
 
   RowExchange& exchange() { return *exchange_; }
 
@@ -89,6 +94,8 @@ class RankLeader : public SampledRanks {
   void move(const Instant& instant);
   /// Nothing where they are whole already.
   void gather() override;
+  /// What fields are written from: places alone where displacements are.
+  void gather_fields();
 
   void begin_sums(SampledSums what, double step) override;
   void take_sums(SampledSums what) override;
@@ -97,6 +104,9 @@ class RankLeader : public SampledRanks {
 
   /// What rank 0 measures.
   const OwnItems& own() const { return own_; }
+
+  /// By rank, see peak_memory().
+  std::vector<double> peak_memories();
 
   /// For people: how much was brought to rank 0.
   std::string summary() const;
@@ -110,8 +120,8 @@ class RankLeader : public SampledRanks {
   StateTransfer state_transfer_;
   std::vector<ShareItems> items_;  ///< by rank
   OwnItems own_;
-  bool whole_ = false;   ///< the model's arrays are
-  long counts_[3] = {};  ///< by Transferred: how often
+  bool whole_ = false;                   ///< the model's arrays are
+  long counts_[transferred_kinds] = {};  ///< by Transferred: how often
   std::unique_ptr<RowExchange> exchange_;
 };
 

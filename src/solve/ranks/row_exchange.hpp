@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/ranks/rank_share.hpp"
-#include "solve/ranks/transport.hpp"
+#include "model/ranks/transport.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {

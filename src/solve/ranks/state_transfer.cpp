@@ -157,6 +157,8 @@ std::size_t transfer_all(Model& model, const ShareItems& items, Transferred what
     transfer_energies(model, items, transfer);
   else if (what == Transferred::histories)
     transfer_histories(model, items, transfer);
+  else if (what == Transferred::places)
+    transfer.template rows<double, 3>(model.nodes.position, [&] { return items.shown; });
   else
     transfer_state(model, items, transfer);
   return transfer.bytes;

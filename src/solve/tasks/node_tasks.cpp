@@ -67,8 +67,9 @@ Task shared_task(const NodalState& nodal, const LoadModel& loads, bool rows_are_
 
 Task node_task(const NodalState& nodal) {
   return {"nodes", "f to j", [&nodal](const Instant& instant) {
-            Kokkos::parallel_for("node_update", Range(0, nodal.nodes.count),
-                                 NodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step)});
+            const int own = static_cast<int>(nodal.own_nodes.extent(0));
+            Kokkos::parallel_for("node_update", Range(0, own > 0 ? own : nodal.nodes.count),
+                                 NodeUpdate{nodal.acceleration(), node_advance(nodal, instant.step), nodal.own_nodes});
           }};
 }
 

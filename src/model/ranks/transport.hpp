@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 
 namespace railwave {
 
@@ -34,6 +35,16 @@ class Transport {
 
   bool followers_have_ended = false;  ///< see end_followers() in rank_team.hpp
 };
+
+/// All ranks have come so far in making a model, or none goes on.
+/// Throws std::runtime_error where another one has not. Whoever fails itself answers the others by all_agree(false).
+inline void meet(Transport& transport) {
+  if (transport.all_agree(true)) return;
+  transport.followers_have_ended = true;
+  throw std::runtime_error("another rank could not make the model; nothing was run");
+}
+
+// Of solve/ranks/mpi_transport.cpp:
 
 /// The number of this process among those that a launcher of MPI has started together, before MPI is begun; 0: alone,
 /// the first, or the program was built without MPI.

@@ -30,7 +30,7 @@ inline double step_traffic(const Model& model) {
     }
   }
   if (velocities && !relative) bytes += bytes_of(n.velocity);
-  const double nodes = n.count, listed = static_cast<double>(model.shared_nodes.extent(0)), alone = nodes - listed;
+  const double nodes = n.count, listed = static_cast<double>(model.shared.nodes.extent(0)), alone = nodes - listed;
   const double rows = static_cast<double>(n.partial_place.extent(0)), listed_rows = rows - alone;
   const double row_bytes = (bytes_of(model.partial.in_double) + bytes_of(model.partial.in_single)) / rows;
   const double state = bytes_of(n.position) / nodes + bytes_of(n.velocity) / nodes, mass = bytes_of(n.mass) / nodes;

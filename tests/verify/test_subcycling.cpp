@@ -27,13 +27,13 @@ PulseRun pulse_run(double width, scene::Precision precision, bool subcycling) {
   run(model, {});
   const auto nodes = all_nodes(model);
   const auto u = node_field(model, model.ties, NodeField::displacement, nodes).values;
-  double error = 0, size = 0;
+  double error = 0, exactly = 0;
   for (int n : nodes) {
     const double exact = pulse.displacement(model.assembly.nodes[n][0] - path);
     error += model.mass[n] * (u[3 * n] - exact) * (u[3 * n] - exact);
-    size += model.mass[n] * exact * exact;
+    exactly += model.mass[n] * exact * exact;
   }
-  return {std::sqrt(error / size), model.subcycling.gain()};
+  return {std::sqrt(error / exactly), model.subcycling.gain()};
 }
 
 Vec3 momentum(const Model& model) {

@@ -118,16 +118,28 @@ struct NodalForce {
     return force;
   }
 
-  /// The first partial forces of a shared node.
+  /// The first partial forces of a shared node, on a device: a host asks for them when it adds them.
   KOKKOS_INLINE_FUNCTION PartialForces::Rows<2> first_rows(const SharedNode& shared) const {
-    if (shared.place[0] < 0) return {{}, {false, false}};
+    if (!on_device || shared.place[0] < 0) return {{}, {false, false}};
     return partial.rows(shared.place, shared.place[0]);
+  }
+
+  /// The same as with_rows(), one row after the other.
+  KOKKOS_INLINE_FUNCTION Vector3 with_places(Vector3 force, const SharedNode& shared) const {
+    for (int place : shared.place)
+      if (place >= 0) force = force + partial(place);
+    if (shared.more == 0) return force;
+    const MorePlaces& more = partial.more(shared.more - 1);
+    for (int place : more.place)
+      if (place >= 0) force = force + partial(place);
+    return with_partials(force, more.first, more.last);
   }
 
   /// Sum of a shared node's partial forces and others, N.
   /// @param first of first_rows()
   KOKKOS_INLINE_FUNCTION Vector3 with_rows(Vector3 force, const SharedNode& shared,
                                            const PartialForces::Rows<2>& first) const {
+    if constexpr (!on_device) return with_places(force, shared);
     if (shared.more == 0) return first.added_to(force);
     const MorePlaces more = partial.more(shared.more - 1);
     const PartialForces::Rows<MorePlaces::count> others = partial.rows(more.place, shared.place[0]);

@@ -31,9 +31,10 @@ struct SharedForces {
     if (special.row >= 0) {
       const Vector3 contact = force.external.contact_force(special.row);
       if (rows_here && special.shares > 0)
-        external = rows.gather<2>({special.row, node.node & ~special_bit, special.first_share,
-                                   special.first_share + special.shares}) +
-                   contact;
+        external = rows.gather < on_device ? 2
+                                           : 1 > ({special.row, node.node & ~special_bit, special.first_share,
+                                                   special.first_share + special.shares}) +
+                                                     contact;
       else
         external = row(force.external.load, special.row) + contact;
     }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "kernels/support/spaces.hpp"
 
 namespace railwave {
@@ -31,6 +33,7 @@ class Milestone {
   void wait() const {
     while (ahead() > 0) {
     }
+    std::atomic_thread_fence(std::memory_order_acquire);
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include "kernels/support/block_largest.hpp"
 #include "kernels/support/block_sum.hpp"
+#include "kernels/support/milestone.hpp"
 #include "kernels/support/reduction_space.hpp"
 
 namespace railwave {
@@ -53,19 +54,38 @@ class Reductions {
 
   /// Waits for what is queued and hands it out in the order of queueing.
   void fetch() {
+    copy_to_host();
+    ExecutionSpace().fence();
+    hand_out();
+  }
+
+  /// The same in two parts, between which the host may launch what comes next, but no other reductions of this space.
+  /// @param fetched is put where the device has brought what is queued
+  void start_fetch(Milestone& fetched) {
+    copy_to_host();
+    fetched.put(ExecutionSpace());
+  }
+  void finish_fetch(const Milestone& fetched) {
+    fetched.wait();
+    hand_out();
+  }
+
+ private:
+  void copy_to_host() {
     if (space_.fetched.extent(0) < used_)
       space_.fetched = PinnedArray<double*>(Kokkos::view_alloc(std::string("fetched"), Kokkos::WithoutInitializing),
                                             space_.left.extent(0));
-    const ExecutionSpace device;
     const auto used = Kokkos::make_pair(std::size_t{0}, used_);
-    if (used_ > 0) Kokkos::deep_copy(device, Kokkos::subview(space_.fetched, used), Kokkos::subview(space_.left, used));
-    device.fence();
+    if (used_ > 0)
+      Kokkos::deep_copy(ExecutionSpace(), Kokkos::subview(space_.fetched, used), Kokkos::subview(space_.left, used));
+  }
+
+  void hand_out() {
     for (const Queued& one : queued_) one.use(space_.fetched.data() + one.place, one.parts);
     queued_.clear();
     used_ = 0;
   }
 
- private:
   /// Blocks whose results the host takes as they are: a second kernel takes a GPU longer than copying some more.
   static constexpr int most_left = on_device ? 1024 : sum_block;
 

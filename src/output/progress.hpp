@@ -63,6 +63,7 @@ class Progress : public RunObserver {
   void settling(const Model& model, const SettleReport& so_far) override;
   void settled(const Model& model, const SettleReport& report) override;
   void history(const Model& model, const HistorySample& sample) override;
+  bool looks_at_model() const override { return false; }
   void warning(const Model& model, const Fault& fault) override;
   void end(const Model& model, const RunSummary& summary) override;
 

@@ -41,6 +41,7 @@ class ResultsFile : public RunObserver, public Checkpoints {
   void begin(const Model& model) override;
   void settled(const Model& model, const SettleReport& report) override;
   void history(const Model& model, const HistorySample& sample) override;
+  bool looks_at_model() const override { return false; }
   void fields(const Model& model, const HistorySample& sample, const DueFields& due) override;
   void end(const Model& model, const RunSummary& summary) override;
   void keep(RunState state) override;

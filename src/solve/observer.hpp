@@ -104,6 +104,9 @@ class RunObserver {
   /// After a dynamic relaxation, before the first step.
   virtual void settled(const Model& /*model*/, const SettleReport& /*report*/) {}
   virtual void history(const Model& /*model*/, const HistorySample& /*sample*/) {}
+  /// Whether history() and progress() look at the model and not at the sample alone. If nobody does, a GPU may be some
+  /// steps ahead when they are called.
+  virtual bool looks_at_model() const { return true; }
   /// The model stands at `sample.time`; fields are fetched by the functions of model/fields.hpp.
   virtual void fields(const Model& /*model*/, const HistorySample& /*sample*/, const DueFields& /*due*/) {}
   /// At every history sample, and at checks of the monitor, where histories are rarer.

@@ -27,7 +27,11 @@ class WorkTiming {
   }
   void end() {
     ExecutionSpace().fence();
-    seconds_ += clock_.seconds();
+    add(clock_.seconds());
+  }
+  /// What was timed otherwise.
+  void add(double seconds) {
+    seconds_ += seconds;
     ++count_;
   }
   double seconds() const { return seconds_; }

@@ -133,11 +133,11 @@ struct StepRecording::Recordings {
   }
 
   /// Before launches in the default space.
-  void finish() {
+  void finish(bool then_idle) {
     if (own && launched) space.fence();
     launched = false;
     others_launched = true;
-    idle = true;
+    idle = then_idle;
   }
   /// Before launches in the own one.
   void begin() {
@@ -222,11 +222,11 @@ StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpac
 
 StepRecording::~StepRecording() { finish(); }
 
-void StepRecording::finish() { recordings_->finish(); }
+void StepRecording::finish(bool idle) { recordings_->finish(idle); }
 
 void StepRecording::forget() {
   Recordings& all = *recordings_;
-  all.finish();
+  all.finish(true);
   ExecutionSpace().fence();
   all.graphs.clear();
   all.load_values.forget();
@@ -275,7 +275,7 @@ long StepRecording::graphs_ahead() const { return recordings_->own ? recordings_
 struct StepRecording::Recordings {};
 StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*) {}
 StepRecording::~StepRecording() = default;
-void StepRecording::finish() {}
+void StepRecording::finish(bool) {}
 void StepRecording::forget() {}
 int StepRecording::most() const { return 0; }
 long StepRecording::graphs_ahead() const { return 0; }

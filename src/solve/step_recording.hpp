@@ -31,7 +31,8 @@ class StepRecording {
   long graphs_ahead() const;
 
   /// Before anything else is launched that concerns the model: waits for the graphs of a space of their own.
-  void finish();
+  /// @param idle the device has nothing left to do when the next graph comes
+  void finish(bool idle = true);
 
   /// Before steps with other inputs or arrays than those that were recorded. Finishes too.
   void forget();

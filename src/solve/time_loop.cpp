@@ -98,7 +98,10 @@ class TimeLoop {
             std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
             Monitor(model, model, model, model, model.contacts, leader_ ? &leader_->own() : nullptr, leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
-        recording_(model, plans_.of(StepKind::advancing), space) {
+        recording_(model, plans_.of(StepKind::advancing), space),
+        histories_may_be_late_(space == nullptr && !leader_ && !model.beams && recording_.most() > 0 &&
+                               std::none_of(observers.begin(), observers.end(),
+                                            [](const RunObserver* one) { return one->looks_at_model(); })) {
     if (keeping.from) take_up(*keeping.from);
     summary_.first_step = model.step;
     if (leader_) leader_->begin(keeping.from == nullptr);
@@ -108,25 +111,33 @@ class TimeLoop {
   bool go_on() {
     if (!begun_) since_first_step_.restart();
     begun_ = true;
+    // What the monitor finds in it decides what is due.
+    if (model_.step % Monitor::steps_when_odd == 0) finish_late_history();
     begin_step();
     checkpoint_if_due();
     plan_step();
     if (leader_ ? take_shared_steps() : take_recorded_steps()) return true;
-    recording_.finish();
+    finish_late_history();
+    recording_.finish(!late_);
     if (leader_) leader_->sample(instant_);
     plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
     if (leader_) leader_->exchange().wait_for_rows();
     memory_.monitor.check_contact_ends();
-    if (sampled_) monitor_and_output();
+    if (late_)
+      late_history_ = std::make_unique<SampleUnderWay>(model_, model_.step_size);
+    else if (sampled_)
+      monitor_and_output();
     if (ends()) return false;
     if (leader_) leader_->move(instant_);
     plans_.advance(instant_);
+    if (late_) late_history_->send(history_ends_);
     end_step();
     return true;
   }
 
   /// The present state, between two steps.
   RunState state() {
+    finish_late_history();
     recording_.finish();
     if (leader_) leader_->gather();
     RunState state;
@@ -219,10 +230,14 @@ class TimeLoop {
     // A run that goes on with a model that has run before begins at a later step.
     first_ = !keeping_.from && model_.step == summary_.first_step;
     fields_due_ = memory_.due.fields();
-    output_due_ = memory_.due.history() || fields_due_.any() || stopping_;
+    output_due_ = memory_.due.history() || fields_due_.any() || stopping_ || summary_.fault;
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
-    only_fields_ = fields_due_.any() && !memory_.due.history() && !stopping_ && !first_ && !monitor_due;
+    only_fields_ =
+        fields_due_.any() && !memory_.due.history() && !stopping_ && !summary_.fault && !first_ && !monitor_due;
+    late_ = histories_may_be_late_ && memory_.due.history() && !memory_.due.last() && !fields_due_.any() &&
+            !stopping_ && !summary_.fault && !first_ && !monitor_due;
+    if (late_) return history_begins_.put(ExecutionSpace());
     if (!sampled_) return;
     recording_.finish();
     (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
@@ -246,12 +261,33 @@ class TimeLoop {
   /// As many steps at once as a graph has.
   bool take_recorded_steps() {
     if (sampled_) return false;
-    long steps = quiet_steps(recording_.most());
+    long steps = recording_.most();
+    if (late_history_) steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
+    steps = quiet_steps(steps);
     steps = recording_.advance(instant_, steps, [this](long step) { return memory_.control.time_of(step); });
     if (steps == 0) return false;
     plans_.advance_clock(instant_, steps);
     end_step();
+    finish_late_history();
     return true;
+  }
+
+  /// On a GPU nobody waits for a history that nothing else depends on: it comes to the host while the device takes the
+  /// next steps, and before any that may be sampled because of it. Should it show that the run must stop, then it stops
+  /// at the next step.
+  void finish_late_history() {
+    if (!late_history_) return;
+    history_begins_.wait();
+    const WallClock clock;
+    HistorySample sample = late_history_->finish(history_ends_);
+    timing_.output_steps.add(clock.seconds());
+    late_history_.reset();
+    watch(sample);
+    for (RunObserver* observer : observers_) {
+      observer->history(model_, sample);
+      observer->progress(model_, sample);
+    }
+    ++memory_.history_rows;
   }
 
   bool asks_for_places() const { return memory_.monitor.asks_for_places(model_.step); }
@@ -286,18 +322,19 @@ class TimeLoop {
     HistorySample sample = (output_due_ ? take_sample : sample_for_monitor)(
         model_, model_.step_size, memory_.monitor.part_energies(model_.step), leader_.get());
     if (first_) memory_.total_at_start = balance_total(sample.energy);
-    sample.energy.balance_error = balance_total(sample.energy) - memory_.total_at_start;
-    monitor(sample);
-    for (std::size_t c = 0; c < memory_.swings.size(); ++c)
-      memory_.swings[c].add(sample.time, sample.contacts[c].normal_force);
+    if (output_due_) timing_.monitor_at_outputs.begin();
+    watch(sample);
+    if (output_due_) timing_.monitor_at_outputs.end();
+    if (summary_.fault && !output_due_) add_history_values(model_, model_.step_size, sample, leader_.get());
     output(sample);
   }
 
   /// Looks for faults and reports them.
-  void monitor(HistorySample& sample) {
-    if (output_due_) timing_.monitor_at_outputs.begin();
+  void watch(HistorySample& sample) {
+    sample.energy.balance_error = balance_total(sample.energy) - memory_.total_at_start;
+    for (std::size_t c = 0; c < memory_.swings.size(); ++c)
+      memory_.swings[c].add(sample.time, sample.contacts[c].normal_force);
     const std::vector<Fault> found = memory_.monitor.check(sample);
-    if (output_due_) timing_.monitor_at_outputs.end();
     if (leader_ && !found.empty()) leader_->gather();
     for (const Fault& fault : found)
       for (RunObserver* observer : observers_) observer->warning(model_, fault);
@@ -305,7 +342,6 @@ class TimeLoop {
     if (!fault) return;
     summary_.fault = *fault;
     summary_.reason = fault->summary();
-    if (!output_due_) add_history_values(model_, model_.step_size, sample, leader_.get());
   }
 
   void output(const HistorySample& sample) {
@@ -335,7 +371,7 @@ class TimeLoop {
 
   void end_step() {
     instant_.elapsed = memory_.elapsed = model_.step_size;
-    if (sampled_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).end();
+    if (sampled_ && !late_) (output_due_ ? timing_.output_steps : timing_.monitor_steps).end();
   }
 
   const WallClock since_call_;
@@ -350,6 +386,9 @@ class TimeLoop {
   LoopMemory memory_;
   StepPlans plans_;
   StepRecording recording_;
+  const bool histories_may_be_late_;
+  Milestone history_begins_, history_ends_;
+  std::unique_ptr<SampleUnderWay> late_history_;  ///< null: none is under way
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;
@@ -360,6 +399,7 @@ class TimeLoop {
   bool output_due_ = false;   ///< histories or fields
   bool only_fields_ = false;  ///< and nothing else of a sampled instant
   bool sampled_ = false;      ///< the instant's forces and energies are sampled
+  bool late_ = false;         ///< by a history that may come late, and by nothing else
 };
 
 void request_stop() { stop_requested = 1; }

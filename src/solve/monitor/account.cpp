@@ -190,26 +190,38 @@ void queue_history_values(const Model& model, double step, HistorySample& sample
   queue_reactions(model, model.prescribed, step, sample.reactions, sums);
 }
 
-/// All that is asked for is waited for once.
-HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others,
-                        bool with_histories) {
-  HistorySample sample;
+/// What the present instant's sample has when the sums are fetched; contacts of each pair into `pairs`.
+void queue_sample(const Model& model, double step, bool by_part, SampledRanks* others, bool with_histories,
+                  HistorySample& sample, std::vector<ContactTotals>& pairs, Reductions& sums) {
   sample.time = model.time;
   sample.step = model.step;
-  std::vector<ContactTotals> pairs(model.contacts.size());
+  pairs.resize(model.contacts.size());
   sum_all_parts(model, SampledSums::energies, step, others);
-  Reductions sums(*model.reduction_space);
-  queue_energies(model, step, sample.energy, by_part != nullptr, sums);
+  queue_energies(model, step, sample.energy, by_part, sums);
   for (std::size_t c = 0; c < pairs.size(); ++c) queue_pair_totals(model, model.contacts[c], pairs[c], sums);
   if (with_histories) queue_history_values(model, step, sample, others, sums);
-  sums.fetch();
-  if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
+}
+
+/// The halves of symmetric contacts together.
+void join_halves(const std::vector<ContactPair>& contacts, std::vector<ContactTotals>& pairs, HistorySample& sample) {
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const ContactPair& pair = model.contacts[c];
+    const ContactPair& pair = contacts[c];
     if (pair.reversed) continue;
     if (pair.partner >= 0) add_other_half(pairs[c], pairs[pair.partner]);
     sample.contacts.push_back(pairs[c]);
   }
+}
+
+/// All that is asked for is waited for once.
+HistorySample sample_at(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others,
+                        bool with_histories) {
+  HistorySample sample;
+  std::vector<ContactTotals> pairs;
+  Reductions sums(*model.reduction_space);
+  queue_sample(model, step, by_part != nullptr, others, with_histories, sample, pairs, sums);
+  sums.fetch();
+  if (by_part != nullptr) share_out_energies(model.assembly, model.elements, *by_part);
+  join_halves(model.contacts, pairs, sample);
   if (with_histories && model.beams) sample.beams = beam_resultants(*model.beams, model.nodes);
   return sample;
 }
@@ -230,6 +242,18 @@ void add_history_values(const Model& model, double step, HistorySample& sample, 
 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part, SampledRanks* others) {
   return sample_at(model, step, by_part, others, true);
+}
+
+SampleUnderWay::SampleUnderWay(const Model& model, double step) : model_(model), sums_(*model.reduction_space) {
+  queue_sample(model, step, false, nullptr, true, sample_, pairs_, sums_);
+}
+
+void SampleUnderWay::send(Milestone& done) { sums_.start_fetch(done); }
+
+HistorySample SampleUnderWay::finish(const Milestone& done) {
+  sums_.finish_fetch(done);
+  join_halves(model_.contacts, pairs_, sample_);
+  return std::move(sample_);
 }
 
 }  // namespace railwave

@@ -41,4 +41,24 @@ void add_history_values(const Model& model, double step, HistorySample& sample, 
 HistorySample take_sample(const Model& model, double step, std::vector<PartEnergy>* by_part = nullptr,
                           SampledRanks* others = nullptr);
 
+/// A history sample that the device has yet to come to: the host may launch the steps after it meanwhile. Of a model
+/// without beams, whose sums are the host's.
+class SampleUnderWay {
+ public:
+  SampleUnderWay(const Model& model, double step);
+
+  /// On its way to the host, behind all that has been launched.
+  /// @param done is put there
+  void send(Milestone& done);
+
+  /// Waits for it. Nothing else of the model may have been sampled since. Once.
+  HistorySample finish(const Milestone& done);
+
+ private:
+  const Model& model_;
+  Reductions sums_;
+  HistorySample sample_;
+  std::vector<ContactTotals> pairs_;
+};
+
 }  // namespace railwave

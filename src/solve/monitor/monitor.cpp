@@ -16,7 +16,6 @@ constexpr long fewest_between_checks = 512, most_between_checks = 4096, checks_o
 /// At the energies alone, at least: a broken account must not waste more than a twentieth of a run. Long runs have
 /// twice as many, each in half the time: a check of a GPU takes as long as ten steps.
 constexpr long energy_checks_of_run = 24, most_energy_checks = 48;
-constexpr long steps_when_odd = 32;
 static_assert(fewest_between_checks % (1L << (most_levels - 1)) == 0);
 /// Smallest Jacobian at a corner, over the mean.
 constexpr double flattest_corner = 0.03;

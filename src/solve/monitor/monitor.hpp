@@ -29,6 +29,9 @@ class Monitor {
   /// steps, and 48 to 96 times in a long run.
   bool due(long step) const;
 
+  /// From a sample that shows something odd to the check that is due for that, at the steps that are multiples of it.
+  static constexpr long steps_when_odd = 32;
+
   /// Where a sample's part energies are wanted; null: nowhere.
   std::vector<PartEnergy>* part_energies(long step) { return arrays_ && whole_due(step) ? &by_part_ : nullptr; }
 

@@ -1,0 +1,145 @@
+#include <catch2/catch_test_macros.hpp>
+#include <functional>
+#include <vector>
+
+#include "solve/launch_graph.hpp"
+#include "solve/monitor/account.hpp"
+#include "solve/plan.hpp"
+#include "solve/time_loop.hpp"
+#include "tests/solve/moved_blocks.hpp"
+
+using namespace railwave;
+using namespace railwave::verify;
+
+namespace {
+
+void add(std::vector<double>& numbers, const Vec3& v) { numbers.insert(numbers.end(), v.begin(), v.end()); }
+
+std::vector<double> numbers_of(const HistorySample& sample) {
+  const EnergyAccount& e = sample.energy;
+  std::vector<double> numbers{sample.time,    static_cast<double>(sample.step),
+                              e.kinetic,      e.internal,
+                              e.hourglass,    e.contact,
+                              e.friction,     e.connector,
+                              e.damping,      e.plastic,
+                              e.impacts,      e.external_work,
+                              e.balance_error};
+  for (const ContactTotals& contact : sample.contacts) {
+    add(numbers, contact.normal_force);
+    add(numbers, contact.tangential_force);
+    add(numbers, contact.master_force);
+    numbers.push_back(contact.nodes_in_contact);
+    numbers.push_back(contact.nodes_slipping);
+  }
+  for (const MeanMotion& set : sample.sets) {
+    add(numbers, set.displacement);
+    add(numbers, set.velocity);
+    add(numbers, set.acceleration);
+  }
+  for (const LoadTotals& load : sample.loads) {
+    add(numbers, load.force);
+    numbers.push_back(load.work);
+  }
+  for (const ReactionTotals& reaction : sample.reactions) {
+    add(numbers, reaction.force);
+    numbers.push_back(reaction.work);
+  }
+  return numbers;
+}
+
+/// A history every few steps, and fields now and then.
+scene::Scene written_blocks() {
+  scene::Scene scene = moved_blocks();
+  scene.output.history_interval = scene.time.end / 40;
+  scene.output.field_interval = scene.time.end / 3;
+  scene.output.history_sets = {"upper.z_max"};
+  return scene;
+}
+
+class Listening : public RunObserver {
+ public:
+  explicit Listening(bool looks_at_model) : looks_at_model_(looks_at_model) {}
+  void history(const Model&, const HistorySample& sample) override { histories.push_back(numbers_of(sample)); }
+  void fields(const Model& model, const HistorySample& sample, const DueFields&) override {
+    CHECK(model.time == sample.time);
+  }
+  bool looks_at_model() const override { return looks_at_model_; }
+
+  std::vector<std::vector<double>> histories;
+
+ private:
+  bool looks_at_model_;
+};
+
+struct Listened {
+  std::vector<std::vector<double>> histories;
+  RunSummary summary;
+  End end;
+};
+
+Listened listen(const scene::Scene& scene, bool looks_at_model) {
+  Listening observer(looks_at_model);
+  Model model;
+  build_model(scene, model);
+  const RunSummary summary = run(model, {&observer});
+  return {observer.histories, summary, end_of(model)};
+}
+
+}  // namespace
+
+TEST_CASE("a sample that is under way is of its own instant") {
+  Model model;
+  build_model(written_blocks(), model);
+  set_initial_motion(model, model.nodes, model.beams);
+  StepPlans plans(model);
+  Instant instant;
+  instant.step = model.step_size;
+  Milestone done;
+  for (int step = 0; step < 60; ++step) {
+    instant.time = model.time = step * model.step_size;
+    plans.compute_forces(instant, step % 20 == 10 ? StepKind::sampled : StepKind::advancing);
+    if (step % 20 == 10) {
+      const std::vector<double> waited_for = numbers_of(take_sample(model, model.step_size));
+      SampleUnderWay late(model, model.step_size);
+      for (int more = 0; more < 3; ++more) {
+        plans.advance(instant);
+        if (more == 0) late.send(done);
+        instant.elapsed = model.step_size;
+        instant.time = model.time = ++step * model.step_size;
+        plans.compute_forces(instant, StepKind::advancing);
+      }
+      CHECK(numbers_of(late.finish(done)) == waited_for);
+    }
+    plans.advance(instant);
+    instant.elapsed = model.step_size;
+  }
+}
+
+TEST_CASE("histories that come late are those that are waited for") {
+  if (!has_launch_graphs) SKIP("the host waits for all histories here");
+  scene::Scene scene = written_blocks();
+  SECTION("penalty") {}
+  SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
+  SECTION("one each step") { scene.output.history_interval = 0; }
+  SECTION("odd energies, of which the monitor warns") { scene.monitor.energy_error = 1e-14; }
+  const Listened waited = listen(scene, true), late = listen(scene, false);
+  CHECK(late.histories == waited.histories);
+  CHECK(late.histories.size() >= 40);
+  CHECK(late.end.position == waited.end.position);
+  CHECK(late.end.velocity == waited.end.velocity);
+  CHECK(late.summary.warnings == waited.summary.warnings);
+}
+
+TEST_CASE("a history that comes late stops a run soon") {
+  if (!has_launch_graphs) SKIP("the host waits for all histories here");
+  scene::Scene scene = written_blocks();
+  scene.monitor.energy_error = 1e-14;
+  scene.monitor.fatal_energy_error = 1e-13;
+  const Listened waited = listen(scene, true), late = listen(scene, false);
+  REQUIRE(waited.summary.fault.has_value());
+  REQUIRE(late.summary.fault.has_value());
+  CHECK(late.summary.fault->step == waited.summary.fault->step);
+  CHECK(late.end.steps >= late.summary.fault->step);
+  CHECK(late.end.steps <= late.summary.fault->step + 33);
+  CHECK(late.histories.back()[1] == static_cast<double>(late.end.steps));
+}

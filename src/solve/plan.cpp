@@ -73,24 +73,30 @@ bool outer_blocks_may_go_beside(const ElementModel& elements) {
   });
 }
 
-Task in_space(Task task, const ExecutionSpace& space) {
-  task.run = [run = std::move(task.run), &space](const Instant& instant) {
-    Instant here = instant;
-    here.own_space = &space;
-    run(here);
-  };
-  return task;
+/// @param space null: the tasks stay in the default one
+std::vector<Task> in_space(std::vector<Task> tasks, const ExecutionSpace* space) {
+  if (space == nullptr) return tasks;
+  for (Task& task : tasks)
+    task.run = [run = std::move(task.run), space](const Instant& instant) {
+      Instant here = instant;
+      here.own_space = space;
+      run(here);
+    };
+  return tasks;
 }
 
 }  // namespace
 
-std::vector<Task> shared_element_tasks(Model& model, StepKind kind, RowExchange& exchange) {
+std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, std::vector<Task> others) {
   const RankShare& share = exchange.share();
-  const ExecutionSpace* beside = outer_blocks_may_go_beside(model) ? exchange.outer_space() : nullptr;
-  std::vector<Task> tasks = element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true});
-  if (beside != nullptr)
-    for (Task& task : tasks) task = in_space(std::move(task), *beside);
-  tasks.push_back(exchange.send_task(beside != nullptr));
+  const bool beside = exchange.between_devices() && outer_blocks_may_go_beside(model);
+  std::vector<Task> tasks = exchange.begin_tasks();
+  if (!beside) append(tasks, std::move(others));
+  append(tasks, in_space(element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true}),
+                         beside ? exchange.outer_space() : nullptr));
+  tasks.push_back(exchange.send_task(beside));
+  // In the default order before the inner blocks, they would keep these waiting until the outer ones are done.
+  if (beside) append(tasks, in_space(std::move(others), exchange.side_space()));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, {}, {&share.inner, false}));
   tasks.push_back(exchange.receive_task());
   return tasks;
@@ -101,11 +107,14 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
-  if (exchange != nullptr) append(tasks, exchange->begin_tasks());
-  append(tasks, placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0));
-  append(tasks, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
-  append(tasks, exchange != nullptr ? shared_element_tasks(model, kind, *exchange)
-                                    : element_tasks(model, model, model.contacts, model, kind, along));
+  std::vector<Task> others = placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0);
+  append(others, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
+  if (exchange != nullptr) {
+    append(tasks, shared_force_tasks(model, kind, *exchange, std::move(others)));
+    return tasks;
+  }
+  append(tasks, std::move(others));
+  append(tasks, element_tasks(model, model, model.contacts, model, kind, along));
   return tasks;
 }
 

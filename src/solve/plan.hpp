@@ -28,7 +28,8 @@ std::vector<std::string> describe_plan(const Plan& plan);
 std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exchange = nullptr);
 
 /// Elements of a rank's blocks, their rows sent while the inner ones are computed, and those of others received.
-std::vector<Task> shared_element_tasks(Model& model, StepKind kind, RowExchange& exchange);
+/// @param others what the rank computes besides, which nothing of that depends on: loads, contact by springs
+std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& exchange, std::vector<Task> others);
 
 /// All forces of an instant.
 /// @param relaxation see multiplier_tasks

@@ -26,17 +26,25 @@ class DeviceMessages {
 
   /// Its launches come before those of others that wait for a place on the device.
   virtual const ExecutionSpace& space() const = 0;
-  /// What is launched in space() from now on comes after all that has been launched in the default order.
+  /// The same, for small launches beside those in space(), which are not to wait for messages.
+  virtual const ExecutionSpace& side_space() const = 0;
+  /// What is launched in both from now on comes after all that has been launched in the default order.
   virtual void begin() = 0;
   /// They leave when all is done that has been launched in space(); what is launched there next comes after them.
   virtual void exchange(const std::vector<Message>& messages) = 0;
-  /// What is launched in the default order from now on comes after all that has been launched in space().
+  /// What is launched in the default order from now on comes after all that has been launched in both.
   virtual void finish() = 0;
+};
+
+/// What a rank exchanges in a step, and what it computes meanwhile.
+struct ExchangeLoad {
+  std::size_t bytes;  ///< sent or received, whichever is more
+  long elements;      ///< of the inner blocks
 };
 
 /// By NCCL, where the program was built with it and each rank has a GPU of its own, but for
 /// RAILWAVE_RANK_MESSAGES=host; null elsewhere, on all ranks alike: rows go through the host then. All ranks must call
 /// this together.
-std::unique_ptr<DeviceMessages> device_messages(Transport& transport);
+std::unique_ptr<DeviceMessages> device_messages(Transport& transport, const ExchangeLoad& load);
 
 }  // namespace railwave

@@ -16,8 +16,7 @@ namespace {
 /// What another rank computes of a step: elements, and the motion of their nodes.
 Plan follower_plan(Model& model, StepKind kind, RowExchange& exchange) {
   Plan plan;
-  plan.forces = exchange.begin_tasks();
-  append(plan.forces, shared_element_tasks(model, kind, exchange));
+  plan.forces = shared_force_tasks(model, kind, exchange, {});
   plan.motion = node_tasks(model, model.elements, model, kind, {});
   return plan;
 }

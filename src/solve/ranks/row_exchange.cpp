@@ -1,5 +1,8 @@
 #include "solve/ranks/row_exchange.hpp"
 
+#include <algorithm>
+
+#include "kernels/elements/element_blocks.hpp"
 #include "kernels/support/milestone.hpp"
 #include "kernels/support/packed_rows.hpp"
 #include "kernels/support/team.hpp"
@@ -90,6 +93,13 @@ std::vector<DeviceMessages::Message> device_messages_of(const PrecisionBuffers<S
   return messages;
 }
 
+ExchangeLoad load_of(const RankShare& share, bool single) {
+  long inner_blocks = 0;
+  for (const Array<int*>& of_group : share.inner) inner_blocks += static_cast<long>(of_group.extent(0));
+  const std::size_t row = single ? sizeof(PartialForce<float>) : sizeof(PartialForce<double>);
+  return {row * std::max(share.sent.extent(0), share.received.extent(0)), inner_blocks * elements_of_block};
+}
+
 template <class S>
 void finish_messages(const PrecisionBuffers<S>& buffers, const ExecutionSpace& copies, Transport& transport) {
   transport.finish();
@@ -106,7 +116,7 @@ RowExchange::RowExchange(const NodalState& nodal, RankShare share, Transport& tr
       share_(std::move(share)),
       transport_(transport),
       buffers_(std::make_unique<Buffers>(share_, nodal.partial.single_precision)) {
-  buffers_->on_devices = device_messages(transport);
+  buffers_->on_devices = device_messages(transport, load_of(share_, nodal.partial.single_precision));
 }
 
 RowExchange::~RowExchange() = default;
@@ -134,6 +144,10 @@ std::vector<Task> RowExchange::begin_tasks() {
 
 const ExecutionSpace* RowExchange::outer_space() const {
   return buffers_->on_devices ? &buffers_->on_devices->space() : nullptr;
+}
+
+const ExecutionSpace* RowExchange::side_space() const {
+  return buffers_->on_devices ? &buffers_->on_devices->side_space() : nullptr;
 }
 
 template <class S>

@@ -29,6 +29,8 @@ class RowExchange {
   /// In whose order outer blocks may launch their forces, beside all others; null: the default one, and rows go through
   /// the host.
   const ExecutionSpace* outer_space() const;
+  /// In whose order loads and contact may be launched then; null: the default one.
+  const ExecutionSpace* side_space() const;
   /// The first of a step: what is launched there comes after the step before.
   std::vector<Task> begin_tasks();
   /// To come after the outer blocks' forces: the rows are on their way from then on.

@@ -9,7 +9,8 @@ Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind) {
           [&nodal, &built, settling = kind == StepKind::settling](const Instant& instant) {
             BeamForce force{built.arrays, nodal.nodes.position, nodal.external.contribution, settling, instant.elapsed};
             for (std::size_t l = 0; l < built.moments.size(); ++l) force.given[l] = instant.value_of(*built.moments[l]);
-            Kokkos::parallel_for("beam_force", SpreadRange(0, built.arrays.count + built.arrays.moment_count), force);
+            Kokkos::parallel_for(
+                "beam_force", SpreadRange(instant.space(), 0, built.arrays.count + built.arrays.moment_count), force);
           }};
 }
 

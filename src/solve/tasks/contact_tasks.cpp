@@ -16,7 +16,7 @@ Task search_task(const scene::Scene& scene, const NodalState& nodal, ContactPair
 
 template <bool Friction, class Normals, class Law>
 void launch_springs(const NodalState& nodal, const ContactPair& pair, const Instant& instant, const Law& law) {
-  Kokkos::parallel_for("contact_force", SpreadRange(0, pair.window.bound()),
+  Kokkos::parallel_for("contact_force", SpreadRange(instant.space(), 0, pair.window.bound()),
                        contact_force<Friction, Normals>(nodal, pair, instant, law, pair.law.state));
 }
 
@@ -50,8 +50,8 @@ std::vector<Task> contact_tasks(const scene::Scene& scene, const NodalState& nod
   if (contacts.empty()) return tasks;
   // The node update leaves the sums cleared. Settling does not, nor does who computes an instant's forces twice.
   if (kind != StepKind::advancing)
-    tasks.push_back({"clearing of contact forces", "d", [&nodal](const Instant&) {
-                       Kokkos::deep_copy(ExecutionSpace(), nodal.external.sum.contact, std::uint64_t{0});
+    tasks.push_back({"clearing of contact forces", "d", [&nodal](const Instant& instant) {
+                       Kokkos::deep_copy(instant.space(), nodal.external.sum.contact, std::uint64_t{0});
                      }});
   for (ContactPair& pair : contacts) {
     if (!pair.has_springs()) continue;

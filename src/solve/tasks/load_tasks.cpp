@@ -11,10 +11,10 @@ void apply_load(const NodalState& nodal, const LoadArrays& load, const Instant& 
   const NodeArrays& nodes = nodal.nodes;
   if (load.load->type == scene::LoadType::pressure) {
     Kokkos::parallel_for(
-        "pressure", Range(0, load.count),
+        "pressure", Range(instant.space(), 0, load.count),
         PressureLoad{nodal.external, nodes.position, nodes.velocity, load.first, load.facets, value, instant.elapsed});
   } else {
-    Kokkos::parallel_for("dead_load", Range(0, load.count),
+    Kokkos::parallel_for("dead_load", Range(instant.space(), 0, load.count),
                          DeadLoad{nodal.external, nodes.velocity, load.first, load.amplitude, value, instant.elapsed});
   }
 }
@@ -23,11 +23,11 @@ constexpr int threads_of_loads = on_device ? 512 : 1;
 using LoadTeam = Kokkos::TeamPolicy<ExecutionSpace, Kokkos::LaunchBounds<512>, AsArgument>;
 
 /// Sums over sets, and what follows from them.
-void launch_set_loads(const SetLoads& all) {
-  if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(1, threads_of_loads), all);
+void launch_set_loads(const ExecutionSpace& space, const SetLoads& all) {
+  if (few_sets(all.sets.sets)) return Kokkos::parallel_for("set_loads", LoadTeam(space, 1, threads_of_loads), all);
   constexpr int most_teams = 64;
   const int teams = std::min(most_teams, (all.chunk_count() + threads_of_loads - 1) / threads_of_loads);
-  Kokkos::parallel_for("set_loads", LoadTeam(teams, threads_of_loads), SetLoadTeams{all, teams});
+  Kokkos::parallel_for("set_loads", LoadTeam(space, teams, threads_of_loads), SetLoadTeams{all, teams});
 }
 
 /// Connectors, torques, and the gather of all loads: one launch where they are few.
@@ -38,9 +38,10 @@ Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kin
   if (loads.connectors.arrays.count > 0) name = "connectors, " + name;
   const int rows = nodal.external.loaded_count;
   return {name, "a", [&nodal, &loads, kind, sets, rows_go_along, rows](const Instant& instant) {
-            if (sets) launch_set_loads(set_loads(nodal, loads, instant, kind, rows_go_along ? rows : 0));
+            const ExecutionSpace space = instant.space();
+            if (sets) launch_set_loads(space, set_loads(nodal, loads, instant, kind, rows_go_along ? rows : 0));
             if (!rows_go_along)
-              Kokkos::parallel_for("row_loads", SpreadRange(0, rows), row_loads(nodal, loads, instant.elapsed));
+              Kokkos::parallel_for("row_loads", SpreadRange(space, 0, rows), row_loads(nodal, loads, instant.elapsed));
           }};
 }
 

@@ -246,8 +246,8 @@ struct PickGaps {
 std::vector<double> present_gaps(const NodeArrays& nodes, const ContactPair& pair, const std::vector<int>& places) {
   const auto gap = unset_array<double*>("present gap", pair.arrays.slave_count);
   Kokkos::deep_copy(gap, pair.arrays.gap);
-  Kokkos::parallel_for("present_gap", Range(0, pair.window.count),
-                       PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, gap});
+  apart_parallel_for(ExecutionSpace(), "present_gap", pair.window.count,
+                     PresentGap{ContactSearch{{pair.arrays, nodes.position}}, pair.window, gap});
   if (places.size() == pair.slave_nodes.size()) return to_vector(gap);
   const auto result = unset_array<double*>("wanted gaps", places.size());
   Kokkos::parallel_for("pick_gaps", Range(0, static_cast<int>(places.size())),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -79,6 +80,11 @@ class NcclMessages : public DeviceMessages {
     check(ncclCommInitRank(&ranks_, transport.ranks(), id, transport.rank()), "join the ranks");
   }
   ~NcclMessages() override {
+    // After an error the others' messages may never come.
+    if (std::uncaught_exceptions() > exceptions_) {
+      ncclCommAbort(ranks_);
+      return;
+    }
     cudaStreamSynchronize(stream_.get());
     ncclCommDestroy(ranks_);
   }
@@ -107,6 +113,7 @@ class NcclMessages : public DeviceMessages {
   ExecutionSpace space_;
   ncclComm_t ranks_ = nullptr;
   Mark begun_, done_;
+  const int exceptions_ = std::uncaught_exceptions();
 };
 
 /// Whether users leave the way of rows to the program.

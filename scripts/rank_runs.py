@@ -1,9 +1,48 @@
-"""Runs over several ranks, and their results compared bit for bit: for same_on_ranks and rank_scaling."""
+"""Runs over several ranks, the bar that they are measured with, and their results compared bit for bit: for
+same_on_ranks, rank_scaling and rank_forecast."""
 
 import os
 
 # Attributes of the results that say how the run went; others say when, and how long it took.
 OF_THE_RUN = ("steps", "completed", "reason", "settling_evaluations", "smallest_step", "largest_step")
+
+CUBE = 1e-3  # m, of an element
+BAR = """title = "a ringing bar"
+[materials.steel]
+youngs_modulus = 210e9
+poissons_ratio = 0.3
+density = 7800
+[meshes.bar]
+type = "box"
+size = [{length}, {width}, {width}]
+divisions = [{along}, {across}, {across}]
+[parts.bar]
+mesh = "bar"
+material = "steel"
+[loads.hit]
+type = "pressure"
+target = "bar.x_min"
+pressure = 1e6
+[solver]
+step_estimate = "element"
+[time]
+end = {end}
+[output]
+history_interval = 1
+field_interval = 1
+field_sets = ["bar.x_min"]
+fields = ["displacement"]
+"""
+
+
+def bar(elements, steps):
+    """A case of a bar, four times as long as wide."""
+    across = max(4, round((elements / 4) ** (1 / 3)))
+    along = max(1, round(elements / across ** 2))
+    speed = (210e9 * 0.7 / (1.3 * 0.4 * 7800)) ** 0.5  # m/s, of dilatational waves
+    return BAR.format(
+        length=along * CUBE, width=across * CUBE, along=along, across=across, end=steps * 0.9 * CUBE / speed
+    )
 
 
 def on_ranks(ranks, command):

@@ -68,20 +68,10 @@ scene::Scene read_and_warn(const Arguments& arguments) {
   return scene;
 }
 
-int run_case(const Arguments& arguments) {
-  if (rank_of_process() > 0) return follow_run(arguments.case_file, arguments.overrides);
-  const auto began = std::chrono::steady_clock::now();
-  PatienceTimer patience;
-  const scene::Scene scene = read_and_warn(arguments);
-  const RunFiles files{arguments.restart, arguments.overwrite};
-  if (arguments.restart) {  // before anything is held that the child would let go
-    check_run_places(scene, files);
-    const std::string& file = scene.output.file;
-    if (const auto code =
-            after_reading_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
-      return *code;
-  }
-  OtherRanks others;
+/// A run of what was read, with the others where there are any.
+/// @param began when the program did
+int run_scene(const Arguments& arguments, const scene::Scene& scene, const RunFiles& files, OtherRanks& others,
+              PatienceTimer& patience, std::chrono::steady_clock::time_point began) {
   const HeldPlaces places(scene, files);
   const KokkosScope kokkos;
   Model model;
@@ -120,6 +110,23 @@ int run_case(const Arguments& arguments) {
   if (summary.completed) return done;
   if (summary.out_of_time) return out_of_time;
   return was_signalled() ? interrupted : run_ended_early;
+}
+
+int run_case(const Arguments& arguments) {
+  if (rank_of_process() > 0) return follow_run(arguments.case_file, arguments.overrides);
+  const auto began = std::chrono::steady_clock::now();
+  PatienceTimer patience;
+  const scene::Scene scene = read_and_warn(arguments);
+  const RunFiles files{arguments.restart, arguments.overwrite};
+  if (arguments.restart) {  // before anything is held that the child would let go
+    check_run_places(scene, files);
+    const std::string& file = scene.output.file;
+    if (const auto code =
+            after_reading_in_child("railwave run --restart", {file}, [&] { check_can_be_extended(file); }))
+      return *code;
+  }
+  OtherRanks others;
+  return others.end_together([&] { return run_scene(arguments, scene, files, others, patience, began); });
 }
 
 int run_members(const EnsembleRequest& request) {
@@ -347,7 +354,13 @@ int work(int argc, char** argv) {
     std::cerr << "railwave: " << error.what() << '\n';
     return wrong_input;
   } catch (const std::exception& error) {
-    std::cerr << "railwave: " << (is_out_of_memory(error) ? out_of_memory(error) : error.what()) << '\n';
+    if (!is_out_of_memory(error)) {
+      std::cerr << "railwave: " << error.what() << '\n';
+      return failed;
+    }
+    std::cerr << "railwave: ";
+    if (others_were_started()) std::cerr << "rank " << rank_of_process() << ": ";
+    std::cerr << out_of_memory(error) << '\n';
     return failed;
   }
 }

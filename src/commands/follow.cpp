@@ -3,16 +3,19 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 
 #include "case/error.hpp"
 #include "case/read_case.hpp"
+#include "commands/process.hpp"
 #include "commands/threads.hpp"
 #include "mesh/contact_zone.hpp"
 #include "model/assembly.hpp"
 #include "model/model.hpp"
 #include "model/ranks/block_partition.hpp"
+#include "output/free_memory.hpp"
 #include "solve/ranks/rank_team.hpp"
 
 namespace railwave {
@@ -21,11 +24,37 @@ namespace {
 constexpr int done = 0, failed = 1, wrong_input = 2;
 
 /// In one piece: launchers of MPI put their own words between what comes in several.
-void complain(int rank, const std::exception& error) {
-  std::cerr << fmt::format("railwave: rank {}: {}\n", rank, error.what()) << std::flush;
+void complain(int rank, const std::string& what) {
+  std::cerr << fmt::format("railwave: rank {}: {}\n", rank, what) << std::flush;
 }
 
-/// Whoever reads sees what rank 0 says; it says the same of the case.
+std::string text_of(const std::exception& error) {
+  return is_out_of_memory(error) ? out_of_memory(error) : error.what();
+}
+
+/// Address space in bytes: what MPI takes to begin, as it does not live through a lack of memory, and what it may take
+/// for a message.
+constexpr std::size_t of_mpi = std::size_t{96} << 20, of_messages = std::size_t{16} << 20;
+
+bool lacks_memory(const std::exception& error) { return is_out_of_memory(error) || !can_be_had(of_messages); }
+
+/// Without memory MPI may lose what others are sent, and they would wait without end: nothing is sent any more.
+[[noreturn]] void end_all(Transport& transport, const std::exception& error) {
+  complain(transport.rank(), text_of(error) +
+                                 "; all ranks end. If there is a checkpoint, --restart goes on from it, on any number "
+                                 "of ranks");
+  transport.end_all();
+  std::abort();  // which compilers do not see that it never comes to
+}
+
+std::unique_ptr<Transport> begin_mpi() {
+  if (others_were_started() && !can_be_had(of_mpi)) throw TooLittleMemory(of_mpi);
+  auto transport = transport_of_processes();
+  if (transport) meet(*transport);  // ways to others are made at the first message
+  return transport;
+}
+
+/// Makes the model. Whoever reads sees what rank 0 says of the case; this rank says what it alone finds.
 int build(const std::string& case_file, const std::vector<std::string>& overrides, Transport& transport, Model& model) {
   try {
     scene::Scene scene = read_case(case_file, overrides, nullptr);
@@ -34,11 +63,15 @@ int build(const std::string& case_file, const std::vector<std::string>& override
     build_model(scene, assemble(scene, notes), model, &transport);
     refuse_on_ranks(model);
     return done;
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
+    if (lacks_memory(error)) end_all(transport, error);
+    if (transport.first_to_refuse(false) == transport.rank()) complain(transport.rank(), error.what());
+    transport.followers_have_ended = true;
     return wrong_input;
   } catch (const std::exception& error) {
     if (transport.followers_have_ended) return done;  // another rank has failed, and says so
-    complain(transport.rank(), error);
+    if (lacks_memory(error)) end_all(transport, error);
+    complain(transport.rank(), error.what());
     return failed;
   }
 }
@@ -49,7 +82,13 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   // Rank 0 decides when a run that is to stop has come to a whole step.
   for (const int one : {SIGINT, SIGTERM, SIGHUP, SIGXCPU, SIGUSR1, SIGUSR2}) std::signal(one, SIG_IGN);
   std::cout.rdbuf(nullptr);
-  const auto transport = transport_of_processes();
+  std::unique_ptr<Transport> transport;
+  try {
+    transport = begin_mpi();
+  } catch (const std::bad_alloc& error) {
+    complain(rank_of_process(), out_of_memory(error));
+    return failed;
+  }
   if (!transport) return failed;
   const KokkosScope kokkos;
   Model model;
@@ -59,11 +98,12 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
   try {
     follow_rank_0(model, *transport);
   } catch (const std::exception& error) {
-    complain(transport->rank(), error);
-    transport->end_all();
+    end_all(*transport, error);
   }
   return done;
 }
+
+OtherRanks::OtherRanks() : transport_(begin_mpi()) {}
 
 OtherRanks::~OtherRanks() {
   if (!transport_ || transport_->followers_have_ended) return;
@@ -75,9 +115,16 @@ OtherRanks::~OtherRanks() {
 
 void OtherRanks::begin() {
   told_ = true;
-  if (transport_ && !transport_->all_agree(true)) {
-    transport_->followers_have_ended = true;
-    throw std::runtime_error("another rank could not make the model; nothing was run");
+  if (transport_) meet(*transport_);
+}
+
+int OtherRanks::end_together(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    const bool of_input = dynamic_cast<const InputError*>(&error) != nullptr;
+    if (!transport_ || transport_->followers_have_ended || !(lacks_memory(error) || (told_ && !of_input))) throw;
+    end_all(*transport_, error);
   }
 }
 

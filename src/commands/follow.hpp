@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,7 +17,8 @@ int follow_run(const std::string& case_file, const std::vector<std::string>& ove
 /// Rank 0's word that it begins the run, or, where this ends before, that it does not.
 class OtherRanks {
  public:
-  OtherRanks() : transport_(transport_of_processes()) {}
+  /// Throws TooLittleMemory where MPI would not find enough to begin.
+  OtherRanks();
   ~OtherRanks();
   OtherRanks(const OtherRanks&) = delete;
   OtherRanks& operator=(const OtherRanks&) = delete;
@@ -24,6 +27,11 @@ class OtherRanks {
   void begin();
   /// Null: there are none.
   Transport* transport() const { return transport_.get(); }
+
+  /// Does `work`. Where that ends for want of memory, or fails after begin(), other than by the user's input, all ranks
+  /// end with a message: the others may be waiting for this one in the middle of a step. What else it throws passes
+  /// through.
+  int end_together(const std::function<int()>& work);
 
  private:
   std::unique_ptr<Transport> transport_;

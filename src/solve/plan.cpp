@@ -73,6 +73,22 @@ bool outer_blocks_may_go_beside(const ElementModel& elements) {
   });
 }
 
+/// To come before the search of pairs with springs, or of those without: where it checks a window the host waits for
+/// the device, which would wait without end for the rows of a rank that does not answer.
+std::vector<Task> wait_before_search(const Model& model, bool springs, const RowExchange* exchange) {
+  const auto& contacts = model.contacts;
+  const auto searched = [springs](const ContactPair& pair) { return pair.has_springs() == springs; };
+  if (exchange == nullptr || std::none_of(contacts.begin(), contacts.end(), searched)) return {};
+  const NodalState& nodal = model;
+  Task task{"rows of other ranks, before a contact's window is checked", "d",
+            [&nodal, &contacts, searched, exchange](const Instant&) {
+              for (const ContactPair& pair : contacts)
+                if (searched(pair) && nodal.step >= pair.next_check) return exchange->wait_for_rows();
+            }};
+  task.recordable = false;
+  return {task};
+}
+
 /// @param space null: the tasks stay in the default one
 std::vector<Task> in_space(std::vector<Task> tasks, const ExecutionSpace* space) {
   if (space == nullptr) return tasks;
@@ -108,6 +124,7 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
   std::vector<Task> others = placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0);
+  append(others, placed(wait_before_search(model, true, exchange), Stage::own_forces, 1));
   append(others, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
   if (exchange != nullptr) {
     append(tasks, shared_force_tasks(model, kind, *exchange, std::move(others)));
@@ -121,6 +138,7 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
 std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation, RowExchange* exchange) {
   std::vector<Task> tasks = own_force_tasks(model, kind, exchange);
   const MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
+  append(tasks, placed(wait_before_search(model, false, exchange), Stage::own_forces, 1));
   append(tasks, placed(multipliers.locate, Stage::own_forces, 1));
   append(tasks, tie_tasks(model, model.ties));
   append(tasks, placed(non_reflecting_tasks(model, model.ends, kind), Stage::last_forces, model.ties.at_ends ? 0 : 1));

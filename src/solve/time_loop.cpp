@@ -121,7 +121,7 @@ class TimeLoop {
     recording_.finish(!late_);
     if (leader_) leader_->sample(instant_);
     plans_.compute_forces(instant_, sampled_ || asks_for_places() ? StepKind::sampled : StepKind::advancing);
-    if (leader_) leader_->exchange().wait_for_rows();
+    wait_for_other_ranks();
     memory_.monitor.check_contact_ends();
     if (late_)
       late_history_ = std::make_unique<SampleUnderWay>(model_, model_.step_size);
@@ -211,7 +211,13 @@ class TimeLoop {
     if (memory_.due.last() ? keeping_.at_end : stopping_ || interval_is_over) checkpoint();
   }
 
+  /// With patience, before anything that waits for the device: for one that does not answer that has no end.
+  void wait_for_other_ranks() const {
+    if (leader_) leader_->exchange().wait_for_rows();
+  }
+
   void checkpoint() {
+    wait_for_other_ranks();
     recording_.finish();
     const WallClock clock;
     keeping_.checkpoints->keep(state());
@@ -239,6 +245,7 @@ class TimeLoop {
             !stopping_ && !summary_.fault && !first_ && !monitor_due;
     if (late_) return history_begins_.put(ExecutionSpace());
     if (!sampled_) return;
+    wait_for_other_ranks();
     recording_.finish();
     (output_due_ ? timing_.output_steps : timing_.monitor_steps).begin();
   }
@@ -301,7 +308,7 @@ class TimeLoop {
     for (long k = 0; k < steps; ++k) {
       instant_.time = model_.time = memory_.control.time();
       plans_.compute_forces(instant_, StepKind::advancing);
-      if (memory_.monitor.contact_ends_due(model_.step)) leader_->exchange().wait_for_rows();
+      if (memory_.monitor.contact_ends_due(model_.step)) wait_for_other_ranks();
       memory_.monitor.check_contact_ends();
       plans_.advance(instant_);
       end_step();

@@ -62,8 +62,9 @@ class Ranks(unittest.TestCase):
     def write(self, text):
         (self.folder / "case.toml").write_text(text)
 
-    def start(self, ranks, *options, **environment):
-        command = [str(PROGRAM), "run", "case.toml", *options]
+    def start(self, ranks, *options, wrapper=(), **environment):
+        """@param wrapper of each rank's program"""
+        command = [*wrapper, str(PROGRAM), "run", "case.toml", *options]
         if ranks > 1:
             command = [*MPIRUN, "-n", str(ranks), *command]
         return subprocess.Popen(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

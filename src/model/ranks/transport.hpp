@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 namespace railwave {
 
@@ -27,8 +28,9 @@ class Transport {
   /// message where that takes too long.
   virtual void wait_until(const std::function<bool()>& come) = 0;
 
-  /// Whether all ranks say yes; each waits for all others.
-  virtual bool all_agree(bool yes) = 0;
+  /// The lowest rank that says no; -1: all say yes. Each waits for all others.
+  virtual int first_to_refuse(bool yes) = 0;
+  bool all_agree(bool yes) { return first_to_refuse(yes) < 0; }
 
   /// After an error that others must not wait for.
   [[noreturn]] virtual void end_all() = 0;
@@ -37,11 +39,13 @@ class Transport {
 };
 
 /// All ranks have come so far in making a model, or none goes on.
-/// Throws std::runtime_error where another one has not. Whoever fails itself answers the others by all_agree(false).
+/// Throws std::runtime_error where another one has not. Whoever fails itself answers the others by all_agree(false),
+/// or ends all of them where it has no memory left for messages.
 inline void meet(Transport& transport) {
-  if (transport.all_agree(true)) return;
+  const int failed = transport.first_to_refuse(true);
+  if (failed < 0) return;
   transport.followers_have_ended = true;
-  throw std::runtime_error("another rank could not make the model; nothing was run");
+  throw std::runtime_error("rank " + std::to_string(failed) + " could not make the model; nothing was run");
 }
 
 // Of solve/ranks/mpi_transport.cpp:
@@ -49,6 +53,9 @@ inline void meet(Transport& transport) {
 /// The number of this process among those that a launcher of MPI has started together, before MPI is begun; 0: alone,
 /// the first, or the program was built without MPI.
 int rank_of_process();
+
+/// Whether a launcher of MPI has started several processes together, and the program was built with MPI.
+bool others_were_started();
 
 /// Processes that are started from now on take themselves for alone.
 void hide_ranks();

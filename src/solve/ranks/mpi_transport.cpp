@@ -100,10 +100,10 @@ class MpiTransport : public Transport {
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > patience_) give_up();
   }
 
-  bool all_agree(bool yes) override {
-    int own = yes ? 1 : 0, all = 0;
-    check(MPI_Allreduce(&own, &all, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "agree");
-    return all == 1;
+  int first_to_refuse(bool yes) override {
+    int own = yes ? ranks_ : rank_, least = 0;
+    check(MPI_Allreduce(&own, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD), "agree");
+    return least == ranks_ ? -1 : least;
   }
 
   [[noreturn]] void end_all() override {
@@ -154,12 +154,14 @@ int started_together() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE"); }
 
 int rank_of_process() { return started_together() < 2 ? 0 : launched("OMPI_COMM_WORLD_RANK", "PMI_RANK"); }
 
+bool others_were_started() { return started_together() >= 2; }
+
 void hide_ranks() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) unsetenv(name);
 }
 
 std::unique_ptr<Transport> transport_of_processes() {
-  if (started_together() < 2) return nullptr;
+  if (!others_were_started()) return nullptr;
   auto transport = std::make_unique<MpiTransport>();
   if (transport->ranks() < 2) return nullptr;
   return transport;
@@ -168,6 +170,8 @@ std::unique_ptr<Transport> transport_of_processes() {
 #else
 
 int rank_of_process() { return 0; }
+
+bool others_were_started() { return false; }
 
 void hide_ranks() {}
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -94,6 +95,11 @@ class NcclMessages : public DeviceMessages {
     check(ncclCommInitRank(&ranks_, transport.ranks(), id, transport.rank()), "join the ranks");
   }
   ~NcclMessages() override {
+    // After an error the others' messages may never come.
+    if (std::uncaught_exceptions() > exceptions_) {
+      ncclCommAbort(ranks_);
+      return;
+    }
     cudaStreamSynchronize(stream_.get());
     ncclCommDestroy(ranks_);
   }
@@ -130,6 +136,7 @@ class NcclMessages : public DeviceMessages {
   ExecutionSpace space_, side_space_;
   ncclComm_t ranks_ = nullptr;
   Mark begun_, done_, side_begun_, side_done_;
+  const int exceptions_ = std::uncaught_exceptions();
 };
 
 /// Whether users leave the way of rows to the program.

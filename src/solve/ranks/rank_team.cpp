@@ -80,6 +80,7 @@ RankLeader::RankLeader(Model& model, Transport& transport)
 }
 
 RankLeader::~RankLeader() {
+  if (std::uncaught_exceptions() > exceptions_) return;  // the others may be in the middle of a step
   try {
     end_followers(transport_);
   } catch (const std::exception&) {

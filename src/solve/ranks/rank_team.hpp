@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string>
 
@@ -76,7 +77,7 @@ class RankLeader : public SampledRanks {
  public:
   /// The model is as built; it may settle and be set in motion afterwards.
   RankLeader(Model& model, Transport& transport);
-  /// The others end too.
+  /// The others end too, unless an exception ends this rank: whoever catches it decides what becomes of them.
   ~RankLeader() override;
   RankLeader(const RankLeader&) = delete;
   RankLeader& operator=(const RankLeader&) = delete;
@@ -120,8 +121,9 @@ class RankLeader : public SampledRanks {
   StateTransfer state_transfer_;
   std::vector<ShareItems> items_;  ///< by rank
   OwnItems own_;
-  bool whole_ = false;                   ///< the model's arrays are
-  long counts_[transferred_kinds] = {};  ///< by Transferred: how often
+  const int exceptions_ = std::uncaught_exceptions();  ///< under way when it was made
+  bool whole_ = false;                                 ///< the model's arrays are
+  long counts_[transferred_kinds] = {};                ///< by Transferred: how often
   std::unique_ptr<RowExchange> exchange_;
 };
 

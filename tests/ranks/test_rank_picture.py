@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`railwave mesh --ranks N` writes which element is whose, as `railwave check --ranks N` counts them, and scripts/picture
-draws it."""
+"""`railwave mesh --ranks N` writes which element is whose, as `railwave check --ranks N` counts them, and
+scripts/picture draws it."""
 
 import os
 import pathlib

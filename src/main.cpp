@@ -55,7 +55,7 @@ struct Arguments {
   bool markdown = false, schema = false;
   bool restart = false, keep_state = false, overwrite = false;
   double wall_time = 0;  ///< s; 0: no limit
-  int ranks = 1;         ///< that a check is to speak of
+  int ranks = 1;         ///< that a check is to speak of, and a model's file to show
 };
 
 /// Reads the case, finds the contact bands of its meshes, and prints what there is to say at once: what follows may
@@ -153,6 +153,8 @@ int check_case(const Arguments& arguments) {
     std::cout << "On " << arguments.ranks << " ranks\n";
     for (const std::string& line : describe_ranks(model, partition_blocks(model, arguments.ranks)))
       std::cout << "  " << line << '\n';
+    std::cout << "  railwave mesh " << arguments.case_file << " --ranks " << arguments.ranks
+              << " writes which element is whose, for ParaView and scripts/picture --mesh\n";
   }
   report_what_gets_lost(scene, std::cout);
   return done;
@@ -168,9 +170,11 @@ int write_mesh(const Arguments& arguments) {
   std::vector<std::string> notes;
   build_model(scene, assemble(scene, notes), model);
   report("note", notes, std::cout);
+  std::vector<int> ranks;
+  if (arguments.ranks > 1) ranks = ranks_of_elements(model, partition_blocks(model, arguments.ranks));
   const Activity writing("writing " + path);
   make_own_folder(scene, path);
-  write_model_file(model, model.absorbing, model.connectors.cells, path);
+  write_model_file(model, model.absorbing, model.connectors.cells, path, ranks);
   std::cout << path << " and " << xdmf_path(path) << ": " << model.element_count() << " elements of "
             << model.assembly.parts.size() << " parts, " << model.connectors.cells.size() << " springs and dashpots";
   int beams = 0;
@@ -283,6 +287,8 @@ int dispatch(int argc, char** argv) {
   mesh->add_option("--out", arguments.mesh_file,
                    "HDF5 file to write; its XDMF companion, which ParaView opens, lies beside it; default "
                    "results/NAME/mesh.h5, NAME being the case file's");
+  mesh->add_option("--ranks", arguments.ranks,
+                   "also write which of so many processes of a run by mpirun would compute each element");
   add_overwrite_option(mesh, arguments.overwrite);
   mesh->callback([&] { code = write_mesh(arguments); });
   add_import_command(app, arguments.import, [&] { import_command(arguments.import, std::cout); });

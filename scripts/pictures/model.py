@@ -20,9 +20,11 @@ def lines_of(file, name):
 
 
 class Surface:
-    """Faces of all parts that are on the outside, seen from one direction."""
+    """Faces of all parts that are on the outside, seen from one direction. `rank` is by face, None where the file has
+    no ranks."""
 
-    def __init__(self, path):
+    def __init__(self, path, keep=None):
+        """@param keep which elements, from their centres (elements, 3); default: all"""
         try:
             file = h5py.File(path, "r")
         except OSError as error:
@@ -33,9 +35,17 @@ class Surface:
             self.title = file.attrs["title"]
             self.part_names = [str(name) for name in file.attrs["part_names"]]
             corners, parts, steps, centres, all_steps = [], [], [], [], []
+            ranks, all_ranks = [], []
             for group in file["parts"].values():
                 nodes, elements = group["coordinates"][:], group["connectivity"][:]
-                faces, owner = exterior(elements)
+                kept = np.arange(len(elements))
+                if keep is not None:
+                    kept = kept[keep(nodes[elements].mean(axis=1))]
+                faces, owner = exterior(elements[kept])
+                owner = kept[owner]
+                if "rank" in group:
+                    ranks.append(group["rank"][:][owner])
+                    all_ranks.append(group["rank"][:])
                 corners.append(nodes[faces])
                 parts.append(group["part"][:][owner])
                 steps.append(group["stable_step"][:][owner])
@@ -45,6 +55,13 @@ class Surface:
             self.beams = lines_of(file, "beams")
         self.corners, self.part, self.step = np.concatenate(corners), np.concatenate(parts), np.concatenate(steps)
         all_steps, centres = np.concatenate(all_steps), np.concatenate(centres)
+        self.rank = np.concatenate(ranks) if ranks else None
+        if ranks:
+            all_ranks = np.concatenate(all_ranks)
+            self.elements_of_rank = np.bincount(all_ranks)
+            self.ranks = len(self.elements_of_rank)
+            of_rank_0 = all_ranks == 0
+            self.middle_of_rank_0 = np.median(centres[of_rank_0 if of_rank_0.any() else ...][:, 1])
         self.least, self.place = all_steps.min(), centres[all_steps.argmin()]
         self.short = int(np.sum(all_steps < 1.1 * self.least))
         self._look()
@@ -61,6 +78,7 @@ class Surface:
         order = np.argsort(self.corners.mean(axis=1) @ towards)
         order = order[normal[order] @ towards > 0]
         self.corners, self.part, self.step = self.corners[order], self.part[order], self.step[order]
+        self.rank = None if self.rank is None else self.rank[order]
         self.shade = 0.55 + 0.45 * np.clip(normal[order] @ np.array([0.35, 0.55, 0.76]), 0, 1)
 
     def draw(self, axes, colours, lines=True, edges=0.0, box=None):

@@ -54,7 +54,7 @@ def make_parser(root):
     parser.add_argument(
         "--mesh",
         metavar="FILE",
-        help="draw the model that `railwave mesh` wrote instead: parts, connectors, stable steps",
+        help="draw the model that `railwave mesh` wrote instead: parts, connectors, stable steps, ranks",
     )
     parser.add_argument(
         "--signal",

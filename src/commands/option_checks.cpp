@@ -32,6 +32,7 @@ const std::vector<NumberOption>& number_options() {
   static const std::vector<NumberOption> all = {
       {"run", "--wall-time", "s", between(tiny, any), "3600"},
       {"check", "--ranks", "", between(1, 100000), "4", true},
+      {"mesh", "--ranks", "", between(1, 100000), "4", true},
       {"sweep", "--jobs", "", between(1, 1000), "4", true},
       {"sweep", "--threads", "", between(1, 512), "2", true},
       {"sweep", "--slurm", "", between(1, 10000), "4", true},

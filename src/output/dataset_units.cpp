@@ -67,6 +67,7 @@ constexpr DatasetUnit datasets[] = {
     {"/parts/*/material", "1"},
     {"/parts/*/stable_step", "s"},
     {"/parts/*/step_ratio", "1"},
+    {"/parts/*/rank", "1"},
     {"/parts/*/element", "1"},
     {"/parts/*/culprit", "1"},
     {"/connectors/connector", "1"},

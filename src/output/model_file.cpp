@@ -15,10 +15,11 @@ namespace {
 class ModelFileWriter {
  public:
   ModelFileWriter(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
-                  const std::vector<ConnectorCell>& connectors, const std::string& path)
+                  const std::vector<ConnectorCell>& connectors, const std::string& path, const std::vector<int>& ranks)
       : assembled_(assembled),
         absorbing_(absorbing),
         connectors_(connectors),
+        ranks_(ranks),
         file_(hdf5::File::create(path, kinds::model())),
         name_(escaped(std::filesystem::path(path).filename().string())) {
     write_parts();
@@ -52,6 +53,10 @@ class ModelFileWriter {
       grid.values("material", std::vector<int>(step.size(), part.material));
       grid.values("stable_step", step);
       grid.values("step_ratio", ratio);
+      if (!ranks_.empty()) {
+        const auto first = ranks_.begin() + part.first_element;
+        grid.values("rank", std::vector<int>(first, first + part.element_count));
+      }
       grids_ += grid.text();
     }
   }
@@ -159,6 +164,7 @@ class ModelFileWriter {
   const AssembledScene& assembled_;
   const AbsorbingLayers& absorbing_;
   const std::vector<ConnectorCell>& connectors_;
+  const std::vector<int>& ranks_;
   hdf5::File file_;
   std::string name_, grids_;
 };
@@ -166,9 +172,10 @@ class ModelFileWriter {
 }  // namespace
 
 void write_model_file(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
-                      const std::vector<ConnectorCell>& connectors, const std::string& path) {
+                      const std::vector<ConnectorCell>& connectors, const std::string& path,
+                      const std::vector<int>& ranks) {
   check_results_place(path);
-  const ModelFileWriter writer(assembled, absorbing, connectors, path);
+  const ModelFileWriter writer(assembled, absorbing, connectors, path, ranks);
   write_grids(xdmf_path(path), writer.grids(), kinds::model_xdmf());
 }
 

@@ -17,14 +17,15 @@ namespace railwave {
 /// Writes what a run would begin with, for ParaView: `path` (HDF5) and its XDMF companion. Groups:
 /// - parts/NAME: coordinates (m), connectivity, and by element part and material (their numbers; names in the file's
 ///   attributes part_names and material_names), stable_step (s) by the case's estimate, step_ratio (that over the least
-///   of all elements);
+///   of all elements), and rank, where `ranks` has that of each element, in the model's order; empty: no rank;
 /// - surfaces/PART.NAME: coordinates, connectivity of quadrilaterals; node_sets/PART.NAME: coordinates; whole parts are
 ///   left out;
 /// - connectors: coordinates, connectivity of lines, and by line connector (number, names in connector_names),
 ///   stiffness (N/m) and damping (N s/m), the largest along the axes. Ground is drawn a bit away from the other end.
 /// Throws InputError where no file can be made.
 void write_model_file(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
-                      const std::vector<ConnectorCell>& connectors, const std::string& path);
+                      const std::vector<ConnectorCell>& connectors, const std::string& path,
+                      const std::vector<int>& ranks = {});
 
 /// RESULTS.h5 -> RESULTS.fault.h5.
 std::string fault_path(const std::string& results_path);

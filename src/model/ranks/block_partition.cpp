@@ -162,6 +162,20 @@ std::vector<int> deal_out(const BlockGraph& graph, double of_contact, int ranks)
   return rank;
 }
 
+/// Of many ranks those beside rank 0 together.
+std::string memory_of_ranks(const std::vector<RankMemory>& memory) {
+  constexpr std::size_t most_by_rank = 8;
+  std::vector<std::string> texts;
+  double least = 1e300, most = 0;
+  for (const RankMemory& one : memory) texts.push_back(bytes_text(one.peak()));
+  if (memory.size() <= most_by_rank) return fmt::format("by rank: {}", fmt::join(texts, ", "));
+  for (std::size_t r = 1; r < memory.size(); ++r) {
+    least = std::min(least, memory[r].peak());
+    most = std::max(most, memory[r].peak());
+  }
+  return fmt::format("rank 0: {}, others: {} to {}", texts[0], bytes_text(least), bytes_text(most));
+}
+
 bool knows_ranks() {
 #ifdef RAILWAVE_MPI
   return true;
@@ -211,6 +225,16 @@ BlockPartition partition_blocks(const Model& model, int ranks) {
   return partition;
 }
 
+std::vector<int> ranks_of_elements(const Model& model, const BlockPartition& partition) {
+  std::vector<int> ranks(model.element_count(), 0);
+  for (std::size_t g = 0; g < model.elements.size(); ++g) {
+    const ElementGroup& group = model.elements[g];
+    for (int p = 0; p < group.blocks.count; ++p)
+      std::fill_n(ranks.begin() + group.first_element[p], group.element_count[p], partition.owner[g][p]);
+  }
+  return ranks;
+}
+
 void deal_out_blocks(Model& model, Transport& transport) {
   BlockPartition partition;
   if (transport.rank() == 0) partition = partition_blocks(model, transport.ranks());
@@ -249,11 +273,10 @@ std::vector<std::string> describe_ranks(const Model& model, const BlockPartition
       "rank 0 has all {} elements beside contact, ties, loads and ends; the largest share of work is {:.2f} times the "
       "mean, so {} ranks are at most {:.2f} times as fast as one",
       partition.bound_elements, partition.imbalance(), partition.ranks, partition.ranks / partition.imbalance()));
-  std::vector<std::string> memory;
-  for (const RankMemory& one : forecast_memory(model, partition)) memory.push_back(bytes_text(one.peak()));
   BlockPartition alone;
   alone.elements = {model.element_count()};
-  lines.push_back(fmt::format("memory at most, about, by rank: {}; one process alone: {}", fmt::join(memory, ", "),
+  lines.push_back(fmt::format("memory at most, about, {}; one process alone: {}",
+                              memory_of_ranks(forecast_memory(model, partition)),
                               bytes_text(forecast_memory(model, alone).front().peak())));
   if (rank_0_needs_all(model.scene))
     lines.emplace_back(

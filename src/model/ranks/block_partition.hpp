@@ -31,6 +31,9 @@ void refuse_on_ranks(const Model& model);
 /// Throws what refuse_on_ranks() throws.
 BlockPartition partition_blocks(const Model& model, int ranks);
 
+/// The rank that computes each element, in the model's order of elements.
+std::vector<int> ranks_of_elements(const Model& model, const BlockPartition& partition);
+
 /// Gives each block its owner on all ranks, as rank 0 has dealt them out: whatever the others' processors make of
 /// METIS. Throws what partition_blocks() throws, on other ranks std::runtime_error.
 void deal_out_blocks(Model& model, Transport& transport);

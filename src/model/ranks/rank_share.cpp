@@ -23,13 +23,6 @@ void each_node_of_blocks(const Model& model, const BlockPartition& partition, co
   }
 }
 
-/// Whether other ranks have a node too.
-bool is_outer(const RankLayout& layout, int node) {
-  int ranks = 0;
-  for (const auto& touches : layout.touches) ranks += touches[node] != 0 ? 1 : 0;
-  return ranks > 1;
-}
-
 /// Of the model's shared nodes, in their order, those that a rank moves.
 void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
   SharedNodes& shared = model.shared;
@@ -42,7 +35,7 @@ void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const int n = all[i].node & ~special_bit;
     const bool of_no_block = first[n + 1] == first[n];
-    if (layout.touches[rank][n] != 0 || (rank == 0 && of_no_block)) {
+    if (layout.ranks.has(n, rank) || (rank == 0 && of_no_block)) {
       kept.push_back(all[i]);
       if (i >= static_cast<std::size_t>(shared.first_special)) special.push_back(all_special[i - shared.first_special]);
     }
@@ -69,14 +62,35 @@ void keep_sums(Model& model, const ShareItems& items) {
 
 }  // namespace
 
+void RanksOfNodes::add(int node, int rank) {
+  int& only = only_[node];
+  if (only == rank) return;
+  if (only == nobody) {
+    only = rank;
+    return;
+  }
+  auto& ranks = several_[node];
+  if (only != several_ranks) ranks = {only};
+  only = several_ranks;
+  const auto place = std::lower_bound(ranks.begin(), ranks.end(), rank);
+  if (place == ranks.end() || *place != rank) ranks.insert(place, rank);
+}
+
+bool RanksOfNodes::has(int node, int rank) const {
+  if (!several(node)) return only_[node] == rank;
+  const auto& ranks = of(node);
+  return std::binary_search(ranks.begin(), ranks.end(), rank);
+}
+
 RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition) {
   RankLayout layout;
-  layout.touches.assign(partition.ranks, std::vector<char>(model.nodes.count, 0));
+  layout.ranks = RanksOfNodes(model.nodes.count);
   layout.sent.assign(partition.ranks, std::vector<std::vector<int>>(partition.ranks));
-  each_node_of_blocks(model, partition, [&](int node, int rank, int, int) { layout.touches[rank][node] = 1; });
+  each_node_of_blocks(model, partition, [&](int node, int rank, int, int) { layout.ranks.add(node, rank); });
   each_node_of_blocks(model, partition, [&](int node, int rank, int row, int damping_row) {
-    for (int other = 0; other < partition.ranks; ++other) {
-      if (other == rank || layout.touches[other][node] == 0) continue;
+    if (!layout.ranks.several(node)) return;
+    for (int other : layout.ranks.of(node)) {
+      if (other == rank) continue;
       layout.sent[rank][other].push_back(row);
       if (damping_row >= 0) layout.sent[rank][other].push_back(damping_row);
     }
@@ -101,9 +115,9 @@ ShareItems items_of(const Model& model, const BlockPartition& partition, const R
   ShareItems items;
   items.rank = rank;
   for (int n = 0; n < model.nodes.count; ++n)
-    if (layout.touches[rank][n] != 0) items.nodes.push_back(n);
+    if (layout.ranks.has(n, rank)) items.nodes.push_back(n);
   for (int n : nodes_of_fields(model.scene, model.assembly))
-    if (layout.touches[rank][n] != 0) items.shown.push_back(n);
+    if (layout.ranks.has(n, rank)) items.shown.push_back(n);
   for (const auto& owner : partition.owner) {
     auto& blocks = items.blocks.emplace_back();
     for (std::size_t p = 0; p < owner.size(); ++p)
@@ -144,7 +158,7 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   share.rank = rank;
   share.ranks = partition.ranks;
   std::vector<char> outer(model.nodes.count, 0);
-  for (int n = 0; n < model.nodes.count; ++n) outer[n] = layout.touches[rank][n] != 0 && is_outer(layout, n) ? 1 : 0;
+  for (int n = 0; n < model.nodes.count; ++n) outer[n] = layout.ranks.several(n) && layout.ranks.has(n, rank) ? 1 : 0;
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
     const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <unordered_map>
 #include <vector>
 
 #include "model/model.hpp"
@@ -7,10 +8,27 @@
 
 namespace railwave {
 
+/// The ranks whose blocks have a node. Most nodes are one rank's.
+class RanksOfNodes {
+ public:
+  explicit RanksOfNodes(int nodes) : only_(nodes, nobody) {}
+
+  void add(int node, int rank);
+  bool has(int node, int rank) const;
+  bool several(int node) const { return only_[node] == several_ranks; }
+  /// Ascending. @param node has several
+  const std::vector<int>& of(int node) const { return several_.at(node); }
+
+ private:
+  static constexpr int nobody = -1, several_ranks = -2;
+  std::vector<int> only_;  ///< by node
+  std::unordered_map<int, std::vector<int>> several_;
+};
+
 /// What ranks have in common, on the host: rows of partial forces, model numbers.
 struct RankLayout {
   std::vector<std::vector<std::vector<int>>> sent;  ///< by rank and other rank: rows that the other needs
-  std::vector<std::vector<char>> touches;           ///< by rank and node: a block of the rank has it
+  RanksOfNodes ranks{0};
 };
 
 RankLayout lay_out_ranks(const Model& model, const BlockPartition& partition);

@@ -9,18 +9,15 @@
 namespace railwave {
 namespace {
 
-/// Items that a thread sums: on a GPU each waits for the one before.
-constexpr int items_of_chunk = on_device ? 4 : 32;
-
 /// Of a part whose items lie at `begin` to `end`. Threads of a device side by side read what lies side by side.
 void add_chunks(int begin, int end, std::vector<std::array<int, 3>>& chunks) {
-  const int count = (end - begin + items_of_chunk - 1) / items_of_chunk;
+  const int count = (end - begin + items_of_block - 1) / items_of_block;
   for (int c = 0; c < count; ++c) {
-    const int first = begin + c * items_of_chunk;
+    const int first = begin + c * items_of_block;
     if (on_device)
       chunks.push_back({begin + c, count, end});
     else
-      chunks.push_back({first, 1, std::min(first + items_of_chunk, end)});
+      chunks.push_back({first, 1, std::min(first + items_of_block, end)});
   }
 }
 

@@ -17,9 +17,8 @@ constexpr double margin_in_segments = 3;
 constexpr long most_steps_between_checks = 512;
 /// A layout is made early rather than followed by another check so soon.
 constexpr long least_steps_between_checks = 16;
-/// Steps between two choices of the nodes that can touch. A GPU takes as long for one as for four steps, and next to
-/// nothing for more nodes that can touch.
-constexpr long steps_between_near_checks = on_device ? 128 : 64, steps_between_near_checks_settling = 16;
+/// Steps between two choices of the nodes that can touch.
+constexpr long steps_between_near_checks = 64, steps_between_near_checks_settling = 16;
 
 /// What the present speeds do not tell of the coming motion, as a share of the way that a dilatational wave travels:
 /// the surface's speed behind a wave that strains it by 0.25 %, coming out of nothing.

@@ -166,6 +166,20 @@ class DeformingBodies(unittest.TestCase):
         self.assertLess(smallest, 0.5 * largest)
         self.assertLess(self.balance(), 0.03)
 
+    def test_subcycled(self):
+        """The wall, free in front, has elements of several levels."""
+        text = BAR
+        for old, new in {"[contacts.foot]": '[contacts.foot]\nalgorithm = "penalty"',
+                         "0.005]\ndivisions = [4, 4, 1]": "0.02]\ndivisions = [10, 10, 10]",
+                         "[-0.01, -0.01, -0.005]": "[-0.01, -0.01, -0.02]",
+                         'target = "wall.z_max"\nfixed': 'target = "wall.z_min"\nfixed'}.items():
+            self.assertIn(old, text)
+            text = text.replace(old, new, 1)
+        smallest, largest, said = self.run_case(text, "solver.subcycling=true")
+        self.assertRegex(said, r"elements every \d steps")
+        self.assertLess(smallest, 0.5 * largest)
+        self.assertLess(self.balance(), 0.02)
+
     def test_cube_pressed_to_half(self):
         smallest, largest, said = self.run_case(PRESSED)
         self.assertLess(smallest, 0.6 * largest)

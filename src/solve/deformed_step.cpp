@@ -20,11 +20,16 @@ constexpr double share_of_way = 0.5, share_of_way_at_rest = 0.25;
 constexpr double most_used = 0.92, never_used = 0.97;
 /// Below that share of the limit elements are looked at in motion too.
 constexpr double hardly_deformed = 0.99;
+/// A step so much longer than what is allowed has been unstable for a while: what deforms then is no body, and the
+/// monitor ends the run. Shorter steps would only draw that out.
+constexpr double beyond_help = 1.25;
+/// Elements that have lost less have their shape.
+constexpr double any_loss = 1e-3;
 /// A step is made longer again where it can grow so much.
 constexpr double worthwhile_growth = 1.1;
 /// Less than that share of the undeformed limit is not followed: such elements are about to invert, which the monitor
 /// stops.
-constexpr double least_left = 0.02;
+constexpr double least_left = 0.05;
 
 }  // namespace
 
@@ -45,7 +50,8 @@ bool DeformedStep::contact_checked_before(long step) const {
 }
 
 bool DeformedStep::due(long step) const {
-  return any_ && nodal_.subcycling.in_phase(step) && (step >= next_ || (may_strike() && contact_checked_before(step)));
+  return any_ && !given_up_ && nodal_.subcycling.in_phase(step) &&
+         (step >= next_ || (may_strike() && contact_checked_before(step)));
 }
 
 DeformedNow DeformedStep::measure_now(double elements) const {
@@ -70,7 +76,7 @@ double DeformedStep::used_share() const {
 bool DeformedStep::check() { return due(nodal_.step) && check(sizes_.step_size); }
 
 bool DeformedStep::check_again() {
-  if (!any_) return false;
+  if (!any_ || given_up_) return false;
   next_ = nodal_.step;
   return check(largest_step(scene_.time, sizes_.stable_step));
 }
@@ -91,6 +97,8 @@ bool DeformedStep::check(double size) {
   speed_ = now.speed;
   by_elements_ = now.second >= now.first;
   found_ = std::fmax(std::fmin(std::fmax(now.first, now.second), undeformed_), least_left * undeformed_);
+  given_up_ = size > beyond_help * found_;
+  if (given_up_) return false;
   const double left = found_ / undeformed_;
   double steps =
       std::clamp(static_cast<double>(step), static_cast<double>(fewest_at_rest), static_cast<double>(most_at_rest));
@@ -117,7 +125,7 @@ bool DeformedStep::check(double size) {
   last_ = step;
   next_ = step + std::max(1L, static_cast<long>(std::ceil(std::fmax(steps, 1) / static_cast<double>(cycle)))) * cycle;
   const StableStep& stable = sizes_.stable_step;
-  return size > alarm * found_ ||
+  return (size > alarm * found_ && left < 1 - any_loss) ||
          (stable.deformed > 0 && std::fmin(found_, undeformed_) > worthwhile_growth * stable.limit);
 }
 

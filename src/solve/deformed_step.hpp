@@ -47,6 +47,7 @@ class DeformedStep {
     archive.value("deformed_speed", speed_);
     archive.value("deformed_striking", striking_);
     archive.value("deformed_moving", moving_);
+    archive.value("deformed_given_up", given_up_);
   }
 
  private:
@@ -71,6 +72,7 @@ class DeformedStep {
   double left_ = 1;        ///< share of the limit that was left then
   double speed_ = 0;       ///< m/s, of the fastest element then
   bool striking_ = false;  ///< nodes were about to strike then
+  bool given_up_ = false;  ///< the step was too long for too long, see beyond_help
   bool moving_ = false;    ///< elements were coming in the way then
   double found_ = 0;       ///< s, of the present check: allowed step
   double loss_ = 0;        ///< of the present check: relative loss of it in a step

@@ -71,7 +71,8 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
   const double nodes = model.nodes.count, elements = static_cast<double>(model.element_count());
   const double mesh = mesh_bytes(model.assembly), values = bytes_of(model.mass) + bytes_of(model.element_length),
                own_steps = bytes_of(model.own_steps);
-  const double light = mesh + own_steps + nodes * (sizeof(double) + 3 * sizeof(int));  // masses, rows, numbers in the mesh
+  const double light =
+      mesh + own_steps + nodes * (sizeof(double) + 3 * sizeof(int));  // masses, rows, numbers in the mesh
   const double places = 6 * sizeof(double) * nodes, monitored = model.scene.monitor.active ? monitored_element : 0;
   const bool several = partition.ranks > 1, shared = several && EstimateShare::possible(model.scene);
   const double kept_search = model.global_estimate ? of_search(model) : 0;
@@ -85,7 +86,8 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
                                  : (r == 0 ? of_search(model) : 0);
     RankMemory memory;
     memory.making = base + light + (r == 0 ? values : 0) + (whole ? places : 0) + search;
-    memory.steps = base + arrays.whole + (whole ? 1 : own) * arrays.shared + own * elements * (monitored + followed_element) +
+    memory.steps = base + arrays.whole + (whole ? 1 : own) * arrays.shared +
+                   own * elements * (monitored + followed_element) +
                    (r == 0 ? mesh + values + own_steps + kept_search : 0);
     // Other ranks give their mesh away when they have all that steps need.
     if (r > 0) memory.making = std::max(memory.making, base + mesh + arrays.whole + own * arrays.shared);

@@ -97,7 +97,8 @@ Section solver_section() {
       key("step_estimate", &Solver::step_estimate,
           "what the stable step is taken from: each element's height over the wave speed, each element's highest "
           "eigenvalue (the shortest), or the whole scene's highest frequency (the longest step); `automatic` takes "
-          "the last where the steps that it saves are worth more than finding it, else the first")
+          "the last where the steps that it saves are worth more than finding it, else the first. Elements that change "
+          "their shape shorten the step by any of them")
           .one_of({"automatic", "element", "eigenvalue", "global"}),
       key("subcycling", &Solver::subcycling,
           "coarse regions take longer steps, 2, 4, ... 32 times the finest, with layers of buffer elements between "
@@ -105,7 +106,9 @@ Section solver_section() {
           "as long as the longest step: their intervals are rounded to it. Settling does not use it; not with "
           "`step_estimate = \"global\"`"),
       key("renew_steps", &Solver::renew_steps,
-          "steps between renewals of the whole scene's step; 0 is never (`automatic`: only as contact asks for it)")
+          "steps between renewals of the whole scene's step; 0 is only as contact (`automatic`) or deformed elements "
+          "ask "
+          "for it")
           .within(at_least(0)),
   };
   return section;

@@ -4,41 +4,8 @@
 #include <cmath>
 
 #include "deck/conversion.hpp"
-#include "mesh/vectors.hpp"
 
 namespace railwave::deck {
-namespace {
-
-/// A motion so fast that bodies change their shape when they are stopped, as src/model/time_step/automatic_step.cpp
-/// has it: by Johnson's damage number, density times speed squared over yield stress; null: there is none.
-const InitialVelocity* flows(const Conversion& conversion) {
-  constexpr double moderate = 0.1;
-  const InitialVelocity* fastest = nullptr;
-  for (const InitialVelocity& initial : conversion.deck.velocities)
-    if (fastest == nullptr || length(initial.velocity) > length(fastest->velocity)) fastest = &initial;
-  if (fastest == nullptr) return nullptr;
-  const double speed = length(fastest->velocity);
-  const auto& bodies = conversion.bodies.all();
-  const bool any = std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-    const Material& material = conversion.deck.materials.at(body.settings.material);
-    return material.yield_stress > 0 && material.density * speed * speed > moderate * material.yield_stress;
-  });
-  return any ? fastest : nullptr;
-}
-
-/// LS-DYNA finds the step anew at each step, for elements are squeezed.
-void write_renewed_step(Conversion& conversion, const Source& source) {
-  constexpr int renewed_each = 40;
-  conversion.text.section("solver");
-  conversion.text.key("step_estimate", toml("global"));
-  conversion.text.key("renew_steps", fmt::format("{}", renewed_each));
-  conversion.report.add(Fate::replaced, source,
-                        fmt::format("so fast that bodies change their shape: solver.renew_steps = {}, the step follows "
-                                    "squeezed elements as in LS-DYNA",
-                                    renewed_each));
-}
-
-}  // namespace
 
 void write_run(Conversion& conversion) {
   const Deck& deck = conversion.deck;
@@ -48,7 +15,6 @@ void write_run(Conversion& conversion) {
   text.key("end", *deck.control.end * second);
   conversion.report.add(Fate::taken, deck.control.end_source, "time.end");
   if (deck.control.step_scale > 0) text.key("step_scale", std::fmin(deck.control.step_scale, 1));
-  if (const InitialVelocity* fast = flows(conversion)) write_renewed_step(conversion, fast->source);
   std::vector<std::string> histories;
   const auto add = [&](const std::string& name) {
     if (std::find(histories.begin(), histories.end(), name) == histories.end()) histories.push_back(name);

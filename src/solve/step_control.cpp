@@ -26,17 +26,20 @@ constexpr long steps_between_checks = 500;
 
 }  // namespace
 
-StepControl::StepControl(const scene::Scene& scene, const NodalState& nodal, const std::vector<ContactPair>& contacts,
-                         StepSizes& sizes)
-    : scene_(scene), nodal_(nodal), contacts_(contacts), sizes_(sizes) {
+StepControl::StepControl(Model& model, DeformedElements elements, SampledRanks* others)
+    : scene_(model.scene),
+      nodal_(model),
+      contacts_(model.contacts),
+      sizes_(model),
+      deformed_(model, std::move(elements), others) {
   // Settled and set in motion, the bodies may be about to touch elsewhere than as they were placed.
-  const bool automatic = scene.solver.step_estimate == scene::StepEstimate::automatic;
-  if (sizes.global_estimate && (automatic ? has_contact_springs(contacts) : !contacts.empty())) {
+  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
+  if (sizes_.global_estimate && (automatic ? has_contact_springs(contacts_) : !contacts_.empty())) {
     find_step();
     plan();
     ++renewals_;
   }
-  smallest_ = largest_ = sizes.step_size;
+  smallest_ = largest_ = sizes_.step_size;
 }
 
 bool StepControl::touched_unseen() const {
@@ -50,10 +53,12 @@ bool StepControl::touched_unseen() const {
 }
 
 void StepControl::find_step() {
+  sizes_.stable_step.deformed = 0;
   if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
     renew_automatic_step(scene_, contacts_, nodal_.time, nodal_.step, sizes_);
   else
     renew_global_step(scene_, contacts_, nodal_.time, sizes_);
+  deformed_.estimated();
 }
 
 bool StepControl::interval_over(long step) const {
@@ -61,7 +66,7 @@ bool StepControl::interval_over(long step) const {
   return every > 0 && step - renewed_at_ >= every;
 }
 
-bool StepControl::may_renew(long step) const {
+bool StepControl::may_renew_estimate(long step) const {
   if (!sizes_.global_estimate || step == renewed_at_) return false;
   if (scene_.solver.step_estimate == scene::StepEstimate::automatic)
     return can_change(scene_, contacts_) && (interval_over(step) || contact_checked_before(contacts_, step));
@@ -70,7 +75,7 @@ bool StepControl::may_renew(long step) const {
 
 bool StepControl::due() const {
   const long step = nodal_.step;
-  if (!may_renew(step)) return false;
+  if (!may_renew_estimate(step)) return false;
   if (scene_.solver.step_estimate != scene::StepEstimate::automatic) return interval_over(step) || touched_unseen();
   return may_touch_uncounted(contacts_, step) ||
          (interval_over(step) && may_search_again(scene_, sizes_, nodal_.time, step));
@@ -81,11 +86,13 @@ bool StepControl::plan() {
   const double left = scene_.time.end - nodal_.time;
   const long planned = sizes_.step_count - nodal_.step;
   const double largest_now = largest_step(scene_.time, sizes_.stable_step);
-  const long steps = std::max(1L, static_cast<long>(std::ceil(left / largest_now - 1e-9)));
+  const long cycle = nodal_.subcycling.cycle();
+  const long steps =
+      std::max(1L, static_cast<long>(std::ceil(left / (static_cast<double>(cycle) * largest_now) - 1e-9))) * cycle;
   // At the beginning the outputs can still be spaced evenly.
   if (nodal_.step == 0) {
     const long before = sizes_.step_count;
-    plan_steps(scene_, 1, sizes_);
+    plan_steps(scene_, cycle, sizes_);
     begin_time_ = 0;
     begin_step_ = 0;
     return sizes_.step_count != before;
@@ -110,12 +117,26 @@ void StepControl::move_end() {
   sizes_.step_count = nodal_.step + static_cast<long>(cycle * std::ceil((end - now) / (cycle * step) - 1e-6));
 }
 
+void StepControl::follow_elements() {
+  const bool automatic = scene_.solver.step_estimate == scene::StepEstimate::automatic;
+  if (automatic && sizes_.global_estimate && deformed_.by_elements()) {
+    leave_whole_scene(StepChoice::Reason::deforms, sizes_);
+    deformed_.estimated();
+  }
+  deformed_.set(sizes_.stable_step);
+}
+
 bool StepControl::renew() {
-  if (!due() || nodal_.step == sizes_.step_count) return false;
-  if (nodal_.relative.begun) update_absolute_nodes(nodal_);
-  find_step();
+  const bool search = due();
+  if ((!search && !deformed_due_) || nodal_.step == sizes_.step_count) return false;
+  if (search) {
+    if (nodal_.relative.begun) update_absolute_nodes(nodal_);
+    find_step();
+    renewed_at_ = nodal_.step;
+    deformed_due_ = deformed_.check_again();
+  }
+  if (deformed_due_) follow_elements();
   ++renewals_;
-  renewed_at_ = nodal_.step;
   const bool changed = plan();
   smallest_ = std::min(smallest_, sizes_.step_size);
   largest_ = std::max(largest_, sizes_.step_size);

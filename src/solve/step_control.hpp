@@ -6,6 +6,7 @@
 #include "model/contact/contact_pair.hpp"
 #include "model/nodal_state.hpp"
 #include "model/time_step/step_sizes.hpp"
+#include "solve/deformed_step.hpp"
 
 namespace railwave {
 
@@ -15,8 +16,9 @@ namespace railwave {
 class StepControl {
  public:
   /// The model stands at its first step, its present motion known.
-  StepControl(const scene::Scene& scene, const NodalState& nodal, const std::vector<ContactPair>& contacts,
-              StepSizes& sizes);
+  /// @param elements those of this process, whose deformation the step follows
+  /// @param others of a run over several ranks; null: there are none
+  StepControl(Model& model, DeformedElements elements, SampledRanks* others);
 
   /// Time of the model's present step, s.
   double time() const { return time_of(nodal_.step); }
@@ -24,15 +26,18 @@ class StepControl {
   double time_of(long step) const { return begin_time_ + static_cast<double>(step - begin_step_) * sizes_.step_size; }
   long last_step() const { return sizes_.step_count; }
 
+  /// Looks at the elements where that is due; call once a step, before due() and renew().
+  void check_elements() { deformed_due_ = deformed_.check(); }
+
   /// Whether the estimate is to be renewed now: then it looks at the whole model.
   bool due() const;
 
-  /// Renews the estimate where that is due; call before the forces of the present instant, which move nodes already.
-  /// True: the step from this instant to the next is another one than the last.
+  /// Renews the estimate where that is due, and follows deformed elements; call before the forces of the present
+  /// instant, which move nodes already. True: the step from this instant to the next is another one than the last.
   bool renew();
 
-  /// Whether the estimate can be renewed at a step to come.
-  bool may_renew(long step) const;
+  /// Whether the step can change at a step to come.
+  bool may_renew(long step) const { return deformed_.due(step) || may_renew_estimate(step); }
 
   /// For a state that was taken up: where the scene now ends elsewhere than that state's run was to, the steps stay as
   /// they are and go on to the first whole cycle at that end or after it. Throws InputError where the state lies beyond
@@ -52,10 +57,13 @@ class StepControl {
     archive.value("control_renewals", renewals_);
     archive.value("control_smallest", smallest_);
     archive.value("control_largest", largest_);
+    deformed_.archive(archive);
   }
 
  private:
   bool interval_over(long step) const;
+  bool may_renew_estimate(long step) const;
+  void follow_elements();
   void find_step();
   bool touched_unseen() const;
   bool plan();
@@ -69,6 +77,8 @@ class StepControl {
   long renewed_at_ = 0;
   int renewals_ = 0;
   double smallest_ = 0, largest_ = 0;
+  DeformedStep deformed_;
+  bool deformed_due_ = false;  ///< at the present step
 };
 
 /// Something due about every `interval` seconds, at steps: `interval` rounded to whole cycles of steps (at least one)

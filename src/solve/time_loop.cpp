@@ -94,7 +94,8 @@ class TimeLoop {
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
         leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),
         memory_{
-            StepControl(model.scene, model, model.contacts, model), OutputSchedule(model.scene, model, model),
+            StepControl(model, deformed_elements(model, leader_ ? &leader_->own() : nullptr), leader_.get()),
+            OutputSchedule(model.scene, model, model),
             std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
             Monitor(model, model, model, model, model.contacts, leader_ ? &leader_->own() : nullptr, leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
@@ -230,6 +231,7 @@ class TimeLoop {
   void plan_step() {
     const double size_before = model_.step_size;
     if (memory_.control.may_renew(model_.step)) recording_.finish();
+    memory_.control.check_elements();
     if (leader_ && memory_.control.due()) leader_->gather();
     if (memory_.control.renew()) memory_.due.step_changed(size_before);
     instant_.step = model_.step_size;

@@ -60,6 +60,7 @@ Outcome outcome_of(const Seed& seed, long limit = steps) {
   }
   if (seed.spoil) seed.spoil(model);
   model.step_count = limit;
+  model.scene.time.end = static_cast<double>(limit) * model.step_size;  // of a step that follows elements too
   model.output_times.history = model.output_times.fields = 1e9 * model.step_size;
   Outcome outcome;
   run(model, {&outcome.witness});

@@ -194,6 +194,14 @@ KINDS["automatic_step"] = dict(
              "[0.005, 0.005, 0.03001]": "[0.005, 0.005, 0.042]", "[0, 0, -1e5]": "[0, 0, -5e3]"},
     end=4e-3,
 )
+# A blow that squeezes the upper block, so that the step follows its elements.
+KINDS["deforming"] = dict(
+    of_contact='algorithm = "penalty"\ndamping = 0.05',
+    instead={"velocity = [2, 1, -2]": "velocity = [5, 1, -150]", "[0, 30, 10]": "[0, 0, 0]",
+             "yield_stress = 2e8": "yield_stress = 5e7", "tangent_modulus = 21e9": "tangent_modulus = 5e8",
+             "[0, 0, -1e5]": "[0, 0, -9.81]", "[0.005, 0.005, 0.03001]": "[0.005, 0.005, 0.034]"},
+    end=3e-4,
+)
 
 
 def case(of_contact="", of_upper="", more="", upper="steel", end=1.2e-3, field_interval=5e-5, instead=()):

@@ -24,6 +24,8 @@ PROGRAM = pathlib.Path(os.environ["RAILWAVE_BIN_DIR"]) / "railwave"
 # So many elements that each rank has blocks of its own, and some have no node that contact knows.
 FINER = {"divisions = [6, 5, 3]": "divisions = [14, 12, 9]", "divisions = [5, 5, 4]": "divisions = [12, 12, 9]",
          "divisions = [2, 2, 2]": "divisions = [4, 7, 8]"}
+# Of the time that the kind of scene takes, until what it is about has happened: windows open, bodies meet.
+SHARES = {"windows": 0.4, "global_step": 0.4, "deforming": 0.4, "automatic_step": 0.7}
 OF_ONE_RANK = ("float", "float_multiplier")
 PATIENCE = 300
 MPIRUN = ["mpirun", "--oversubscribe", "--bind-to", "none"]
@@ -110,7 +112,7 @@ def add_kinds(tests, numbers_of_ranks):
     """A test for each kind of scene. @param tests a class of Ranks"""
     def add(name):
         def test(self):
-            self.write(scene(name, 0.4) if name in ("windows", "global_step") else scene(name))  # windows open late
+            self.write(scene(name, SHARES[name]) if name in SHARES else scene(name))
             self.run_to_end(1)
             alone = self.kept("alone.h5")
             for ranks in numbers_of_ranks:

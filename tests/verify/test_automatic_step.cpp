@@ -4,6 +4,8 @@
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 
 #include "benchmarks/stability/distortions.hpp"
+#include "model/time_step/deformed_elements.hpp"
+#include "model/time_step/global_step.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "tests/verify/two_blocks.hpp"
 
@@ -89,6 +91,42 @@ TEST_CASE("the default's step is within the border of every mesh of the stabilit
     build_model(scene, assembly, beyond);
     beyond.step_size = 1.03 * stable.limit;
     CHECK(shaken(beyond, 3000) > 1);
+  }
+}
+
+TEST_CASE("what deformed elements allow is within what the deformed body bears, and not far below", "[automatic]") {
+  const std::array<std::array<Vec3, 3>, 6> deformations{{
+      {Vec3{0.5, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}},        // squeezed
+      {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 0.5}},        // along the other end of columns
+      {Vec3{2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 0.25}},       // flattened at constant volume
+      {Vec3{0.7, 0, 0}, Vec3{0, 1 / 0.7, 0}, Vec3{0, 0, 1}},  // pure shear
+      {Vec3{1, 0, 1}, Vec3{0, 1, 0}, Vec3{0, 0, 1}},          // simple shear
+      {Vec3{0.8, 0, 0}, Vec3{0, 0.8, 0}, Vec3{0, 0, 0.8}}     // smaller all over
+  }};
+  for (const bench::Distortion& distortion : bench::distortions()) {
+    scene::Scene scene = distorted_scene(distortion, 1);
+    scene.solver.step_estimate = scene::StepEstimate::global;
+    Assembly assembly = assemble(scene);
+    bench::distort(distortion, assembly);
+    Model model;
+    build_model(scene, assembly, model);
+    const DeformedElements elements = deformed_elements(model, nullptr);
+    const StableStep& stable = model.stable_step;
+    const double whole = stable.global, by_elements = stable.by_elements;
+    const DeformedNow undeformed = measure_now(elements, model, whole, by_elements);
+    CHECK(undeformed.first >= (1 - 1e-6) * whole);
+    CHECK(undeformed.second >= (1 - 1e-6) * by_elements);
+    for (std::size_t k = 0; k < deformations.size(); ++k) {
+      const auto& F = deformations[k];
+      set_position(model, [&](const Vec3& x, int) { return Vec3{dot(F[0], x), dot(F[1], x), dot(F[2], x)}; });
+      const double bears = (*model.global_estimate)({0.0}, whole).step;
+      const DeformedNow now = measure_now(elements, model, whole, by_elements);
+      INFO(distortion.name << ", deformation " << k << ": allowed over borne " << now.first / bears << ", "
+                           << now.second / bears);
+      CHECK(now.first <= 1.01 * bears);  // what the estimate may lack is 1 % of the squared frequency
+      CHECK(now.second <= 1.01 * bears);
+      if (distortion.name == "cubes") CHECK(now.second > 0.6 * bears);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "model/ranks/block_partition.hpp"
+#include "model/time_step/deformed_elements.hpp"
 #include "model/time_step/estimate_share.hpp"
 #include "model/visit_arrays.hpp"
 
@@ -15,6 +16,8 @@ constexpr double search_of_element = 24 * sizeof(double) + 16 * sizeof(int),
                  shared_search_of_node = search_of_node + 4 * sizeof(double) + sizeof(int);
 /// What the monitor keeps of an element.
 constexpr double monitored_element = 8 * sizeof(int) + 7 * sizeof(float);
+/// What the step keeps of an element to follow its deformation.
+constexpr double followed_element = 8 * sizeof(int) + DeformedElements::values * sizeof(float);
 
 template <class T>
 double bytes_of(const std::vector<T>& values) {
@@ -66,8 +69,10 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
   // A visit hands out references; this one changes nothing.
   visit_model_arrays(arrays, const_cast<Model&>(model));
   const double nodes = model.nodes.count, elements = static_cast<double>(model.element_count());
-  const double mesh = mesh_bytes(model.assembly), values = bytes_of(model.mass) + bytes_of(model.element_length);
-  const double light = mesh + nodes * (sizeof(double) + 3 * sizeof(int));  // masses, rows, numbers in the mesh
+  const double mesh = mesh_bytes(model.assembly), values = bytes_of(model.mass) + bytes_of(model.element_length),
+               own_steps = bytes_of(model.own_steps);
+  const double light =
+      mesh + own_steps + nodes * (sizeof(double) + 3 * sizeof(int));  // masses, rows, numbers in the mesh
   const double places = 6 * sizeof(double) * nodes, monitored = model.scene.monitor.active ? monitored_element : 0;
   const bool several = partition.ranks > 1, shared = several && EstimateShare::possible(model.scene);
   const double kept_search = model.global_estimate ? of_search(model) : 0;
@@ -81,8 +86,9 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
                                  : (r == 0 ? of_search(model) : 0);
     RankMemory memory;
     memory.making = base + light + (r == 0 ? values : 0) + (whole ? places : 0) + search;
-    memory.steps = base + arrays.whole + (whole ? 1 : own) * arrays.shared + own * elements * monitored +
-                   (r == 0 ? mesh + values + kept_search : 0);
+    memory.steps = base + arrays.whole + (whole ? 1 : own) * arrays.shared +
+                   own * elements * (monitored + followed_element) +
+                   (r == 0 ? mesh + values + own_steps + kept_search : 0);
     // Other ranks give their mesh away when they have all that steps need.
     if (r > 0) memory.making = std::max(memory.making, base + mesh + arrays.whole + own * arrays.shared);
     all.push_back(memory);

@@ -31,26 +31,20 @@ constexpr double counted_share = 0.5;
 
 double evaluations_of(const GlobalStep& found) { return evaluations_of_application * found.applications; }
 
-/// The longer one of those that hold wherever bodies touch, s.
-double elements_limit(const StableStep& stable) { return std::fmax(stable.by_elements, stable.by_eigenvalues); }
-
 double steps_by_elements(const scene::Scene& scene, const StableStep& stable) {
   StableStep by_elements;
   by_elements.limit = elements_limit(stable);
   return scene.time.end / largest_step(scene.time, by_elements);
 }
 
-/// Whether bodies are so fast that they change their shape when they are stopped: by Johnson's damage number, density
-/// times speed squared over yield stress, 0.001 for plastic flow to begin, 0.1 for moderate plastic deformation
-/// (Johnson, Impact strength of materials, 1972). A step that is near the limit of the undeformed elements is not for
-/// them.
+/// Whether bodies are so fast that they change their shape when they are stopped. The whole scene's step, which would
+/// shrink at once, is not worth finding for them.
 bool flows(const Model& model) {
-  constexpr double moderate = 0.1;
   const double speed = largest_initial_speed(model.scene);
   const auto& parts = model.assembly.parts;
   return std::any_of(parts.begin(), parts.end(), [&](const Assembly::PartRange& part) {
     const scene::Material& material = model.scene.materials[part.material];
-    return material.yield_stress && material.density * speed * speed > moderate * *material.yield_stress;
+    return material.yield_stress && material.density * speed * speed > moderate_damage * *material.yield_stress;
   });
 }
 
@@ -106,7 +100,9 @@ bool take_if(double least, const scene::Scene& scene, const std::vector<ContactP
   return true;
 }
 
-void leave_it(Reason reason, StepSizes& sizes) {
+}  // namespace
+
+void leave_whole_scene(StepChoice::Reason reason, StepSizes& sizes) {
   StableStep& stable = sizes.stable_step;
   stable.choice.reason = reason;
   stable.global = 0;
@@ -115,7 +111,7 @@ void leave_it(Reason reason, StepSizes& sizes) {
   sizes.global_estimate.reset();
 }
 
-}  // namespace
+double elements_limit(const StableStep& stable) { return std::fmax(stable.by_elements, stable.by_eigenvalues); }
 
 double least_gain(double steps, bool springs) {
   if (applications_of_first_sight * evaluations_of_application > spent_in_vain * steps)
@@ -134,9 +130,13 @@ bool can_change(const scene::Scene& scene, const std::vector<ContactPair>& conta
                      [](const auto& material) { return material.yield_stress.has_value(); });
 }
 
+bool contact_checked_before(const ContactPair& pair, long step) {
+  return pair.near_checked_at == step - 1 || std::min(pair.next_near_check, pair.next_check) == step - 1;
+}
+
 bool contact_checked_before(const std::vector<ContactPair>& contacts, long step) {
   return std::any_of(contacts.begin(), contacts.end(), [&](const ContactPair& pair) {
-    return pair.counted.extent(0) != 0 && pair.near_checked_at == step - 1;
+    return pair.counted.extent(0) != 0 && contact_checked_before(pair, step);
   });
 }
 
@@ -160,7 +160,7 @@ void choose_step(Model& model) {
   model.global_estimate = std::make_shared<GlobalEstimate>(model, model, model.connectors.cells, model.contacts,
                                                            model.ties, model.absorbing);
   if (!take_if(least, model.scene, model.contacts, model.time, model)) {
-    leave_it(Reason::gains_little, model);
+    leave_whole_scene(Reason::gains_little, model);
     return;
   }
   for (ContactPair& pair : model.contacts)
@@ -179,9 +179,9 @@ void renew_automatic_step(const scene::Scene& scene, const std::vector<ContactPa
                           StepSizes& sizes) {
   // At the beginning bodies lie as they have settled, which the first search could not know.
   if (step > 0 && !may_search_again(scene, sizes, time, step))
-    leave_it(Reason::changes_often, sizes);
+    leave_whole_scene(Reason::changes_often, sizes);
   else if (!take_if(std::fmax(still_a_gain, asked_gain(scene, sizes.stable_step)), scene, contacts, time, sizes))
-    leave_it(Reason::no_longer_pays, sizes);
+    leave_whole_scene(Reason::no_longer_pays, sizes);
 }
 
 void keep_choice(Model& model) {
@@ -221,6 +221,8 @@ std::string describe_choice(const StepChoice& choice) {
       return elements("there are no elements");
     case Reason::changes_often:
       return elements("contact changed too often to pay for the longer one, which was taken first");
+    case Reason::deforms:
+      return elements("bodies have changed their shape, so that the whole scene's, taken first, is no longer");
     case Reason::no_longer_pays:
       return elements(fmt::format("the whole scene's, taken first, is now at most {:.3g} times as long", choice.gain));
   }

@@ -14,10 +14,20 @@ namespace railwave {
 /// What one application of the assembled tangent costs, in evaluations of the forces of all elements.
 inline constexpr double evaluations_of_application = 2;
 
+/// Johnson's damage number, density times speed squared over yield stress, at which plastic deformation is moderate; it
+/// begins at 0.001 (Johnson, Impact strength of materials, 1972).
+inline constexpr double moderate_damage = 0.1;
+
 /// By how many times the whole scene's step must be longer to pay in a run of so many of the elements' steps; infinite:
 /// it never does.
 /// @param springs contact springs make it necessary to find the step more than once
 double least_gain(double steps, bool springs);
+
+/// The longer one of the elements' steps that hold wherever bodies touch, s.
+double elements_limit(const StableStep& stable);
+
+/// Takes the elements' step to the end of the run.
+void leave_whole_scene(StepChoice::Reason reason, StepSizes& sizes);
 
 /// Chooses at the beginning. The estimates by elements are known, and their step is the limit.
 void choose_step(Model& model);
@@ -35,7 +45,9 @@ bool has_contact_springs(const std::vector<ContactPair>& contacts);
 /// Whether the whole scene's step can change: by contact springs, or by elements that flow.
 bool can_change(const scene::Scene& scene, const std::vector<ContactPair>& contacts);
 
-/// Whether a contact was checked in the step before.
+/// Whether a contact is checked in the step before this one, which may be one to come.
+bool contact_checked_before(const ContactPair& pair, long step);
+/// The same of those of which nodes are counted.
 bool contact_checked_before(const std::vector<ContactPair>& contacts, long step);
 
 /// Whether that check has found a node that may touch and was not counted.

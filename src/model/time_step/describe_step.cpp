@@ -81,6 +81,8 @@ std::vector<std::string> describe_stable_step(const AssembledScene& assembled, c
                                     names[static_cast<int>(choice)], assembled.scene.time.step_scale));
   if (const std::string chosen = describe_choice(stable.choice); !chosen.empty())
     lines.push_back("automatic: " + chosen);
+  if (stable.deformed > 0)
+    lines.push_back(fmt::format("elements have changed their shape: {:.4g} s is left of it", stable.deformed));
   if (const std::string inertia = describe_beam_inertia(beams); !inertia.empty()) lines.push_back(inertia);
   return lines;
 }

@@ -262,6 +262,7 @@ void estimate_by_elements(Model& model, SearchLeader& leader) {
   StableStep& stable = model.stable_step;
   EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
   auto heights = element_steps(model, model.absorbing, eigenvalues);
+  model.own_steps.assign(eigenvalues.step.begin(), eigenvalues.step.end());
   std::tie(stable.element, stable.elements) = least_of(heights);
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
   stable.by_elements = stable.elements;
@@ -332,7 +333,8 @@ double largest_initial_speed(const scene::Scene& scene) {
 }
 
 double largest_step(const scene::Time& time, const StableStep& stable) {
-  const double largest = below_the_limit * stable.limit;
+  // A step that the case gives has no scale; where elements go on changing their shape it keeps a distance.
+  const double largest = (time.step > 0 && stable.deformed > 0 ? 0.9 : below_the_limit) * stable.limit;
   return std::fmin(largest, time.step > 0 ? time.step : time.step_scale * stable.limit);
 }
 
@@ -357,6 +359,8 @@ void renew_global_step(const scene::Scene& scene, const std::vector<ContactPair>
 
 void help_with_stable_step(Model& model, Transport& transport) {
   const ContactOnNodes springs = springs_of_contacts(model);
+  const std::vector<double> steps = safe_steps(model, model.absorbing);
+  model.own_steps.assign(steps.begin(), steps.end());
   // Rank 0 alone asks for them from here on.
   model.mass = std::vector<double>();
   model.element_length = std::vector<double>();

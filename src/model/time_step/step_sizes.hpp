@@ -23,6 +23,7 @@ struct StepChoice {
     crack_mouths,
     no_elements,
     changes_often,  ///< it was taken until contact changed too often
+    deforms,        ///< it was taken until elements changed their shape
     no_longer_pays  ///< it was taken until contact made it hardly longer than the elements'
   };
   Reason reason = Reason::not_asked;
@@ -48,7 +49,8 @@ struct StableStep {
   long springs = 0;                     ///< contact springs counted in it
   std::vector<std::vector<char>> seen;  ///< by contact pair and slave node: whether its spring was
 
-  double limit = 0;  ///< by the estimate that the case chose
+  double limit = 0;     ///< by the estimate that the case chose, and as far as elements have changed their shape
+  double deformed = 0;  ///< of the limit, what is left by elements that have changed their shape; 0: all
   StepChoice choice;
 };
 
@@ -57,6 +59,7 @@ class GlobalEstimate;
 /// How large a run's steps are, how many, and at which of them it writes.
 struct StepSizes {
   StableStep stable_step;
+  std::vector<float> own_steps;  ///< s, by element as it was made: what it bears by its highest eigenvalue
   std::shared_ptr<GlobalEstimate> global_estimate;  ///< null unless the case asks for it
   double step_size = 0;  ///< s, of the present step: the scale factor's share of the stable one, in whole steps
   long step_count = 0;   ///< steps from 0 to the end, if the step stays

@@ -40,6 +40,7 @@ template <class Archive>
 void archive(Archive& archive_, StableStep& stable) {
   archive_.value("stable_global", stable.global);
   archive_.value("stable_limit", stable.limit);
+  archive_.value("stable_deformed", stable.deformed);
   archive_.value("stable_springs", stable.springs);
   archive_.value("step_choice", stable.choice.reason);
   archive_.value("step_choice_gain", stable.choice.gain);

@@ -3,6 +3,8 @@
 namespace railwave {
 
 struct MonitorMeasures;
+struct DeformedNow;
+struct DeformedAhead;
 
 /// What is summed at a sampled instant, in parts that ranks have.
 enum class SampledSums : int {
@@ -25,6 +27,10 @@ class SampledRanks {
   virtual void join_measures(MonitorMeasures& own) = 0;
   /// The largest of the own rate, see MonitorArrays::largest_rate(), and the others'.
   virtual double largest_rate(double own) = 0;
+
+  /// The same of what elements allow the step, see measure_now() and measure_ahead().
+  virtual void join_deformed(DeformedNow& own, double first_limit, double second_limit) = 0;
+  virtual void join_deformed(DeformedAhead& own, double limit, double step, double least) = 0;
 
   /// Makes the arrays of nodes and elements whole.
   virtual void gather() = 0;

@@ -8,6 +8,7 @@
 
 #include "case/memory.hpp"
 #include "model/host_copy.hpp"
+#include "model/time_step/deformed_elements.hpp"
 #include "solve/monitor/account.hpp"
 
 namespace railwave {
@@ -56,6 +57,7 @@ std::uint64_t fingerprint(const Model& model) {
 void forget_mesh(Model& model) {
   model.assembly = {};
   model.order = {};
+  model.own_steps = std::vector<float>();
 }
 
 Instant instant_of(const RankOrder& order) {
@@ -89,7 +91,6 @@ RankLeader::~RankLeader() {
 }
 
 void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long steps) {
-  if (exchange_) exchange_->wait_for_rows();
   RankOrder order;
   order.kind = kind;
   order.steps = steps;
@@ -99,6 +100,11 @@ void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long s
   order.time = instant.time;
   order.velocity_lag = model_.velocity_lag;
   if (kind == RankOrder::deal_out) order.model = fingerprint(model_);
+  give_order(order);
+}
+
+void RankLeader::give_order(RankOrder order) {
+  if (exchange_) exchange_->wait_for_rows();
   transport_.broadcast(&order, sizeof order);
 }
 
@@ -179,6 +185,35 @@ double RankLeader::largest_rate(double own) {
   return own;
 }
 
+template <class Found>
+void RankLeader::join_found(Found& own) {
+  for (int r = 1; r < transport_.ranks(); ++r) {
+    Found other;
+    transport_.start_receive(r, &other, sizeof other);
+    transport_.finish();
+    join(own, other);
+  }
+}
+
+void RankLeader::join_deformed(DeformedNow& own, double first_limit, double second_limit) {
+  RankOrder order;
+  order.kind = RankOrder::deformed;
+  order.limits[0] = first_limit;
+  order.limits[1] = second_limit;
+  give_order(order);
+  join_found(own);
+}
+
+void RankLeader::join_deformed(DeformedAhead& own, double limit, double step, double least) {
+  RankOrder order;
+  order.kind = RankOrder::deforming;
+  order.limits[0] = limit;
+  order.limits[1] = step;
+  order.limits[2] = least;
+  give_order(order);
+  join_found(own);
+}
+
 std::vector<double> RankLeader::peak_memories() {
   give_order(RankOrder::memory, {});
   std::vector<double> peaks(transport_.ranks(), peak_memory());
@@ -227,6 +262,7 @@ void follow_rank_0(Model& model, Transport& transport) {
   std::unique_ptr<MonitorArrays> monitored;
   if (model.scene.monitor.active)
     monitored = std::make_unique<MonitorArrays>(model.assembly, std::vector<ContactPair>(), &own);
+  const DeformedElements elements = deformed_elements(model, &own);
   layout = {};
   forget_mesh(model);
   give_freed_memory_back();
@@ -275,6 +311,12 @@ void follow_rank_0(Model& model, Transport& transport) {
         break;
       case RankOrder::measures:
         send_to_rank_0(transport, MessageOfMeasures::of(monitored->measure(model, {})));
+        break;
+      case RankOrder::deformed:
+        send_to_rank_0(transport, measure_now(elements, model, order.limits[0], order.limits[1]));
+        break;
+      case RankOrder::deforming:
+        send_to_rank_0(transport, measure_ahead(elements, model, order.limits[0], order.limits[1], order.limits[2]));
         break;
       case RankOrder::rate:
         send_to_rank_0(transport, monitored->largest_rate(model));

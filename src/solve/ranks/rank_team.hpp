@@ -58,6 +58,8 @@ struct RankOrder {
     energies,   ///< sums of energies, after a sample
     histories,  ///< sums of motions, stresses and strains
     measures,   ///< of the monitor
+    deformed,   ///< elements, by two limits of the step
+    deforming,  ///< the same elements in motion
     rate,       ///< at which the fastest element turns
     memory,     ///< the most that was taken
     end
@@ -69,6 +71,7 @@ struct RankOrder {
   double elapsed = 0;       ///< s, since the instant before
   double time = 0;          ///< s, at the present instant
   double velocity_lag = 0;  ///< s, see NodalState
+  double limits[3] = {};    ///< s, what measure_now() and measure_ahead() are given
   std::uint64_t model = 0;  ///< when it is dealt out: a number by which models differ
 };
 
@@ -102,6 +105,8 @@ class RankLeader : public SampledRanks {
   void take_sums(SampledSums what) override;
   void join_measures(MonitorMeasures& own) override;
   double largest_rate(double own) override;
+  void join_deformed(DeformedNow& own, double first_limit, double second_limit) override;
+  void join_deformed(DeformedAhead& own, double limit, double step, double least) override;
 
   /// What rank 0 measures.
   const OwnItems& own() const { return own_; }
@@ -115,6 +120,9 @@ class RankLeader : public SampledRanks {
  private:
   void take(Transferred what);
   void give_order(RankOrder::Kind kind, const Instant& instant, long steps = 0);
+  void give_order(RankOrder order);
+  template <class Found>
+  void join_found(Found& own);
 
   Model& model_;
   Transport& transport_;

@@ -20,12 +20,13 @@ class OneOfTwo : public Transport {
   void start_receive(int /*from*/, void* data, std::size_t bytes) override { std::memset(data, 0, bytes); }
   void finish() override {}
   void wait_until(const std::function<bool()>& come) override {
-    const bool has_come = come();  // within REQUIRE CUDA 13.0's front end does not come to an end
-    REQUIRE(has_come);
+    all_came = come() && all_came;
     waited_();
   }
   int first_to_refuse(bool yes) override { return yes ? -1 : 0; }
   [[noreturn]] void end_all() override { std::abort(); }
+
+  bool all_came = true;  ///< CUDA 13.0's front end does not come to an end where this class has Catch's macros
 
  private:
   std::function<void()> waited_;
@@ -70,5 +71,6 @@ TEST_CASE("rows of other ranks are waited for, with patience, before a contact's
       plans.advance(instant);
       instant.elapsed = model.step_size;
     }
+    CHECK(transport.all_came);
   }
 }

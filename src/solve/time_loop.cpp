@@ -230,7 +230,10 @@ class TimeLoop {
   /// The size of this step, and whether its instant is sampled.
   void plan_step() {
     const double size_before = model_.step_size;
-    if (memory_.control.may_renew(model_.step)) recording_.finish();
+    if (memory_.control.may_renew(model_.step)) {
+      finish_late_history();  // it has the place of sums that are wanted now
+      recording_.finish();
+    }
     memory_.control.check_elements();
     if (leader_ && memory_.control.due()) leader_->gather();
     if (memory_.control.renew()) memory_.due.step_changed(size_before);

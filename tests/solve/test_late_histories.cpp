@@ -121,6 +121,10 @@ TEST_CASE("histories that come late are those that are waited for") {
   SECTION("penalty") {}
   SECTION("multipliers") { scene.contacts[0].algorithm = scene::ContactAlgorithm::multiplier; }
   SECTION("one each step") { scene.output.history_interval = 0; }
+  SECTION("a step that is found anew") {
+    scene.solver.step_estimate = scene::StepEstimate::global;
+    scene.solver.renew_steps = 7;
+  }
   SECTION("odd energies, of which the monitor warns") { scene.monitor.energy_error = 1e-14; }
   const Listened waited = listen(scene, true), late = listen(scene, false);
   CHECK(late.histories == waited.histories);

@@ -360,13 +360,10 @@ int work(int argc, char** argv) {
     std::cerr << "railwave: " << error.what() << '\n';
     return wrong_input;
   } catch (const std::exception& error) {
-    if (!is_out_of_memory(error)) {
-      std::cerr << "railwave: " << error.what() << '\n';
-      return failed;
-    }
+    const bool no_memory = is_out_of_memory(error);
     std::cerr << "railwave: ";
-    if (others_were_started()) std::cerr << "rank " << rank_of_process() << ": ";
-    std::cerr << out_of_memory(error) << '\n';
+    if (no_memory && others_were_started()) std::cerr << "rank " << rank_of_process() << ": ";
+    std::cerr << (no_memory ? out_of_memory(error) : error.what()) << '\n';
     return failed;
   }
 }

@@ -244,10 +244,10 @@ class TimeLoop {
     output_due_ = memory_.due.history() || fields_due_.any() || stopping_ || summary_.fault;
     const bool monitor_due = memory_.monitor.due(model_.step) && model_.subcycling.in_phase(model_.step);
     sampled_ = output_due_ || first_ || monitor_due;
-    only_fields_ =
-        fields_due_.any() && !memory_.due.history() && !stopping_ && !summary_.fault && !first_ && !monitor_due;
-    late_ = histories_may_be_late_ && memory_.due.history() && !memory_.due.last() && !fields_due_.any() &&
-            !stopping_ && !summary_.fault && !first_ && !monitor_due;
+    const bool only_outputs = !stopping_ && !summary_.fault && !first_ && !monitor_due;
+    only_fields_ = only_outputs && fields_due_.any() && !memory_.due.history();
+    late_ =
+        only_outputs && histories_may_be_late_ && memory_.due.history() && !memory_.due.last() && !fields_due_.any();
     if (late_) return history_begins_.put(ExecutionSpace());
     if (!sampled_) return;
     wait_for_other_ranks();

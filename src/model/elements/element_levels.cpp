@@ -11,11 +11,9 @@
 namespace railwave {
 namespace {
 
-/// Margin of the step of a level's elements to their stable one, over time.step_scale. Measured on chains: without it,
-/// and without the buffers, waves of a fine region that a coarse one's impulses meet at every half period grow.
-constexpr double margin = 1.1;
-/// Such waves die out in elements that are fit for the coarser level but keep the finer one's step: by e^-2 or more in
-/// each layer, by e^-4 in elements with so much larger a step than the coarser level's.
+/// Waves that margin_of_levels keeps from growing die out in elements that are fit for the coarser level but keep the
+/// finer one's step: by e^-2 or more in each layer, by e^-4 in elements with so much larger a step than the coarser
+/// level's.
 constexpr int buffer = 2;
 constexpr double deadens_at_once = 2.4;
 /// Less is not worth smaller launches.
@@ -128,8 +126,8 @@ std::vector<int> element_levels(const scene::Scene& scene, const Assembly& assem
   std::vector<int> fit(steps.size());
   for (std::size_t e = 0; e < steps.size(); ++e) {
     steps[e] *= scale;
-    fit[e] =
-        std::clamp(static_cast<int>(std::floor(std::log2(steps[e] / (margin * model.step_size)))), 0, most_levels - 1);
+    fit[e] = std::clamp(static_cast<int>(std::floor(std::log2(steps[e] / (margin_of_levels * model.step_size)))), 0,
+                        most_levels - 1);
   }
   level_contacts(assembly, model.contacts, fit);
 

@@ -12,12 +12,10 @@
 #include "model/model.hpp"
 #include "model/ranks/rank_share.hpp"
 #include "model/time_step/automatic_step.hpp"
+#include "model/time_step/stable_step.hpp"
 
 namespace railwave {
 namespace {
-
-/// Margin of the step of a coarse level's elements to their own, see element_levels.cpp.
-constexpr double margin_of_levels = 1.1;
 
 /// Nodes on which springs, dashpots or beams act besides elements. Multipliers are constraints: they make nothing
 /// stiffer.

@@ -28,6 +28,11 @@ std::vector<double> own_steps(const AssembledScene& assembled, const AbsorbingLa
 /// The same by its highest eigenvalue: whatever its neighbours are, free surfaces too, it is stable with that.
 std::vector<double> safe_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing);
 
+/// With subcycling, the margin of the step of a level's elements to their stable one, over time.step_scale. Measured on
+/// chains: without it, and without the buffers between levels, waves of a fine region that a coarse one's impulses meet
+/// at every half period grow.
+inline constexpr double margin_of_levels = 1.1;
+
 /// Speed of the fastest initial motion, turning left out, m/s: what bodies that hit at the beginning hit with.
 double largest_initial_speed(const scene::Scene& scene);
 

@@ -55,7 +55,8 @@ GoingAlong going_along(const Model& model, StepKind kind, const RowExchange* exc
 
 std::vector<Task> motion_tasks(Model& model, StepKind kind, const RowExchange* exchange) {
   std::vector<Task> tasks = placed(prescribed_tasks(model, model.prescribed), Stage::motion, 0);
-  if (model.beams) append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
+  if (model.beams && kind != StepKind::advancing)
+    append(tasks, placed({rotation_task(model, *model.beams)}, Stage::motion, 2));
   append(tasks, node_tasks(model, model.elements, model, kind, going_along(model, kind, exchange)));
   if (model.ties.arrays.active())
     append(tasks, placed({tied_nodes_task(model, model.ties, kind)}, Stage::tied_motion, 0));
@@ -107,12 +108,12 @@ std::vector<Task> shared_force_tasks(Model& model, StepKind kind, RowExchange& e
   const RankShare& share = exchange.share();
   const bool beside = exchange.between_devices() && outer_blocks_may_go_beside(model);
   std::vector<Task> tasks = exchange.begin_tasks();
-  if (!beside) append(tasks, std::move(others));
+  // In the default order they would keep the inner blocks waiting until the outer ones are done. They are small and
+  // long in line: the outer blocks leave them room where these come second.
+  append(tasks, in_space(std::move(others), beside ? exchange.side_space() : nullptr));
   append(tasks, in_space(element_tasks(model, model, model.contacts, model, kind, {}, {&share.outer, true}),
                          beside ? exchange.outer_space() : nullptr));
   tasks.push_back(exchange.send_task(beside));
-  // In the default order before the inner blocks, they would keep these waiting until the outer ones are done.
-  if (beside) append(tasks, in_space(std::move(others), exchange.side_space()));
   append(tasks, element_tasks(model, model, model.contacts, model, kind, {}, {&share.inner, false}));
   tasks.push_back(exchange.receive_task());
   return tasks;
@@ -123,9 +124,10 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
   std::vector<Task> tasks;
   if (model.relative.active() && kind != StepKind::settling)
     tasks.push_back(corotating_frames_task(model, model.elements, model, kind));
-  std::vector<Task> others = placed(load_tasks(model, model, model.beams, kind, along), Stage::own_forces, 0);
-  append(others, placed(wait_before_search(model, true, exchange), Stage::own_forces, 1));
-  append(others, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, 1));
+  constexpr int of_contact = OwnForceLanes::contact;
+  std::vector<Task> others = load_tasks(model, model, model.beams, kind, along);
+  append(others, placed(wait_before_search(model, true, exchange), Stage::own_forces, of_contact));
+  append(others, placed(contact_tasks(model.scene, model, model.contacts, kind, along), Stage::own_forces, of_contact));
   if (exchange != nullptr) {
     append(tasks, shared_force_tasks(model, kind, *exchange, std::move(others)));
     return tasks;
@@ -138,8 +140,8 @@ std::vector<Task> own_force_tasks(Model& model, StepKind kind, RowExchange* exch
 std::vector<Task> force_tasks(Model& model, StepKind kind, const RelaxationUpdate* relaxation, RowExchange* exchange) {
   std::vector<Task> tasks = own_force_tasks(model, kind, exchange);
   const MultiplierTasks multipliers = multiplier_tasks(model.scene, model, model.contacts, kind, relaxation);
-  append(tasks, placed(wait_before_search(model, false, exchange), Stage::own_forces, 1));
-  append(tasks, placed(multipliers.locate, Stage::own_forces, 1));
+  append(tasks, placed(wait_before_search(model, false, exchange), Stage::own_forces, OwnForceLanes::contact));
+  append(tasks, placed(multipliers.locate, Stage::own_forces, OwnForceLanes::contact));
   append(tasks, tie_tasks(model, model.ties));
   append(tasks, placed(non_reflecting_tasks(model, model.ends, kind), Stage::last_forces, model.ties.at_ends ? 0 : 1));
   append(tasks, placed(multipliers.find, Stage::motion, 0));

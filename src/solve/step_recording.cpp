@@ -11,6 +11,7 @@
 #include "model/boundaries/prescribed_nodes.hpp"
 #include "model/elements/relative_coordinates.hpp"
 #include "solve/launch_graph.hpp"
+#include "solve/ranks/row_exchange.hpp"
 
 namespace railwave {
 
@@ -26,9 +27,9 @@ constexpr int default_steps = 16;
 constexpr long steps_of_first = 4;
 
 /// Steps of the largest graph: RAILWAVE_STEP_GRAPHS; 0, with which all steps are plain, also where a tool listens, as
-/// it would not be told of launches within graphs.
-int most_steps() {
-  if (Kokkos::Profiling::profileLibraryLoaded()) return 0;
+/// it would not be told of launches within graphs, and where rows of other ranks go through the host.
+int most_steps(const RowExchange* exchange) {
+  if (Kokkos::Profiling::profileLibraryLoaded() || (exchange != nullptr && !exchange->between_devices())) return 0;
   const char* chosen = std::getenv("RAILWAVE_STEP_GRAPHS");
   return chosen != nullptr ? std::clamp(std::atoi(chosen), 0, 64) : default_steps;
 }
@@ -57,12 +58,14 @@ class StepValues {
   void forget() { step_size_ = 0; }
 
   /// Brings the values of some steps in place, in the order of a space.
+  /// @param wait for the device
   /// @param value of a step, of the given number
-  template <class ValueAt>
-  void take(const ExecutionSpace& space, long step, long steps, double step_size, const ValueAt& value) {
+  template <class Wait, class ValueAt>
+  void take(const ExecutionSpace& space, const Wait& wait, long step, long steps, double step_size,
+            const ValueAt& value) {
     if (width_ == 0) return;
     if (step < first_ || step + steps > first_ + steps_of_table || step_size != step_size_) {
-      space.fence();
+      wait();
       fill(step, step_size, value);
       Kokkos::deep_copy(space, table_, host_);
     }
@@ -105,31 +108,60 @@ class StepValues {
 struct StepRecording::Recordings {
   /// What launches depend on besides the time.
   using State = std::vector<double>;
-  /// Phase of the cycle of subcycling, step of the frames' block, steps.
-  using Key = std::tuple<long, long, long>;
+  /// Phase of the cycle of subcycling, step of the frames' block, steps, whether a rare task is due at the first.
+  using Key = std::tuple<long, long, long, bool>;
 
-  Recordings(Model& the_model, const Plan& plan, const ExecutionSpace* own_space)
+  Recordings(Model& the_model, const Plan& plan, const ExecutionSpace* own_space, RowExchange* of_ranks)
       : model(the_model),
+        exchange(of_ranks),
+        elements_alone(of_ranks != nullptr && of_ranks->transport().rank() > 0),
         space(own_space != nullptr ? *own_space : ExecutionSpace()),
         own(own_space != nullptr),
-        most(most_steps()),
-        load_values(static_cast<int>(model.loads.size()), std::max(1, most)),
-        places(static_cast<int>(model.prescribed.size()), std::max(1, most)) {
+        most(most_steps(of_ranks)),
+        load_values(elements_alone ? 0 : static_cast<int>(model.loads.size()), std::max(1, most)),
+        places(elements_alone ? 0 : static_cast<int>(model.prescribed.size()), std::max(1, most)) {
     for (const std::vector<Task>* tasks : {&plan.forces, &plan.motion})
-      for (const Task& task : *tasks) (task.recordable ? recordable : plain).push_back(task);
+      for (const Task& task : *tasks) {
+        (task.recordable ? recordable : plain).push_back(task);
+        if (task.recordable && task.every > model.subcycling.cycle()) rare.push_back(task);
+      }
   }
 
-  State state() const {
-    State now{model.step_size};
+  /// @param step s, which another rank than 0 has by its order alone
+  State state(double step) const {
+    State now{step};
+    if (elements_alone) return now;
     for (const ContactPair& pair : model.contacts) now.push_back(pair.window.bound());
     return now;
   }
 
   /// Whether tasks that are not recorded may launch something at this step.
   bool plain_due() const {
+    if (elements_alone) return false;
     for (const ContactPair& pair : model.contacts)
       if (model.step >= pair.next_check || model.step >= pair.next_near_check) return true;
     return model.relative.active();
+  }
+
+  void run_plain(const Instant& instant) const {
+    Instant here = instant;
+    if (own) here.own_space = &space;
+    const auto launch = [&] { run_tasks(plain, here, model.step); };
+    if (exchange != nullptr)
+      exchange->in_order(launch);
+    else
+      launch();
+  }
+
+  /// For the device. For one that waits for another rank's rows that has no end.
+  void wait() const {
+    if (exchange != nullptr) exchange->wait_for_rows();
+    space.fence();
+  }
+
+  /// Whether a task is due at a step that comes less often than subcycling's cycle.
+  bool rare_due(long step) const {
+    return std::any_of(rare.begin(), rare.end(), [step](const Task& task) { return task.due(step); });
   }
 
   /// Before launches in the default space.
@@ -149,10 +181,15 @@ struct StepRecording::Recordings {
   long frame_step() const { return model.relative.active() ? model.step - model.relative.block_step : 0; }
 
   /// Steps for one graph: a power of two that begins at a multiple of itself within a block of frames and a cycle of
-  /// subcycling, so that few graphs do for all.
+  /// subcycling, with rare tasks at its first step only, so that few graphs do for all.
   long steps_of_graph(long quiet) const {
-    for (const ContactPair& pair : model.contacts)
-      quiet = std::min({quiet, pair.next_check - model.step, pair.next_near_check - model.step});
+    if (!elements_alone)
+      for (const ContactPair& pair : model.contacts)
+        quiet = std::min({quiet, pair.next_check - model.step, pair.next_near_check - model.step});
+    for (const Task& task : rare) {
+      const long since = (model.step + task.every - task.at) % task.every;
+      quiet = std::min(quiet, task.every - since);
+    }
     const long frame = frame_step(), cycle = model.subcycling.cycle();
     if (model.relative.active()) quiet = std::min(quiet, steps_of_block - frame);
     long steps = 1;
@@ -177,48 +214,74 @@ struct StepRecording::Recordings {
       std::map<int, std::vector<const Task*>> lanes;
       for (; end < recordable.size() && recordable[end].stage == recordable[first].stage; ++end)
         if (recordable[end].due(model.step)) lanes[recordable[end].lane].push_back(&recordable[end]);
-      std::vector<LaunchGraph::Node> done;
-      for (const auto& [lane, tasks] : lanes)
-        done.push_back(LaunchGraph::after(ready, [&tasks = tasks, &instant] {
-          for (const Task* task : tasks) task->run(instant);
-        }));
-      if (!done.empty()) ready = LaunchGraph::joined(done);
+      std::map<int, LaunchGraph::Node> done;
+      for (const auto& [lane, tasks] : lanes) done.emplace(lane, record_lane(ready, tasks, done, instant));
+      std::vector<LaunchGraph::Node> ends;
+      for (const auto& [lane, last] : done) ends.push_back(last);
+      if (!ends.empty()) ready = LaunchGraph::joined(ends);
     }
     return ready;
   }
 
-  LaunchGraph record(const Instant& instant, long steps) const {
-    LaunchGraph graph;
-    LaunchGraph::Node ready = graph.root();
+  /// @param done lanes of the same stage
+  static LaunchGraph::Node record_lane(LaunchGraph::Node ready, const std::vector<const Task*>& tasks,
+                                       const std::map<int, LaunchGraph::Node>& done, const Instant& instant) {
+    for (std::size_t first = 0, end = 0; first < tasks.size(); first = end) {
+      if (const auto other = done.find(tasks[first]->joins); other != done.end())
+        ready = first == 0 ? other->second : LaunchGraph::joined({ready, other->second});
+      for (end = first + 1; end < tasks.size() && tasks[end]->joins < 0;) ++end;
+      ready = LaunchGraph::after(ready, [&tasks, first, end, &instant] {
+        for (std::size_t t = first; t < end; ++t) tasks[t]->run(instant);
+      });
+    }
+    return ready;
+  }
+
+  template <class Record>
+  void for_each_step(const Instant& instant, long steps, const Record& record_one) const {
     const long begin = model.step;
     for (long s = 0; s < steps; ++s, ++model.step) {
       Instant now = instant;
       now.load_values = load_values.of(static_cast<int>(s));
       now.places = places.of(static_cast<int>(s));
-      ready = record_step(ready, now);
+      record_one(now);
     }
     model.step = begin;
-    graph.finish();
-    return graph;
+  }
+
+  /// @return what launches the steps
+  std::function<void()> record(const Instant& instant, long steps) const {
+    if (exchange != nullptr) {
+      const std::shared_ptr<const DeviceMessages::Recorded> recorded =
+          exchange->record([&] { for_each_step(instant, steps, [this](const Instant& now) { run_recordable(now); }); });
+      return [this, recorded] { exchange->repeat(*recorded); };
+    }
+    const auto graph = std::make_shared<LaunchGraph>();
+    LaunchGraph::Node ready = graph->root();
+    for_each_step(instant, steps, [&](const Instant& now) { ready = record_step(ready, now); });
+    graph->finish();
+    return [this, graph] { graph->launch(space); };
   }
 
   Model& model;
+  RowExchange* const exchange;  ///< null: one rank
+  const bool elements_alone;    ///< another rank than 0: contact, loads and prescribed motions are 0's
   const ExecutionSpace space;
   const bool own;               ///< not the default one
   bool launched = false;        ///< in that space since finish()
   bool others_launched = true;  ///< in the default one since begin()
   bool idle = true;             ///< the device has waited since the last graph
   const int most;
-  std::vector<Task> plain, recordable;
+  std::vector<Task> plain, recordable, rare;
   StepValues<double> load_values;
   StepValues<RigidPlace> places;
-  std::map<Key, LaunchGraph> graphs;
+  std::map<Key, std::function<void()>> graphs;
   Milestone graph_ends;
   State recorded_in;  ///< of all of them
 };
 
-StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space)
-    : recordings_(std::make_unique<Recordings>(model, plan, space)) {}
+StepRecording::StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space, RowExchange* exchange)
+    : recordings_(std::make_unique<Recordings>(model, plan, space, exchange)) {}
 
 StepRecording::~StepRecording() { finish(); }
 
@@ -242,15 +305,11 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const bool regular = instant.elapsed == instant.step && model.velocity_lag == 0.5 * instant.step;
   if (all.most == 0 || quiet < 1 || !regular) return 0;
   all.begin();
-  if (all.plain_due()) {
-    Instant here = instant;
-    if (all.own) here.own_space = &all.space;
-    run_tasks(all.plain, here, model.step);
-  }
+  if (all.plain_due()) all.run_plain(instant);
   const long steps = all.steps_of_graph(all.idle && !all.own ? std::min(quiet, steps_of_first) : quiet);
   all.idle = false;
-  if (auto now = all.state(); now != all.recorded_in) {
-    all.space.fence();
+  if (auto now = all.state(instant.step); now != all.recorded_in) {
+    all.wait();
     all.graphs.clear();
     all.recorded_in = std::move(now);
   }
@@ -258,12 +317,13 @@ long StepRecording::advance(const Instant& instant, long quiet, const std::funct
   const auto place = [&](long step, int number) {
     return place_at(model.prescribed[number], time(step) + instant.step);
   };
-  const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps};
+  const auto wait = [&all] { all.wait(); };
+  const Recordings::Key key{model.step % model.subcycling.cycle(), all.frame_step(), steps, all.rare_due(model.step)};
   auto found = all.graphs.find(key);
   if (found == all.graphs.end()) found = all.graphs.emplace(key, all.record(instant, steps)).first;
-  all.load_values.take(all.space, model.step, steps, instant.step, value);
-  all.places.take(all.space, model.step, steps, instant.step, place);
-  found->second.launch(all.space);
+  all.load_values.take(all.space, wait, model.step, steps, instant.step, value);
+  all.places.take(all.space, wait, model.step, steps, instant.step, place);
+  found->second();
   if (all.own) all.graph_ends.put(all.space);
   return steps;
 }
@@ -273,7 +333,7 @@ long StepRecording::graphs_ahead() const { return recordings_->own ? recordings_
 #else
 
 struct StepRecording::Recordings {};
-StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*) {}
+StepRecording::StepRecording(Model&, const Plan&, const ExecutionSpace*, RowExchange*) {}
 StepRecording::~StepRecording() = default;
 void StepRecording::finish(bool) {}
 void StepRecording::forget() {}

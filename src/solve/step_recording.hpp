@@ -7,15 +7,18 @@
 
 namespace railwave {
 
+class RowExchange;
+
 /// Advancing steps whose launches are recorded as graphs, several steps a graph, where Kokkos can record them
-/// (solve/launch_graph.hpp). Then a GPU doesn't wait for the host between launches, and tasks in different lanes run
-/// side by side. Each kernel computes what it computes when launched by itself, so that results are bit for bit those
-/// of plain steps.
+/// (solve/launch_graph.hpp), or the messages between ranks' devices can. Then a GPU doesn't wait for the host between
+/// launches, and tasks in different lanes run side by side. Each kernel computes what it computes when launched by
+/// itself, so that results are bit for bit those of plain steps.
 class StepRecording {
  public:
   /// @param plan of advancing steps; both it and the model must outlive this
   /// @param space in whose order graphs are launched; null: the default one, in which all else is launched
-  StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr);
+  /// @param exchange of a rank's steps, which must outlive this, too; null: there is one rank
+  StepRecording(Model& model, const Plan& plan, const ExecutionSpace* space = nullptr, RowExchange* exchange = nullptr);
   ~StepRecording();
 
   /// Steps of the largest graph; 0: all steps are plain.

@@ -68,11 +68,19 @@ struct Task {
   Stage stage = Stage::begin;
   /// Tasks of a stage in different lanes touch nothing in common and may run side by side; those of one go in order.
   int lane = 0;
+  /// A lane before its own in number, all of whose tasks it waits for, too; -1: none.
+  int joins = -1;
   /// Whether all that it does is to launch the same kernels at each step that it is due. If not, it reads nothing that
   /// its step's other tasks write, and may run before them all.
   bool recordable = true;
 
   bool due(long step_number) const { return step_number % every == at; }
+};
+
+/// Lanes of Stage::own_forces. On a device that the first launches fill, what comes later waits for room: small ones
+/// that others wait for come first.
+struct OwnForceLanes {
+  static constexpr int beams = 0, loads = 1, contact = 2, elements = 3;  ///< and one more for each further group
 };
 
 /// Puts tasks into a lane of a stage.
@@ -97,7 +105,8 @@ struct ListedBlocks {
 Task corotating_frames_task(const AssembledScene& assembled, const std::vector<ElementGroup>& groups, NodalState& nodal,
                             StepKind kind);
 
-/// (a) Loads, connectors, torques, beams, and their gather at the nodes.
+/// (a) Loads, connectors, torques, beams, and their gather at the nodes. In advancing steps the beams' rotations, too
+/// (f to j): they follow from the beams' own moments.
 std::vector<Task> load_tasks(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
                              StepKind kind, GoingAlong along);
 
@@ -134,7 +143,7 @@ Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind);
 /// (g) Nodes that a motion is prescribed for, before the others.
 std::vector<Task> prescribed_tasks(const NodalState& nodal, const std::vector<PrescribedSet>& prescribed);
 
-/// (f) to (j) Rotations of beams, at the same time as the nodes' motion.
+/// (f) to (j) Rotations of beams.
 Task rotation_task(const NodalState& nodal, const BeamModel& built);
 
 /// (f) to (j) Accelerations, constraints, velocities and positions of all nodes that no block has moved.

@@ -8,17 +8,15 @@
 
 #include "case/memory.hpp"
 #include "model/checks/doubts.hpp"
+#include "solve/late_history.hpp"
 #include "solve/launch_graph.hpp"
+#include "solve/loop_memory.hpp"
 #include "solve/monitor/account.hpp"
-#include "solve/monitor/force_swing.hpp"
-#include "solve/monitor/monitor.hpp"
-#include "solve/output_schedule.hpp"
 #include "solve/plan.hpp"
 #include "solve/ranks/rank_team.hpp"
 #include "solve/run_summary.hpp"
 #include "solve/run_timing.hpp"
 #include "solve/statics/settle.hpp"
-#include "solve/step_control.hpp"
 #include "solve/step_recording.hpp"
 #include "solve/stepped_run.hpp"
 
@@ -54,32 +52,6 @@ std::string while_settling(const scene::Scene& scene, bool out_of_time) {
 
 }  // namespace
 
-/// What the loop itself remembers from one step to the next.
-struct LoopMemory {
-  StepControl control;
-  OutputSchedule due;
-  std::vector<ForceSwing> swings;
-  Monitor monitor;
-  double total_at_start = 0;
-  long history_rows = 0, field_outputs = 0;
-  double elapsed = 0;  ///< s, of the step before
-
-  template <class Archive>
-  void archive(Archive& archive) {
-    control.archive(archive);
-    due.archive(archive);
-    std::size_t count = swings.size();
-    archive.value("swings", count);
-    swings.resize(count);
-    for (std::size_t c = 0; c < count; ++c) swings[c].archive(archive, fmt::format("swing_{}", c));
-    monitor.archive(archive);
-    archive.value("total_at_start", total_at_start);
-    archive.value("history_rows", history_rows);
-    archive.value("field_outputs", field_outputs);
-    archive.value("elapsed", elapsed);
-  }
-};
-
 /// A run from its beginning, or from a checkpoint, to its end (thesis table 2.1).
 class TimeLoop {
  public:
@@ -99,7 +71,7 @@ class TimeLoop {
             std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
             Monitor(model, model, model, model, model.contacts, leader_ ? &leader_->own() : nullptr, leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
-        recording_(model, plans_.of(StepKind::advancing), space),
+        recording_(model, plans_.of(StepKind::advancing), space, leader_ ? &leader_->exchange() : nullptr),
         histories_may_be_late_(space == nullptr && !leader_ && !model.beams && recording_.most() > 0 &&
                                std::none_of(observers.begin(), observers.end(),
                                             [](const RunObserver* one) { return one->looks_at_model(); })) {
@@ -125,13 +97,13 @@ class TimeLoop {
     wait_for_other_ranks();
     memory_.monitor.check_contact_ends();
     if (late_)
-      late_history_ = std::make_unique<SampleUnderWay>(model_, model_.step_size);
+      late_history_.begin(model_, model_.step_size);
     else if (sampled_)
       monitor_and_output();
     if (ends()) return false;
     if (leader_) leader_->move(instant_);
     plans_.advance(instant_);
-    if (late_) late_history_->send(history_ends_);
+    if (late_) late_history_.send();
     end_step();
     return true;
   }
@@ -248,7 +220,7 @@ class TimeLoop {
     only_fields_ = only_outputs && fields_due_.any() && !memory_.due.history();
     late_ =
         only_outputs && histories_may_be_late_ && memory_.due.history() && !memory_.due.last() && !fields_due_.any();
-    if (late_) return history_begins_.put(ExecutionSpace());
+    if (late_) return late_history_.announce();
     if (!sampled_) return;
     wait_for_other_ranks();
     recording_.finish();
@@ -274,9 +246,9 @@ class TimeLoop {
   bool take_recorded_steps() {
     if (sampled_) return false;
     long steps = recording_.most();
-    if (late_history_) steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
-    steps = quiet_steps(steps);
-    steps = recording_.advance(instant_, steps, [this](long step) { return memory_.control.time_of(step); });
+    if (late_history_.under_way())
+      steps = std::min(steps, Monitor::steps_when_odd - model_.step % Monitor::steps_when_odd);
+    steps = record_steps(quiet_steps(steps));
     if (steps == 0) return false;
     plans_.advance_clock(instant_, steps);
     end_step();
@@ -284,16 +256,11 @@ class TimeLoop {
     return true;
   }
 
-  /// On a GPU nobody waits for a history that nothing else depends on: it comes to the host while the device takes the
-  /// next steps, and before any that may be sampled because of it. Should it show that the run must stop, then it stops
-  /// at the next step.
+  /// Before any step that may be sampled because of it. Should it show that the run must stop, then it stops at the
+  /// next step.
   void finish_late_history() {
-    if (!late_history_) return;
-    history_begins_.wait();
-    const WallClock clock;
-    HistorySample sample = late_history_->finish(history_ends_);
-    timing_.output_steps.add(clock.seconds());
-    late_history_.reset();
+    if (!late_history_.under_way()) return;
+    HistorySample sample = late_history_.finish(timing_.output_steps);
     watch(sample);
     for (RunObserver* observer : observers_) {
       observer->history(model_, sample);
@@ -308,17 +275,27 @@ class TimeLoop {
   bool take_shared_steps() {
     if (sampled_ || asks_for_places()) return false;
     constexpr long most = 64;
-    const long steps = std::max(1L, quiet_steps(most));
+    const long steps = std::max(1L, quiet_steps(most)), end = model_.step + steps;
     leader_->advance(instant_, steps);
-    for (long k = 0; k < steps; ++k) {
+    while (model_.step < end) {
       instant_.time = model_.time = memory_.control.time();
-      plans_.compute_forces(instant_, StepKind::advancing);
-      if (memory_.monitor.contact_ends_due(model_.step)) wait_for_other_ranks();
-      memory_.monitor.check_contact_ends();
-      plans_.advance(instant_);
+      const bool check = memory_.monitor.contact_ends_due(model_.step);
+      if (const long recorded = check ? 0 : record_steps(end - model_.step); recorded > 0) {
+        plans_.advance_clock(instant_, recorded);
+      } else {
+        plans_.compute_forces(instant_, StepKind::advancing);
+        if (check) wait_for_other_ranks();
+        memory_.monitor.check_contact_ends();
+        plans_.advance(instant_);
+      }
       end_step();
     }
     return true;
+  }
+
+  /// @return how many of the next steps were taken as one graph
+  long record_steps(long quiet) {
+    return recording_.advance(instant_, quiet, [this](long step) { return memory_.control.time_of(step); });
   }
 
   void monitor_and_output() {
@@ -399,8 +376,7 @@ class TimeLoop {
   StepPlans plans_;
   StepRecording recording_;
   const bool histories_may_be_late_;
-  Milestone history_begins_, history_ends_;
-  std::unique_ptr<SampleUnderWay> late_history_;  ///< null: none is under way
+  LateHistory late_history_;
   RunSummary summary_;
   SampleTiming timing_;
   Instant instant_;

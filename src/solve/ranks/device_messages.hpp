@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,6 +35,18 @@ class DeviceMessages {
   virtual void exchange(const std::vector<Message>& messages) = 0;
   /// What is launched in the default order from now on comes after all that has been launched in both.
   virtual void finish() = 0;
+
+  /// Launches and messages, recorded with who waits for whom.
+  class Recorded {
+   public:
+    virtual ~Recorded() = default;
+    /// In the default order, at the cost of one launch.
+    virtual void launch() const = 0;
+  };
+  /// Records what is launched in the default order, and between begin() and finish() in the others. Nothing may be
+  /// allocated, copied or waited for meanwhile, and all ranks must have exchanged messages before. Ranks need not
+  /// record alike: messages meet in the order in which they leave.
+  virtual std::unique_ptr<Recorded> record(const std::function<void()>& launch) = 0;
 };
 
 /// What a rank exchanges in a step, and what it computes meanwhile.

@@ -49,13 +49,15 @@ class Mark {
   cudaEvent_t event_ = nullptr;
 };
 
-/// A stream whose launches come before those of others.
+/// A stream whose launches come before those of the default one.
 class UrgentStream {
  public:
-  UrgentStream() {
-    int least = 0, greatest = 0;
+  /// @param behind how many more urgent ones, as far as the device tells them apart
+  explicit UrgentStream(int behind) {
+    int least = 0, greatest = 0;  // the greatest has the smallest number
     check(cudaDeviceGetStreamPriorityRange(&least, &greatest), "say its priorities");
-    check(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest), "make a stream");
+    const int priority = std::min(greatest + behind, std::max(greatest, least - 1));
+    check(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, priority), "make a stream");
   }
   ~UrgentStream() {
     cudaStreamSynchronize(stream_);
@@ -83,6 +85,39 @@ int channels_for(Transport& transport, const ExchangeLoad& load) {
   while (channels < most && !transport.all_agree(wanted <= channels)) channels *= 2;
   return channels;
 }
+
+class RecordedMessages : public DeviceMessages::Recorded {
+ public:
+  explicit RecordedMessages(const std::function<void()>& launch) {
+    const cudaStream_t stream = ExecutionSpace().cuda_stream();
+    // Of this thread alone: NCCL has threads of its own.
+    check(cudaStreamBeginCapture(stream, cudaStreamCaptureModeThreadLocal), "begin to record launches");
+    std::exception_ptr failure;
+    try {
+      launch();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    cudaGraph_t graph = nullptr;
+    const cudaError_t ended = cudaStreamEndCapture(stream, &graph);
+    const bool whole = !failure && ended == cudaSuccess;
+    // Outer blocks and messages come before inner blocks in a graph, too.
+    const cudaError_t made =
+        whole ? cudaGraphInstantiate(&launches_, graph, cudaGraphInstantiateFlagUseNodePriority) : cudaSuccess;
+    if (graph != nullptr) cudaGraphDestroy(graph);
+    if (failure) std::rethrow_exception(failure);
+    check(ended, "record steps, which RAILWAVE_STEP_GRAPHS=0 does without");
+    check(made, "make a graph of steps, which RAILWAVE_STEP_GRAPHS=0 does without");
+  }
+  ~RecordedMessages() override { cudaGraphExecDestroy(launches_); }
+  RecordedMessages(const RecordedMessages&) = delete;
+  RecordedMessages& operator=(const RecordedMessages&) = delete;
+
+  void launch() const override { check(cudaGraphLaunch(launches_, ExecutionSpace().cuda_stream()), "launch a graph"); }
+
+ private:
+  cudaGraphExec_t launches_ = nullptr;
+};
 
 class NcclMessages : public DeviceMessages {
  public:
@@ -131,8 +166,13 @@ class NcclMessages : public DeviceMessages {
     side_done_.pass(side_.get(), ExecutionSpace().cuda_stream());
   }
 
+  std::unique_ptr<Recorded> record(const std::function<void()>& launch) override {
+    return std::make_unique<RecordedMessages>(launch);
+  }
+
  private:
-  UrgentStream stream_, side_;
+  // What has to begin while others fill the device comes first: it is small, and long in line.
+  UrgentStream side_{0}, stream_{1};
   ExecutionSpace space_, side_space_;
   ncclComm_t ranks_ = nullptr;
   Mark begun_, done_, side_begun_, side_done_;

@@ -10,6 +10,7 @@
 #include "model/host_copy.hpp"
 #include "model/time_step/deformed_elements.hpp"
 #include "solve/monitor/account.hpp"
+#include "solve/step_recording.hpp"
 
 namespace railwave {
 namespace {
@@ -60,6 +61,9 @@ void forget_mesh(Model& model) {
   model.own_steps = std::vector<float>();
 }
 
+/// Whether ranks that follow an order wait for their devices, whose rows must have come before.
+bool waits_for_device(RankOrder::Kind kind) { return kind != RankOrder::advance; }
+
 Instant instant_of(const RankOrder& order) {
   Instant instant;
   instant.time = order.time;
@@ -104,7 +108,7 @@ void RankLeader::give_order(RankOrder::Kind kind, const Instant& instant, long s
 }
 
 void RankLeader::give_order(RankOrder order) {
-  if (exchange_) exchange_->wait_for_rows();
+  if (exchange_ && waits_for_device(order.kind)) exchange_->wait_for_rows();
   transport_.broadcast(&order, sizeof order);
 }
 
@@ -268,16 +272,35 @@ void follow_rank_0(Model& model, Transport& transport) {
   give_freed_memory_back();
   const Plan advancing = follower_plan(model, StepKind::advancing, exchange),
              sampled = follower_plan(model, StepKind::sampled, exchange);
+  StepRecording recording(model, advancing, nullptr, &exchange);
+  const auto advance_clock = [&](const Instant& instant, long steps) {
+    model.step += steps;
+    model.velocity_lag = 0.5 * instant.step;
+  };
   const auto move = [&](const Plan& plan, const Instant& instant) {
     run_tasks(plan.motion, instant, model.step);
-    model.step += 1;
-    model.velocity_lag = 0.5 * instant.step;
+    advance_clock(instant, 1);
+  };
+  const auto advance = [&](Instant instant, long steps) {
+    for (const long end = model.step + steps; model.step < end; instant.elapsed = instant.step) {
+      // No task of these ranks asks for the time.
+      const long recorded = recording.advance(instant, end - model.step, [&](long) { return instant.time; });
+      if (recorded > 0) {
+        advance_clock(instant, recorded);
+      } else {
+        run_tasks(advancing.forces, instant, model.step);
+        move(advancing, instant);
+      }
+    }
   };
   for (;;) {
     RankOrder order;
     transport.broadcast(&order, sizeof order);
-    exchange.wait_for_rows();
-    Instant instant = instant_of(order);
+    if (waits_for_device(order.kind)) {
+      exchange.wait_for_rows();
+      recording.finish();
+    }
+    const Instant instant = instant_of(order);
     switch (order.kind) {
       case RankOrder::take_state:
         state_transfer.receive(0, items, Transferred::state);
@@ -285,12 +308,7 @@ void follow_rank_0(Model& model, Transport& transport) {
         model.velocity_lag = order.velocity_lag;
         break;
       case RankOrder::advance:
-        for (long k = 0; k < order.steps; ++k) {
-          run_tasks(advancing.forces, instant, model.step);
-          move(advancing, instant);
-          instant.time += order.size;
-          instant.elapsed = order.size;
-        }
+        advance(instant, order.steps);
         break;
       case RankOrder::sample:
         run_tasks(sampled.forces, instant, model.step);

@@ -33,9 +33,9 @@ struct PrecisionBuffers {
       : sent(used ? share.sent.extent(0) : 0), received(used ? share.received.extent(0) : 0) {}
 };
 
-/// So many steps the host launches before the device has come to the first of them: more would gain nothing, and a rank
-/// that does not answer is found out by the wait for its rows.
-constexpr long most_steps_ahead = 2;
+/// So many steps, or graphs of steps, the host launches before the device has come to the first of them: more would
+/// gain nothing, and a rank that does not answer is found out by the wait for its rows.
+constexpr long most_ahead = 2;
 
 struct RowExchange::Buffers {
   PrecisionBuffers<double> in_double;
@@ -123,8 +123,8 @@ RowExchange::~RowExchange() = default;
 
 bool RowExchange::between_devices() const { return buffers_->on_devices != nullptr; }
 
-void RowExchange::wait_for_rows(long steps_ahead) const {
-  transport_.wait_until([&] { return buffers_->unpacked.ahead() <= steps_ahead; });
+void RowExchange::wait_for_rows(long ahead) const {
+  transport_.wait_until([&] { return buffers_->unpacked.ahead() <= ahead; });
 }
 
 template <class Do>
@@ -137,9 +137,7 @@ void RowExchange::with_rows(const Do& act) const {
 
 std::vector<Task> RowExchange::begin_tasks() {
   if (!buffers_->on_devices) return {};
-  Task task{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }};
-  task.recordable = false;
-  return {task};
+  return {{"beginning of outer blocks", "b, c", [this](const Instant&) { buffers_->on_devices->begin(); }}};
 }
 
 const ExecutionSpace* RowExchange::outer_space() const {
@@ -156,7 +154,7 @@ void RowExchange::exchange_on_devices(const Array<PartialForce<S>*>& rows, const
   pack(space, rows, buffers, share_);
   buffers_->on_devices->exchange(device_messages_of(buffers, share_));
   unpack(space, rows, buffers, share_);
-  buffers_->unpacked.put(space);
+  if (!recording_) buffers_->unpacked.put(space);
 }
 
 Task RowExchange::send_task(bool beside) {
@@ -173,7 +171,7 @@ Task RowExchange::send_task(bool beside) {
               });
             }};
   task.stage = Stage::own_forces;
-  task.recordable = false;
+  task.recordable = between_devices();
   return task;
 }
 
@@ -181,7 +179,8 @@ Task RowExchange::receive_task() {
   Task task{"forces of other ranks, received", "b, c", [this](const Instant&) {
               if (buffers_->on_devices) {
                 buffers_->on_devices->finish();
-                return wait_for_rows(most_steps_ahead);
+                if (!recording_) wait_for_rows(most_ahead);
+                return;
               }
               with_rows([this](const auto& rows, const auto& buffers) {
                 if constexpr (on_device) {
@@ -193,8 +192,32 @@ Task RowExchange::receive_task() {
               });
             }};
   task.stage = Stage::own_forces;
-  task.recordable = false;
+  task.recordable = between_devices();
   return task;
+}
+
+std::unique_ptr<DeviceMessages::Recorded> RowExchange::record(const std::function<void()>& launch) {
+  recording_ = true;
+  try {
+    auto recorded = buffers_->on_devices->record(launch);
+    recording_ = false;
+    return recorded;
+  } catch (...) {
+    recording_ = false;
+    throw;
+  }
+}
+
+void RowExchange::repeat(const DeviceMessages::Recorded& steps) {
+  steps.launch();
+  buffers_->unpacked.put(ExecutionSpace());
+  wait_for_rows(most_ahead);
+}
+
+void RowExchange::in_order(const std::function<void()>& launch) const {
+  buffers_->on_devices->begin();
+  launch();
+  buffers_->on_devices->finish();
 }
 
 }  // namespace railwave

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "model/ranks/rank_share.hpp"
 #include "model/ranks/transport.hpp"
+#include "solve/ranks/device_messages.hpp"
 #include "solve/tasks.hpp"
 
 namespace railwave {
@@ -22,9 +26,10 @@ class RowExchange {
   /// Whether rows go from GPU to GPU; else they go through the host.
   bool between_devices() const;
 
-  /// Until no more than so many steps are left whose rows of other ranks have not come, see Transport::wait_until().
+  /// Until no more than so many steps, or graphs of steps, are left whose rows of other ranks have not come, see
+  /// Transport::wait_until().
   /// Nobody may wait for the device before that: of a rank that does not answer, it waits without end.
-  void wait_for_rows(long steps_ahead = 0) const;
+  void wait_for_rows(long ahead = 0) const;
 
   /// In whose order outer blocks may launch their forces, beside all others; null: the default one, and rows go through
   /// the host.
@@ -38,6 +43,13 @@ class RowExchange {
   Task send_task(bool beside);
   /// Before anything that needs all forces.
   Task receive_task();
+
+  /// Between devices: a rank's steps as a graph, see DeviceMessages::record().
+  std::unique_ptr<DeviceMessages::Recorded> record(const std::function<void()>& launch);
+  /// Launches such steps. The host comes no more than some graphs before the device.
+  void repeat(const DeviceMessages::Recorded& steps);
+  /// Launches, between devices, something beside steps that may be in outer_space() or side_space().
+  void in_order(const std::function<void()>& launch) const;
 
  private:
   struct Buffers;
@@ -54,6 +66,7 @@ class RowExchange {
   RankShare share_;
   Transport& transport_;
   std::unique_ptr<Buffers> buffers_;
+  bool recording_ = false;
 };
 
 }  // namespace railwave

@@ -17,7 +17,7 @@ Task beam_task(const NodalState& nodal, const BeamModel& built, StepKind kind) {
 Task rotation_task(const NodalState& nodal, const BeamModel& built) {
   return {"rotations of beams", "f to j", [&nodal, &built](const Instant& instant) {
             const BeamArrays& beams = built.arrays;
-            Kokkos::parallel_for("beam_rotations", SpreadRange(0, beams.node_count),
+            Kokkos::parallel_for("beam_rotations", SpreadRange(instant.space(), 0, beams.node_count),
                                  BeamRotationUpdate{{beams}, nodal.velocity_lag + 0.5 * instant.step, instant.step});
           }};
 }

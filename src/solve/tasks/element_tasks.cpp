@@ -79,9 +79,8 @@ std::vector<Task> element_tasks(const NodalState& nodal, const ElementModel& ele
                                 GoingAlong along, const ListedBlocks& listed) {
   std::vector<Task> tasks;
   const bool settling = kind == StepKind::settling;
-  constexpr int first_lane = 2;  // behind loads and contact
   const auto lane_of = [&](const ElementGroup& group) {
-    return first_lane + static_cast<int>(&group - elements.elements.data());
+    return OwnForceLanes::elements + static_cast<int>(&group - elements.elements.data());
   };
   const auto listed_of = [&](const ElementGroup& group) {
     return listed.of_group == nullptr ? nullptr : &(*listed.of_group)[&group - elements.elements.data()];

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "solve/tasks/beam_forces.hpp"
 #include "solve/tasks/contributions.hpp"
 
 namespace railwave {
@@ -30,33 +31,60 @@ void launch_set_loads(const ExecutionSpace& space, const SetLoads& all) {
   Kokkos::parallel_for("set_loads", LoadTeam(space, teams, threads_of_loads), SetLoadTeams{all, teams});
 }
 
-/// Connectors, torques, and the gather of all loads: one launch where they are few.
-Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kind) {
-  const bool sets = loads.sets.moving > 0, rows_go_along = sets && few_rows(loads.sets, nodal.external);
-  std::string name = nodal.external.contribution_count > 0 ? "gather of loads" : "clearing of loads";
-  if (loads.torques.count > 0) name = "torques, " + name;
-  if (loads.connectors.arrays.count > 0) name = "connectors, " + name;
-  const int rows = nodal.external.loaded_count;
-  return {name, "a", [&nodal, &loads, kind, sets, rows_go_along, rows](const Instant& instant) {
-            const ExecutionSpace space = instant.space();
-            if (sets) launch_set_loads(space, set_loads(nodal, loads, instant, kind, rows_go_along ? rows : 0));
-            if (!rows_go_along)
-              Kokkos::parallel_for("row_loads", SpreadRange(space, 0, rows), row_loads(nodal, loads, instant.elapsed));
+/// Connectors and torques.
+/// @param rows how many are gathered in the same launch
+Task set_load_task(const NodalState& nodal, const LoadModel& loads, StepKind kind, int rows) {
+  const bool connectors = loads.connectors.arrays.count > 0, torques = loads.torques.count > 0;
+  return {connectors && torques ? "connectors, torques"
+          : connectors          ? "connectors"
+          : torques             ? "torques"
+                                : "motion of sets",
+          "a", [&nodal, &loads, kind, rows](const Instant& instant) {
+            launch_set_loads(instant.space(), set_loads(nodal, loads, instant, kind, rows));
           }};
+}
+
+Task gather_task(const NodalState& nodal, const LoadModel& loads) {
+  return {nodal.external.contribution_count > 0 ? "gather of loads" : "clearing of loads", "a",
+          [&nodal, &loads](const Instant& instant) {
+            Kokkos::parallel_for("row_loads", SpreadRange(instant.space(), 0, nodal.external.loaded_count),
+                                 row_loads(nodal, loads, instant.elapsed));
+          }};
+}
+
+/// Of connectors, torques and all other loads: one launch where they are few. Sums over many sets come before all else.
+std::vector<Task> gathered_tasks(const NodalState& nodal, const LoadModel& loads, StepKind kind,
+                                 std::vector<Task> others) {
+  Task gather = gather_task(nodal, loads);
+  std::vector<Task> tasks;
+  if (loads.sets.moving > 0 && few_rows(loads.sets, nodal.external)) {
+    const std::string name = gather.name;
+    gather = set_load_task(nodal, loads, kind, nodal.external.loaded_count);
+    gather.name += ", " + name;
+  } else if (loads.sets.moving > 0) {
+    tasks.push_back(set_load_task(nodal, loads, kind, 0));
+  }
+  gather.joins = OwnForceLanes::beams;
+  append(tasks, std::move(others));
+  tasks.push_back(std::move(gather));
+  return tasks;
 }
 
 }  // namespace
 
 std::vector<Task> load_tasks(const NodalState& nodal, const LoadModel& loads, const std::shared_ptr<BeamModel>& beams,
                              StepKind kind, GoingAlong along) {
-  std::vector<Task> tasks;
+  std::vector<Task> of_beams, tasks;
+  if (beams) of_beams.push_back(beam_task(nodal, *beams, kind));
+  if (beams && kind == StepKind::advancing) of_beams.push_back(rotation_task(nodal, *beams));
   for (const LoadArrays& load : loads.loads)
     if (load.torque < 0 && load.beam_node < 0)
       tasks.push_back({"load " + load.load->name, "a",
                        [&nodal, &load](const Instant& instant) { apply_load(nodal, load, instant); }});
-  if (beams) tasks.push_back(beam_task(nodal, *beams, kind));
-  if (nodal.external.loaded_count > 0 && !along.sets) tasks.push_back(set_load_task(nodal, loads, kind));
-  return tasks;
+  if (nodal.external.loaded_count > 0 && !along.sets) tasks = gathered_tasks(nodal, loads, kind, std::move(tasks));
+  std::vector<Task> all = placed(std::move(of_beams), Stage::own_forces, OwnForceLanes::beams);
+  append(all, placed(std::move(tasks), Stage::own_forces, OwnForceLanes::loads));
+  return all;
 }
 
 std::vector<Task> non_reflecting_tasks(const NodalState& nodal, const NonReflectingEnds& ends, StepKind kind) {

@@ -356,14 +356,15 @@ int work(int argc, char** argv) {
   const NoSuddenExit no_sudden_exit;
   try {
     return dispatch(argc, argv);
+  } catch (const MemoryShortage& error) {
+    std::cerr << "railwave: " << rank_for_messages() << error.what() << '\n';
+    return wrong_input;
   } catch (const InputError& error) {
     std::cerr << "railwave: " << error.what() << '\n';
     return wrong_input;
   } catch (const std::exception& error) {
     const bool no_memory = is_out_of_memory(error);
-    std::cerr << "railwave: ";
-    if (no_memory && others_were_started()) std::cerr << "rank " << rank_of_process() << ": ";
-    std::cerr << (no_memory ? out_of_memory(error) : error.what()) << '\n';
+    std::cerr << "railwave: " << (no_memory ? rank_for_messages() + out_of_memory(error) : error.what()) << '\n';
     return failed;
   }
 }

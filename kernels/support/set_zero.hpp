@@ -28,6 +28,17 @@ inline void set_zero_on_host(void* data, std::size_t bytes) {
   std::memset(data, 0, bytes);
 }
 
+/// Gives whole pages within these bytes back to the system, if it takes them: what they held is lost. They take memory
+/// again where they are touched.
+inline void give_pages_back([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
+#ifdef __linux__
+  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t first = (begin + page - 1) / page * page, last = (begin + bytes) / page * page;
+  if (last > first) madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
+#endif
+}
+
 /// Sets all bytes of an array to zero.
 template <class View>
 void set_zero(const View& view) {

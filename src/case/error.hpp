@@ -21,4 +21,10 @@ class InputError : public std::runtime_error {
   }
 };
 
+/// What the user asks for needs more memory than is left where this process runs: with other ranks' it may fit.
+class MemoryShortage : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 }  // namespace railwave

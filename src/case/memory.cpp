@@ -100,8 +100,8 @@ std::string refused_by_kokkos(const std::string& said) {
 
 void expect_memory(double bytes, const std::string& what, const std::string& mend, double available) {
   if (bytes <= available) return;
-  throw InputError(fmt::format("{} about {} of memory, but this machine has {} left; {}", what, bytes_text(bytes),
-                               bytes_text(available), mend));
+  throw MemoryShortage(fmt::format("{} about {} of memory, but this machine has {} left; {}", what, bytes_text(bytes),
+                                   bytes_text(available), mend));
 }
 
 void expect_memory(double bytes, const std::string& what, const std::string& mend) {

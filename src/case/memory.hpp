@@ -29,7 +29,7 @@ bool is_refusal_of_kokkos(const char* said);
 /// What Kokkos wanted by such words: "3.725 GiB for the array position, in memory of Host".
 std::string refused_by_kokkos(const std::string& said);
 
-/// Throws InputError "`what` about 3.2 TB of memory, but this machine has 22 GB left; `mend`" when `bytes` are more
+/// Throws MemoryShortage "`what` about 3.2 TB of memory, but this machine has 22 GB left; `mend`" when `bytes` are more
 /// than `available`. `what` begins with the place and ends in a verb: "[meshes.rail] (line 3): ... needs".
 void expect_memory(double bytes, const std::string& what, const std::string& mend, double available);
 void expect_memory(double bytes, const std::string& what, const std::string& mend);

@@ -10,6 +10,7 @@
 
 #include "case/memory.hpp"
 #include "commands/process.hpp"
+#include "model/ranks/transport.hpp"
 #include "output/free_memory.hpp"
 
 namespace {
@@ -54,6 +55,10 @@ bool is_out_of_memory(const std::exception& error) {
   if (refused_by_system && refused_by_system->code() == std::errc::resource_unavailable_try_again) return true;
   return dynamic_cast<const std::bad_alloc*>(&error) || is_refusal_of_kokkos(error.what()) ||
          std::strstr(error.what(), "memory allocation failed");  // HDF5
+}
+
+std::string rank_for_messages() {
+  return others_were_started() ? fmt::format("rank {}: ", rank_of_process()) : std::string();
 }
 
 std::string out_of_memory(const std::exception& error) try {

@@ -36,6 +36,9 @@ bool has_begun() noexcept;
 /// Whether an exception says that memory was refused, on the host or the device.
 bool is_out_of_memory(const std::exception& error);
 
+/// "rank 2: " where a launcher of MPI has started several processes, for what one of them lacks; else empty.
+std::string rank_for_messages();
+
 /// For people: how much was wanted, how much there is, what to do.
 std::string out_of_memory(const std::exception& error);
 

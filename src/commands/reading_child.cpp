@@ -81,8 +81,8 @@ int wait_for(pid_t child, const std::string& command, const std::vector<std::str
     return wrong_file;
   }
   if (by == SIGKILL) {
-    std::cerr << "railwave: " << command << " was killed, by you or by the system where it has no memory left"
-              << std::endl;
+    std::cerr << "railwave: " << rank_for_messages() << command
+              << " was killed, by you or by the system where it has no memory left" << std::endl;
     return failed;
   }
   // As the child ended, so do we: the shell is to see it.

@@ -8,6 +8,16 @@
 
 namespace railwave {
 
+namespace {
+
+[[noreturn]] void refuse(const scene::MeshSource& source, const MeshTooLarge& problem) {
+  const std::string text = place_of(source) + problem.what();
+  if (problem.of_memory) throw MemoryShortage(text);
+  throw InputError(text);
+}
+
+}  // namespace
+
 MeshGenerator generator_of(const scene::MeshSource& source) {
 #define RAILWAVE_GENERATOR(type, Parameters) type##_generator,
   constexpr MeshGenerator (*of_type[])() = {RAILWAVE_MESHES(RAILWAVE_GENERATOR)};
@@ -19,7 +29,7 @@ Mesh build_mesh(const scene::MeshSource& source, MeshNotes* notes) {
   try {
     return generator_of(source).build(source, notes);
   } catch (const MeshTooLarge& problem) {
-    throw InputError(place_of(source) + problem.what());
+    refuse(source, problem);
   }
 }
 
@@ -29,7 +39,7 @@ double expected_elements(const scene::MeshSource& source) {
     // Parameters that don't fit each other may give any number; build() reports them.
     return estimate >= 0 && std::isfinite(estimate) ? estimate : 0;
   } catch (const MeshTooLarge& problem) {
-    throw InputError(place_of(source) + problem.what());
+    refuse(source, problem);
   }
 }
 

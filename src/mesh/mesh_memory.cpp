@@ -21,8 +21,8 @@ void expect_mesh_memory(double elements, double nodes) {
   try {
     expect_memory(bytes_of_mesh_element * elements, fmt::format("makes {:.3g} elements, which need", elements),
                   smaller_mesh);
-  } catch (const InputError& problem) {
-    throw MeshTooLarge(problem.what());
+  } catch (const MemoryShortage& problem) {
+    throw MeshTooLarge(problem.what(), true);
   }
 }
 
@@ -69,7 +69,7 @@ void expect_memory_for_parts(const scene::Scene& scene, double available) {
   constexpr double certain = 0.7;
   const double bytes = (bytes_of_mesh_element + bytes_of_model_element) * total;
   if (!largest || certain * bytes <= available) return;
-  throw InputError(
+  throw MemoryShortage(
       fmt::format("{}: the meshes of all parts have about {:.2g} elements, which need about {} of memory, but this "
                   "machine has {} left; most of them "
                   "has [parts.{}] (line {}) by mesh '{}', about {:.2g}: {}, and see whether its lengths are in m",

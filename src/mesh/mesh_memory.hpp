@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 #include "case/scene.hpp"
 
@@ -9,7 +10,10 @@ namespace railwave {
 /// A mesh too large to be made; build_mesh() names the entry of the case.
 class MeshTooLarge : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  const bool of_memory;  ///< for what this machine has left; else for any
+
+  explicit MeshTooLarge(const std::string& what, bool for_memory = false)
+      : std::runtime_error(what), of_memory(for_memory) {}
 };
 
 inline constexpr const char* smaller_mesh = "make the elements larger, or the body smaller";
@@ -25,8 +29,8 @@ int cell_count(double cells);
 /// About how many elements the meshes of all parts will have.
 double expected_elements(const scene::Scene& scene);
 
-/// Throws InputError when the meshes and the model of all parts of a scene can't fit into the memory that is left; the
-/// message names the part that takes the most of it.
+/// Throws MemoryShortage when the meshes and the model of all parts of a scene can't fit into the memory that is left;
+/// the message names the part that takes the most of it.
 void expect_memory_for_parts(const scene::Scene& scene);
 
 /// The same against a given number of bytes.

@@ -11,6 +11,7 @@
 #include "model/contact/contact_law.hpp"
 #include "model/host_copy.hpp"
 #include "model/ranks/block_partition.hpp"
+#include "model/ranks/mesh_share.hpp"
 #include "model/ranks/rank_share.hpp"
 #include "model/visit_arrays.hpp"
 
@@ -19,25 +20,6 @@ namespace railwave {
 void build_model(const scene::Scene& scene, Model& model) { build_model(scene, assemble(scene), model); }
 
 namespace {
-
-/// Nodes of a rank's blocks; on rank 0 also those of no block, and those that are written.
-std::vector<char> nodes_of_rank(const Model& model, int rank) {
-  std::vector<char> wanted(model.nodes.count, 0);
-  if (rank == 0) {
-    for (int n : nodes_of_fields(model.scene, model.assembly)) wanted[n] = 1;
-    for (int n : to_vector(model.sets.nodes)) wanted[n] = 1;
-  }
-  const auto first = to_vector(model.nodes.first_partial);
-  for (int n = 0; n < model.nodes.count; ++n)
-    if (rank == 0 && first[n + 1] == first[n]) wanted[n] = 1;
-  for (const ElementGroup& group : model.elements) {
-    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
-    for (int p = 0; p < group.blocks.count; ++p)
-      for (int l = 0; group.owner[p] == rank && l < count[p]; ++l)
-        wanted[node[static_cast<std::size_t>(p) * group.blocks.node_stride + l] & ~advance_bit] = 1;
-  }
-  return wanted;
-}
 
 /// All that there is of a model before its elements' arrays.
 void build_surroundings(Model& model) {
@@ -66,6 +48,16 @@ void estimate_step(Model& model, Transport* transport) {
     build_stable_step(model, transport);
 }
 
+/// Blocks with their nodes, dealt out to ranks, and all that is made of the whole mesh.
+void build_lists(Model& model, Transport* transport) {
+  build_blocks(model, model.absorbing, model);
+  model.order.mesh_number = std::vector<int>();  // no longer asked for
+  build_element_histories(model, model);
+  if (transport == nullptr) return;
+  model.shown_nodes = nodes_of_fields(model.scene, model.assembly);
+  deal_out_blocks(model, *transport);
+}
+
 }  // namespace
 
 void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Transport* transport) {
@@ -86,17 +78,17 @@ void build_model(const scene::Scene& scene, Assembly assembly, Model& model, Tra
   const bool all = transport == nullptr || (rank == 0 && rank_0_needs_all(scene));
   if (all) build_node_places(model.assembly, {}, model.nodes);
   if (all) reset_to_start(model);
+  // A search of the step takes the most memory: other ranks than 0 let go of the mesh of others' blocks before.
+  if (transport != nullptr) build_lists(model, transport);
   estimate_step(model, transport);
-  build_blocks(model, model.absorbing, model);
-  model.order.mesh_number = std::vector<int>();  // no longer asked for
+  if (transport == nullptr) build_lists(model, transport);
+  if (rank > 0) keep_mesh_of_blocks(model, rank);
   build_gather(model.elements, model);
-  if (transport != nullptr) deal_out_blocks(model, *transport);
   if (!all) build_node_places(model.assembly, nodes_of_rank(model, rank), model.nodes);
   fill_blocks(model, model.absorbing, all ? -1 : rank, model);
   model.filled = all;
   build_block_state(model, model.partial);
   build_relative_nodes(model, model.elements, model.ties, model);
-  build_element_histories(model, model);
   build_motion_histories(model.ties, model.prescribed, model);
   build_sum_parts(model.nodes.count, model, model);
   model.left_out = what_is_left_out(model.scene);

@@ -29,6 +29,8 @@ struct Model : AssembledScene, NodalState, StepSizes, ElementModel, LoadModel {
   Ties ties;
   std::vector<ContactPair> contacts;  ///< of the scene's contacts in order, then the reversed ones
   std::vector<std::string> left_out;  ///< what the scene does not need and the run will not compute
+  bool whole_mesh = true;             ///< false: a rank has let go of nodes and elements, see mesh_share.hpp
+  std::vector<int> shown_nodes;       ///< on ranks: of the sets whose fields are written, ascending
 };
 
 /// Builds the device arrays of a scene. Throws InputError for what only the mesh can show: unknown sets, inverted

@@ -31,7 +31,7 @@ void expect_model_memory(const Assembly& assembly) {
   if (on_host)
     expect_memory(need, fmt::format("the model's {} elements need", elements), mend);
   else if (!device_gives(need))
-    throw InputError(
+    throw MemoryShortage(
         fmt::format("the model's {} elements need about {} of the GPU's memory, which it has not left; {}, or see what "
                     "else runs there",
                     elements, bytes_text(need), mend));

@@ -99,14 +99,31 @@ void share_out_nodes(const std::vector<ElementGroup>& groups, NodalState& nodal)
   nodal.shared.first_special = static_cast<int>(listed.size());
 }
 
+using SharedOnHost = Array<SharedNode*>::HostMirror;
+
+/// Moves nodes that are not as wanted behind the others, all in the order in which they were: with room for those
+/// alone, as they are few. @return the first of them
+template <class Wanted>
+int move_behind(const SharedOnHost& shared, int begin, const Wanted& wanted) {
+  std::vector<SharedNode> others;
+  int end = begin;
+  for (int i = begin; i < static_cast<int>(shared.extent(0)); ++i)
+    if (wanted(shared(i)))
+      shared(end++) = shared(i);
+    else
+      others.push_back(shared(i));
+  std::copy(others.begin(), others.end(), shared.data() + end);
+  return end;
+}
+
 /// What special nodes are asked for, of the shared ones from nodal.shared.first_special on.
-Array<SpecialNode*> special_nodes(const std::vector<SharedNode>& shared, const NodalState& nodal) {
+Array<SpecialNode*> special_nodes(const SharedOnHost& shared, const NodalState& nodal) {
   const auto external = to_host(nodal.nodes.external_row), constraint = to_host(nodal.nodes.constraint);
   const auto loaded_of_row = to_host(nodal.external.loaded_of_row);
   const auto loaded = to_host(nodal.external.loaded);
   std::vector<SpecialNode> special;
-  for (std::size_t i = nodal.shared.first_special; i < shared.size(); ++i) {
-    const int n = shared[i].node & ~special_bit, r = external(n);
+  for (std::size_t i = nodal.shared.first_special; i < shared.extent(0); ++i) {
+    const int n = shared(i).node & ~special_bit, r = external(n);
     SpecialNode& one = special.emplace_back(SpecialNode{r, 0, 0, constraint(n)});
     if (r < 0 || loaded_of_row(r) < 0) continue;
     const LoadedRow& of_row = loaded(loaded_of_row(r));
@@ -181,14 +198,12 @@ void order_shared_nodes(const std::vector<ContactPair>& contacts, const std::vec
     mark(pair.master_nodes);
   }
   for (const PrescribedSet& set : prescribed) mark(to_vector(set.nodes));
-  std::vector<SharedNode> shared = to_vector(nodal.shared.nodes);
-  const auto first_special =
-      std::stable_partition(shared.begin(), shared.end(), [](const SharedNode& one) { return one.node >= 0; });
-  const auto first_late = std::stable_partition(
-      first_special, shared.end(), [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
-  if (on_device && any) nodal.early_shared = static_cast<int>(first_late - shared.begin());
-  nodal.shared.first_special = static_cast<int>(first_special - shared.begin());
-  nodal.shared.nodes = to_device("shared nodes", shared);
+  const SharedOnHost shared = to_host(nodal.shared.nodes);
+  nodal.shared.first_special = move_behind(shared, 0, [](const SharedNode& one) { return one.node >= 0; });
+  const int first_late = move_behind(shared, nodal.shared.first_special,
+                                     [&](const SharedNode& one) { return late[one.node & ~special_bit] == 0; });
+  if (on_device && any) nodal.early_shared = first_late;
+  Kokkos::deep_copy(nodal.shared.nodes, shared);
   nodal.shared.special = special_nodes(shared, nodal);
 }
 

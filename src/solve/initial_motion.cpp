@@ -46,6 +46,7 @@ Vec3 rotation_centre(const AssembledScene& assembled, const scene::InitialMotion
 }
 
 void refuse_moving_held_nodes(const AssembledScene& assembled, const Array<double* [3]>& reference) {
+  if (assembled.scene.initial_motions.empty()) return;
   std::vector<Vec3> velocity(assembled.assembly.nodes.size(), Vec3{0, 0, 0});
   double fastest = 0;
   for (const scene::InitialMotion& motion : assembled.scene.initial_motions)

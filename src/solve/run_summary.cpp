@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "model/sets/place_sets.hpp"
 #include "model/subcycling.hpp"
 #include "model/time_step/stable_step.hpp"
 #include "solve/monitor/force_swing.hpp"
@@ -34,9 +33,10 @@ void summarize_steps(const AssembledScene& assembled, const NodalState& nodal, c
   summary.element_steps_per_second = updates / std::max(summary.wall_seconds, 1e-9);
 }
 
-void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
-                        const Monitor& monitor, const std::vector<ForceSwing>& swings,
-                        const std::vector<std::string>& doubts, RunSummary& summary) {
+void summarize_findings(const AssembledScene& assembled, const SceneAsMade& made,
+                        const std::vector<ContactPair>& contacts, const Monitor& monitor,
+                        const std::vector<ForceSwing>& swings, const std::vector<std::string>& doubts,
+                        RunSummary& summary) {
   const std::vector<std::string> checkpoint_trouble = summary.warnings;
   summary.account = monitor.account_summary();
   summary.worst_values = monitor.worst_summary();
@@ -44,11 +44,9 @@ void summarize_findings(const AssembledScene& assembled, const std::vector<Conta
   append(summary.warnings, monitor.never_closed());
   append(summary.warnings, late_contacts(contacts));
   append(summary.warnings, checkpoint_trouble);
-  for (const PlacedSet& placed : placed_sets(assembled.scene, assembled.assembly))
-    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
+  append(summary.warnings, made.node_set_warnings);
   append(summary.warnings, doubts);
-  for (const PlacedElements& placed : placed_element_sets(assembled.scene, assembled.assembly))
-    if (!placed.warning.empty()) summary.warnings.push_back(placed.warning);
+  append(summary.warnings, made.element_set_warnings);
   for (std::size_t c = 0; c < swings.size(); ++c)
     if (const std::string line = swings[c].summary(assembled.scene.contacts[c].name); !line.empty())
       summary.swings.push_back(line);

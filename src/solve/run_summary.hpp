@@ -17,6 +17,7 @@ struct BeamModel;
 class ForceSwing;
 class StepControl;
 class Monitor;
+struct SceneAsMade;
 
 /// How a run ended.
 struct RunSummary {
@@ -55,8 +56,9 @@ void summarize_steps(const AssembledScene& assembled, const NodalState& nodal, c
 /// Completes account, warnings and swings of a run that has ended. The summary holds already why it ended, its fault,
 /// and what went wrong with its checkpoints.
 /// @param doubts lines that were reported when the run began
-void summarize_findings(const AssembledScene& assembled, const std::vector<ContactPair>& contacts,
-                        const Monitor& monitor, const std::vector<ForceSwing>& swings,
-                        const std::vector<std::string>& doubts, RunSummary& summary);
+void summarize_findings(const AssembledScene& assembled, const SceneAsMade& made,
+                        const std::vector<ContactPair>& contacts, const Monitor& monitor,
+                        const std::vector<ForceSwing>& swings, const std::vector<std::string>& doubts,
+                        RunSummary& summary);
 
 }  // namespace railwave

@@ -64,12 +64,13 @@ class TimeLoop {
         doubts_(report_beginning()),
         in_equilibrium_(keeping.from || prepare(model, observers, settled, [this] { return may_go_on(); })),
         prepared_(keeping.from || !model.scene.settle.active || may_go_on()),
+        as_made_(model),
         leader_(keeping.transport ? std::make_unique<RankLeader>(model, *keeping.transport) : nullptr),
-        memory_{
-            StepControl(model, deformed_elements(model, leader_ ? &leader_->own() : nullptr), leader_.get()),
-            OutputSchedule(model.scene, model, model),
-            std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
-            Monitor(model, model, model, model, model.contacts, leader_ ? &leader_->own() : nullptr, leader_.get())},
+        memory_{StepControl(model, deformed_elements(model, leader_ ? &leader_->own() : nullptr), leader_.get()),
+                OutputSchedule(model.scene, model, model),
+                std::vector<ForceSwing>(in_equilibrium_ ? 0 : model.scene.contacts.size()),
+                Monitor(model, model, model, model, model.contacts, as_made_, leader_ ? &leader_->own() : nullptr,
+                        leader_.get())},
         plans_(model, leader_ ? &leader_->exchange() : nullptr),
         recording_(model, plans_.of(StepKind::advancing), space, leader_ ? &leader_->exchange() : nullptr),
         histories_may_be_late_(space == nullptr && !leader_ && !model.beams && recording_.most() > 0 &&
@@ -151,7 +152,7 @@ class TimeLoop {
     if (leader_) summary_.ranks = leader_->summary();
     summary_.memory = leader_ ? leader_->peak_memories() : std::vector<double>{peak_memory()};
     summarize_steps(model_, model_, model_, model_.beams, memory_.control, summary_);
-    summarize_findings(model_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
+    summarize_findings(model_, as_made_, model_.contacts, memory_.monitor, memory_.swings, doubts_, summary_);
     for (RunObserver* observer : observers_) observer->end(model_, summary_);
     return summary_;
   }
@@ -370,7 +371,8 @@ class TimeLoop {
   const RunKeeping& keeping_;
   const std::vector<std::string> doubts_;
   const bool in_equilibrium_;
-  const bool prepared_;                 ///< false: stopped while it settled
+  const bool prepared_;  ///< false: stopped while it settled
+  const SceneAsMade as_made_;
   std::unique_ptr<RankLeader> leader_;  ///< of other ranks; null: there are none
   LoopMemory memory_;
   StepPlans plans_;

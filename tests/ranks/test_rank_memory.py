@@ -121,7 +121,7 @@ class Memory(Ranks):
     much as one process."""
 
     RANKS = 4
-    LARGEST_SHARE = 0.55  # of one process's; 0.42 of a million elements, and of these
+    LARGEST_SHARE = 0.45  # of one process's; 0.34 of a million elements, 0.38 of these
 
     def peaks(self, ranks, text):
         self.write(text)

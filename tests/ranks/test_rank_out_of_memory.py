@@ -49,9 +49,7 @@ class OutOfMemory(Ranks):
                     if run.returncode == 0:
                         self.assert_same(alone, self.kept(f"{rank}-{limit}.h5"))
                         continue
-                    # Of the case, and of what a case needs, rank 0 speaks without its number.
-                    names = r"(rank 0: )?" if rank == 0 else r"rank 1: "
-                    self.assertRegex(said, rf"(?m)^railwave: {names}.*memory")
+                    self.assertRegex(said, rf"(?m)^railwave: rank {rank}: .*memory")
             self.assertNotEqual(ends[0], 0)
             self.assertEqual(ends[-1], 0)
 

@@ -12,10 +12,10 @@ std::vector<int> blocks_of_nodes(const std::vector<ElementGroup>& groups, int no
   std::vector<int> block_of_node(node_count, -1);
   int block = 0;
   for (const ElementGroup& group : groups) {
-    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
     for (int p = 0; p < group.blocks.count; ++p, ++block)
-      for (int l = 0; l < count[p]; ++l)
-        if (int& first = block_of_node[node[p * group.blocks.node_stride + l] & ~advance_bit]; first < 0) first = block;
+      for (int l = 0; l < count(p); ++l)
+        if (int& first = block_of_node[node(p * group.blocks.node_stride + l) & ~advance_bit]; first < 0) first = block;
   }
   return block_of_node;
 }

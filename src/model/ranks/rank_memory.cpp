@@ -14,6 +14,8 @@ constexpr double of_process = 25e6, of_process_with_mpi = 40e6;
 constexpr double search_of_element = 24 * sizeof(double) + 16 * sizeof(int),
                  search_of_node = 4 * 3 * sizeof(double) + sizeof(int),
                  shared_search_of_node = search_of_node + 4 * sizeof(double) + sizeof(int);
+/// Measured: of putting elements in blocks, for a moment.
+constexpr double ordering_of_element = 55;
 /// What the monitor keeps of an element.
 constexpr double monitored_element = 8 * sizeof(int) + 7 * sizeof(float);
 /// What the step keeps of an element to follow its deformation.
@@ -31,9 +33,15 @@ double bytes_of(const std::map<std::string, std::vector<T>>& sets) {
   return bytes;
 }
 
-double mesh_bytes(const Assembly& assembly) {
-  return bytes_of(assembly.nodes) + bytes_of(assembly.elements) + bytes_of(assembly.node_sets) +
-         bytes_of(assembly.element_sets) + bytes_of(assembly.surfaces);
+double set_bytes(const Assembly& assembly) {
+  return bytes_of(assembly.node_sets) + bytes_of(assembly.element_sets) + bytes_of(assembly.surfaces);
+}
+
+/// Nodes of blocks, in rows.
+double block_node_bytes(const Model& model) {
+  double bytes = 0;
+  for (const ElementGroup& group : model.elements) bytes += sizeof(int) * static_cast<double>(group.blocks.node.span());
+  return bytes;
 }
 
 /// Bytes of arrays of which a rank touches what its blocks need, and of all others.
@@ -69,13 +77,15 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
   // A visit hands out references; this one changes nothing.
   visit_model_arrays(arrays, const_cast<Model&>(model));
   const double nodes = model.nodes.count, elements = static_cast<double>(model.element_count());
-  const double mesh = mesh_bytes(model.assembly), values = bytes_of(model.mass) + bytes_of(model.element_length),
-               own_steps = bytes_of(model.own_steps);
-  const double light =
-      mesh + own_steps + nodes * (sizeof(double) + 3 * sizeof(int));  // masses, rows, numbers in the mesh
+  const double sets = set_bytes(model.assembly),
+               places_and_corners = bytes_of(model.assembly.nodes) + bytes_of(model.assembly.elements);
+  const double values = bytes_of(model.mass) + bytes_of(model.element_length), own_steps = bytes_of(model.own_steps);
+  const double numbers = nodes * (sizeof(double) + 2 * sizeof(int));  // masses, rows of constraints and of loads
   const double places = 6 * sizeof(double) * nodes, monitored = model.scene.monitor.active ? monitored_element : 0;
   const bool several = partition.ranks > 1, shared = several && EstimateShare::possible(model.scene);
   const double kept_search = model.global_estimate ? of_search(model) : 0;
+  // One process has its blocks after the search, and numbers in the mesh until then.
+  const double lists = several ? block_node_bytes(model) : nodes * sizeof(int);
   std::vector<RankMemory> all;
   for (int r = 0; r < partition.ranks; ++r) {
     const bool whole = !several || (r == 0 && rank_0_needs_all(model.scene));
@@ -84,13 +94,17 @@ std::vector<RankMemory> forecast_memory(const Model& model, const BlockPartition
     const double search = shared ? (search_of_element * elements + shared_search_of_node * nodes) *
                                        EstimateShare::part_of(r, partition.ranks)
                                  : (r == 0 ? of_search(model) : 0);
+    // Of the mesh, while the model is made and in steps; beside it what else is known of elements.
+    const double mesh_made = sets + (r == 0 ? 1 : own) * places_and_corners,
+                 mesh_in_steps = whole ? sets + places_and_corners : (r == 0 ? sets : 0);
+    const double beside = r == 0 ? values + own_steps : own * own_steps, beside_in_steps = r == 0 ? beside : 0;
+    const double of_arrays = arrays.whole + (whole ? 1 : own) * arrays.shared;
     RankMemory memory;
-    memory.making = base + light + (r == 0 ? values : 0) + (whole ? places : 0) + search;
-    memory.steps = base + arrays.whole + (whole ? 1 : own) * arrays.shared +
-                   own * elements * (monitored + followed_element) +
-                   (r == 0 ? mesh + values + own_steps + kept_search : 0);
-    // Other ranks give their mesh away when they have all that steps need.
-    if (r > 0) memory.making = std::max(memory.making, base + mesh + arrays.whole + own * arrays.shared);
+    memory.making = base + std::max({sets + places_and_corners + ordering_of_element * elements,
+                                     mesh_made + beside + numbers + lists + (whole ? places : 0) + search,
+                                     mesh_made + beside + of_arrays});
+    memory.steps = base + mesh_in_steps + beside_in_steps + of_arrays +
+                   own * elements * (monitored + followed_element) + (r == 0 ? kept_search : 0);
     all.push_back(memory);
   }
   return all;

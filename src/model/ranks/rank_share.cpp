@@ -13,11 +13,11 @@ template <class Do>
 void each_node_of_blocks(const Model& model, const BlockPartition& partition, const Do& one) {
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
-    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
     for (int p = 0; p < group.blocks.count; ++p)
-      for (int l = 0; l < count[p]; ++l) {
+      for (int l = 0; l < count(p); ++l) {
         const int k = p * group.blocks.node_stride + l;
-        one(node[k] & ~advance_bit, partition.owner[g][p], group.first_partial + k,
+        one(node(k) & ~advance_bit, partition.owner[g][p], group.first_partial + k,
             group.damping.active() ? group.damping.first_partial + k : -1);
       }
   }
@@ -26,18 +26,18 @@ void each_node_of_blocks(const Model& model, const BlockPartition& partition, co
 /// Of the model's shared nodes, in their order, those that a rank moves.
 void keep_shared_nodes(Model& model, const RankLayout& layout, int rank) {
   SharedNodes& shared = model.shared;
-  const auto all = to_vector(shared.nodes);
-  const auto all_special = to_vector(shared.special);
-  const auto first = to_vector(model.nodes.first_partial);
+  const auto all = to_host(shared.nodes);
+  const auto all_special = to_host(shared.special);
+  const auto first = to_host(model.nodes.first_partial);
   std::vector<SharedNode> kept;
   std::vector<SpecialNode> special;
-  std::vector<int> kept_before(all.size() + 1, 0);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const int n = all[i].node & ~special_bit;
-    const bool of_no_block = first[n + 1] == first[n];
+  std::vector<int> kept_before(all.extent(0) + 1, 0);
+  for (std::size_t i = 0; i < all.extent(0); ++i) {
+    const int n = all(i).node & ~special_bit;
+    const bool of_no_block = first(n + 1) == first(n);
     if (layout.ranks.has(n, rank) || (rank == 0 && of_no_block)) {
-      kept.push_back(all[i]);
-      if (i >= static_cast<std::size_t>(shared.first_special)) special.push_back(all_special[i - shared.first_special]);
+      kept.push_back(all(i));
+      if (i >= static_cast<std::size_t>(shared.first_special)) special.push_back(all_special(i - shared.first_special));
     }
     kept_before[i + 1] = static_cast<int>(kept.size());
   }
@@ -116,7 +116,7 @@ ShareItems items_of(const Model& model, const BlockPartition& partition, const R
   items.rank = rank;
   for (int n = 0; n < model.nodes.count; ++n)
     if (layout.ranks.has(n, rank)) items.nodes.push_back(n);
-  for (int n : nodes_of_fields(model.scene, model.assembly))
+  for (int n : model.shown_nodes)
     if (layout.ranks.has(n, rank)) items.shown.push_back(n);
   for (const auto& owner : partition.owner) {
     auto& blocks = items.blocks.emplace_back();
@@ -124,6 +124,40 @@ ShareItems items_of(const Model& model, const BlockPartition& partition, const R
       if (owner[p] == rank) blocks.push_back(static_cast<int>(p));
   }
   return items;
+}
+
+std::vector<char> nodes_of_rank(const Model& model, int rank) {
+  std::vector<char> wanted(model.nodes.count, 0);
+  if (rank == 0) {
+    for (int n : model.shown_nodes) wanted[n] = 1;
+    for (int n : to_vector(model.sets.nodes)) wanted[n] = 1;
+    for (int n : nodes_of_no_block(model)) wanted[n] = 1;
+  }
+  for (const ElementGroup& group : model.elements) {
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
+    for (int p = 0; p < group.blocks.count; ++p)
+      for (int l = 0; group.owner[p] == rank && l < count(p); ++l)
+        wanted[node(static_cast<std::size_t>(p) * group.blocks.node_stride + l) & ~advance_bit] = 1;
+  }
+  return wanted;
+}
+
+std::vector<int> nodes_of_no_block(const Model& model) {
+  std::vector<int> nodes;
+  const auto first = to_host(model.nodes.first_partial);
+  for (int n = 0; n < model.nodes.count; ++n)
+    if (first(n + 1) == first(n)) nodes.push_back(n);
+  return nodes;
+}
+
+std::vector<int> elements_of_rank(const Model& model, int rank) {
+  std::vector<int> elements;
+  for (const ElementGroup& group : model.elements)
+    for (std::size_t p = 0; p < group.owner.size(); ++p)
+      for (int e = 0; group.owner[p] == rank && e < group.element_count[p]; ++e)
+        elements.push_back(group.first_element[p] + e);
+  std::sort(elements.begin(), elements.end());
+  return elements;
 }
 
 std::vector<int> parts_of_rank(const PartedLists& lists, const std::vector<ElementGroup>& groups,
@@ -139,9 +173,8 @@ OwnItems own_items(const Model& model, const ShareItems& items) {
   OwnItems own;
   own.nodes = items.nodes;
   if (items.rank == 0) {
-    const auto first = to_vector(model.nodes.first_partial);
-    for (int n = 0; n < model.nodes.count; ++n)
-      if (first[n + 1] == first[n]) own.nodes.push_back(n);
+    const auto of_no_block = nodes_of_no_block(model);
+    own.nodes.insert(own.nodes.end(), of_no_block.begin(), of_no_block.end());
     std::sort(own.nodes.begin(), own.nodes.end());
   }
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
@@ -161,12 +194,12 @@ RankShare take_share(Model& model, const BlockPartition& partition, const RankLa
   for (int n = 0; n < model.nodes.count; ++n) outer[n] = layout.ranks.several(n) && layout.ranks.has(n, rank) ? 1 : 0;
   for (std::size_t g = 0; g < model.elements.size(); ++g) {
     const ElementGroup& group = model.elements[g];
-    const auto node = to_vector(group.blocks.node), count = to_vector(group.blocks.node_count);
+    const auto node = to_host(group.blocks.node), count = to_host(group.blocks.node_count);
     std::vector<int> lists[2];
     for (int p = 0; p < group.blocks.count; ++p) {
       if (partition.owner[g][p] != rank) continue;
       bool any = false;
-      for (int l = 0; l < count[p]; ++l) any = any || outer[node[p * group.blocks.node_stride + l] & ~advance_bit] != 0;
+      for (int l = 0; l < count(p); ++l) any = any || outer[node(p * group.blocks.node_stride + l) & ~advance_bit] != 0;
       lists[any ? 0 : 1].push_back(p);
     }
     share.outer.push_back(to_device("outer blocks", lists[0]));

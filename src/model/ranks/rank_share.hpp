@@ -44,6 +44,14 @@ struct ShareItems {
 /// Nodes of the sets that output.field_sets names, ascending.
 std::vector<int> nodes_of_fields(const scene::Scene& scene, const Assembly& assembly);
 
+/// Whether a rank has a node, by node: those of its blocks; on rank 0 also those of no block, of sets, and those that
+/// are written.
+std::vector<char> nodes_of_rank(const Model& model, int rank);
+std::vector<int> nodes_of_no_block(const Model& model);
+
+/// Elements of a rank's blocks, ascending.
+std::vector<int> elements_of_rank(const Model& model, int rank);
+
 /// Parts of lists that a rank sums.
 std::vector<int> parts_of_rank(const PartedLists& lists, const std::vector<ElementGroup>& groups,
                                const ShareItems& items);

@@ -75,6 +75,7 @@ DeformedElements deformed_elements(const Model& model, const OwnItems* own) {
   const auto value = Kokkos::create_mirror_view(made.value);
   const auto under_springs = nodes_under_springs(model);
   const auto level = levels_of_elements(model);
+  const bool steps_of_all = model.own_steps.size() == assembly.elements.size();
   std::size_t p = 0;
   for (int i = 0; i < made.count; ++i) {
     const int e = own != nullptr ? own->elements[i] : i;  // ascending
@@ -88,7 +89,8 @@ DeformedElements deformed_elements(const Model& model, const OwnItems* own) {
     const bool coarse = !springs && !level.empty() && level[e] > 0;
     const double share = coarse ? 1 / (margin_of_levels * static_cast<double>(1L << level[e])) : 1;
     const float power = model.scene.parts[p].damped() ? 2 : 1;
-    value(i, DeformedElements::own_step) = springs ? 0 : static_cast<float>(share * model.own_steps[e]);
+    value(i, DeformedElements::own_step) =
+        springs ? 0 : static_cast<float>(share * model.own_steps[steps_of_all ? e : i]);
     value(i, DeformedElements::lame_ratio) = static_cast<float>(ratio);
     value(i, DeformedElements::stiffness) = static_cast<float>(undeformed_stiffness(assembly, e, ratio));
     value(i, DeformedElements::power) = coarse ? -power : power;

@@ -9,9 +9,8 @@
 namespace railwave {
 namespace {
 
-std::string near(const Assembly& assembly, int element) {
+std::string near(int element, const scene::Vec3& at) {
   if (element < 0) return {};
-  const Vec3& at = assembly.nodes[assembly.elements[element][0]];
   return fmt::format(" (element near {:.4g}, {:.4g}, {:.4g} m)", at[0], at[1], at[2]);
 }
 
@@ -51,7 +50,7 @@ std::string what_sets_step(const AssembledScene& assembled, const StableStep& st
   const int element = heights ? stable.element : stable.eigenvalue_element;
   if (const int part = part_of_element(assembled.assembly, element); part >= 0)
     return fmt::format("elements of part {} by their size, material and damping{}", assembled.assembly.parts[part].name,
-                       near(assembled.assembly, element));
+                       near(element, heights ? stable.element_place : stable.eigenvalue_place));
   return "the scene as a whole";
 }
 
@@ -59,10 +58,10 @@ std::vector<std::string> describe_stable_step(const AssembledScene& assembled, c
                                               const std::shared_ptr<BeamModel>& beams) {
   const scene::StepEstimate choice = assembled.scene.solver.step_estimate;
   std::vector<std::string> lines{
-      line("stable by element heights", stable.by_elements, stable.elements, near(assembled.assembly, stable.element),
+      line("stable by element heights", stable.by_elements, stable.elements, near(stable.element, stable.element_place),
            stable, stable.contact),
       line("stable by element eigenvalues", stable.by_eigenvalues, stable.eigenvalue,
-           near(assembled.assembly, stable.eigenvalue_element), stable, stable.eigenvalue_contact)};
+           near(stable.eigenvalue_element, stable.eigenvalue_place), stable, stable.eigenvalue_contact)};
   if (shortened(stable)) lines[0] += "; shortened to what they allow together at free surfaces and in contact";
   if (stable.global > 0)
     lines.push_back(

@@ -9,16 +9,22 @@
 namespace railwave {
 namespace {
 
-/// Rank 0 has lengths and masses beside its share, so that of a million elements all take alike memory with this share.
-constexpr double share_of_rank_0 = 0.85;
+/// Rank 0's share over another's. It has the whole mesh, lengths and masses beside it, so that few ranks take alike
+/// memory with this share; of many ranks all take more when the model is made. Bytes of an element: others' mesh and
+/// own steps, lengths and masses, the search.
+double share_of_rank_0(int ranks) {
+  constexpr double mesh = 61, values = 16, search = 396, least = 0.5;
+  const double more = (values + mesh * (ranks - 1) / ranks) / search;
+  return std::max(least, (1 - more * (ranks - 1)) / (1 + more));
+}
 
 /// Ranges begin where blocks of sums do.
 std::vector<int> ranges_of(int nodes, int ranks) {
   std::vector<int> first{0};
   const int blocks = (nodes + items_of_block - 1) / items_of_block;
+  const double first_share = share_of_rank_0(ranks);
   for (int r = 1; r < ranks; ++r)
-    first.push_back(static_cast<int>(blocks * (r - 1 + share_of_rank_0) / (ranks - 1 + share_of_rank_0)) *
-                    items_of_block);
+    first.push_back(static_cast<int>(blocks * (r - 1 + first_share) / (ranks - 1 + first_share)) * items_of_block);
   first.push_back(nodes);
   return first;
 }
@@ -53,7 +59,8 @@ double sum_of_blocks(const std::vector<double>& blocks) {
 bool EstimateShare::possible(const scene::Scene& scene) { return !on_device && scene.ties.empty(); }
 
 double EstimateShare::part_of(int rank, int ranks) {
-  return (rank == 0 ? share_of_rank_0 : 1) / (ranks - 1 + share_of_rank_0);
+  const double first_share = share_of_rank_0(ranks);
+  return (rank == 0 ? first_share : 1) / (ranks - 1 + first_share);
 }
 
 EstimateShare::EstimateShare(const AssembledScene& assembled, const NodalState& nodal, Transport& transport)

@@ -12,6 +12,7 @@
 #include "model/build_steps.hpp"
 #include "model/contact/contact_springs.hpp"
 #include "model/model.hpp"
+#include "model/ranks/mesh_share.hpp"
 #include "model/time_step/automatic_step.hpp"
 #include "model/time_step/estimate_share.hpp"
 #include "model/time_step/global_step.hpp"
@@ -48,54 +49,73 @@ double dragged_element_step(double rate, double step) {
   return step * step / (std::sqrt(step * step + b * b) + b);
 }
 
-/// Shortens elements' steps by absorbing layers, in whose elements the fastest decay counts everywhere.
-void drag(const Assembly& assembly, const AbsorbingLayers& absorbing, std::vector<double>& steps) {
+/// Shortens an element's step by absorbing layers, in whose elements the fastest decay counts everywhere.
+void drag(const Assembly& assembly, const AbsorbingLayers& absorbing, int element, double& step) {
   const auto& rate = absorbing.rate;
   if (rate.empty()) return;
-  for (std::size_t e = 0; e < steps.size(); ++e) {
-    double most = 0;
-    for (int n : assembly.elements[e]) most = std::fmax(most, rate[n]);
-    if (most > 0) steps[e] = dragged_element_step(most, steps[e]);
-  }
+  double most = 0;
+  for (int n : assembly.elements[element]) most = std::fmax(most, rate[n]);
+  if (most > 0) step = dragged_element_step(most, step);
 }
 
-/// Shortens each element's step by its part's damping.
-void damp(const AssembledScene& assembled, std::vector<double>& steps) {
-  const double speed = largest_initial_speed(assembled.scene);
-  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
-    const scene::Part& part = assembled.scene.parts[p];
-    if (!part.damped()) continue;
-    const auto& range = assembled.assembly.parts[p];
-    for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const double volume = hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
-      steps[e] =
-          damped_element_step(part, assembled.scene.materials[range.material], std::cbrt(volume), speed, steps[e]);
-    }
-  }
-}
-
-/// Stable steps of each element by its highest eigenvalues.
+/// Stable steps of elements by their highest eigenvalues.
 struct EigenvalueSteps {
   std::vector<double> step, control;
+
+  explicit EigenvalueSteps(std::size_t count) : step(count), control(count) {}
 };
 
-EigenvalueSteps eigenvalue_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing) {
-  const std::size_t count = assembled.assembly.elements.size();
-  EigenvalueSteps steps{std::vector<double>(count), std::vector<double>(count)};
-  for (std::size_t p = 0; p < assembled.assembly.parts.size(); ++p) {
-    const auto& range = assembled.assembly.parts[p];
+/// @param elements ascending, whose steps are wanted; null: all
+EigenvalueSteps eigenvalue_steps(const AssembledScene& assembled, const AbsorbingLayers& absorbing,
+                                 const std::vector<int>* elements = nullptr) {
+  const Assembly& assembly = assembled.assembly;
+  EigenvalueSteps steps(elements != nullptr ? elements->size() : assembly.elements.size());
+  const double speed = largest_initial_speed(assembled.scene);
+  std::size_t p = 0;
+  for (std::size_t i = 0; i < steps.step.size(); ++i) {
+    const int e = elements != nullptr ? (*elements)[i] : static_cast<int>(i);
+    while (e >= assembly.parts[p].first_element + assembly.parts[p].element_count) ++p;
     const scene::Part& part = assembled.scene.parts[p];
-    for (int e = range.first_element; e < range.first_element + range.element_count; ++e) {
-      const ElementStep own = element_eigenvalue_step(
-          corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]),
-          assembled.scene.materials[range.material], part.hourglass, part.hourglass_coefficient);
-      steps.step[e] = own.step;
-      steps.control[e] = own.control;
-    }
+    const scene::Material& material = assembled.scene.materials[assembly.parts[p].material];
+    const HexahedronCorners corners = corners_of(assembly.nodes, assembly.elements[e]);
+    const ElementStep own = element_eigenvalue_step(corners, material, part.hourglass, part.hourglass_coefficient);
+    steps.step[i] = own.step;
+    steps.control[i] = own.control;
+    if (part.damped())
+      steps.step[i] = damped_element_step(part, material, std::cbrt(hexahedron_volume(corners)), speed, steps.step[i]);
+    drag(assembly, absorbing, e, steps.step[i]);
   }
-  damp(assembled, steps.step);
-  drag(assembled.assembly, absorbing, steps.step);
   return steps;
+}
+
+/// Each rank computes those of its blocks. Rank 0 gets those of all elements, another rank its own, ascending.
+EigenvalueSteps eigenvalue_steps_of_ranks(const Model& model, Transport& transport) {
+  const std::vector<int> own = elements_of_rank(model, transport.rank());
+  EigenvalueSteps steps = eigenvalue_steps(model, model.absorbing, &own);
+  meet(transport);
+  if (transport.rank() > 0) {
+    for (const auto* values : {&steps.step, &steps.control})
+      transport.start_send(0, values->data(), sizeof(double) * values->size());
+    transport.finish();
+    return steps;
+  }
+  EigenvalueSteps all(model.element_count());
+  const auto put = [&all](const std::vector<int>& elements, const EigenvalueSteps& of) {
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      all.step[elements[i]] = of.step[i];
+      all.control[elements[i]] = of.control[i];
+    }
+  };
+  put(own, steps);
+  for (int r = 1; r < transport.ranks(); ++r) {
+    const std::vector<int> others = elements_of_rank(model, r);
+    steps = EigenvalueSteps(others.size());
+    for (auto* values : {&steps.step, &steps.control})
+      transport.start_receive(r, values->data(), sizeof(double) * values->size());
+    transport.finish();
+    put(others, steps);
+  }
+  return all;
 }
 
 /// Stable step of each element, V / (A_max C_d), which knows of waves only, and no more than its hourglass control
@@ -112,7 +132,7 @@ std::vector<double> element_steps(const AssembledScene& assembled, const Absorbi
                      ? eigenvalues.step[e]
                      : std::fmin(assembled.element_length[e] / speed, eigenvalues.control[e]);
   }
-  drag(assembled.assembly, absorbing, steps);
+  for (std::size_t e = 0; e < steps.size(); ++e) drag(assembled.assembly, absorbing, static_cast<int>(e), steps[e]);
   return steps;
 }
 
@@ -231,8 +251,10 @@ ContactOnNodes springs_of_contacts(const Model& model) {
 }
 
 /// Of all ranks together: each calls it.
-double search_together(const Model& model, const ContactOnNodes& springs, double longest, Transport& transport) {
+double search_together(Model& model, const ContactOnNodes& springs, double longest, Transport& transport) {
   EstimateShare share(model, model, transport);
+  // Rank 0 is asked for the whole mesh until a run begins.
+  if (transport.rank() > 0) keep_mesh_of_blocks(model, transport.rank());
   const ContactOnNodes contact = share.own_part(springs);
   const Ties no_ties;
   const std::vector<ConnectorCell> no_cells;
@@ -246,7 +268,7 @@ double search_together(const Model& model, const ContactOnNodes& springs, double
 /// What heights promise is the limit of waves inside a body: free surfaces, edges and corners, bodies few elements
 /// thick, and contact on top of that go below it. Where the eigenvalues do not vouch for a step, the scene's own
 /// highest frequency is asked. A model without nodes (of which levels are counted) can't be.
-double stable_together(const Model& model, double by_elements, double by_eigenvalues, SearchLeader& leader) {
+double stable_together(Model& model, double by_elements, double by_eigenvalues, SearchLeader& leader) {
   if (by_eigenvalues >= by_elements || model.nodes.count == 0) return by_elements;
   double step = 0;
   if (leader.transport() != nullptr && EstimateShare::possible(model.scene)) {
@@ -258,13 +280,17 @@ double stable_together(const Model& model, double by_elements, double by_eigenva
   return std::fmax(by_eigenvalues, step);
 }
 
-void estimate_by_elements(Model& model, SearchLeader& leader) {
+void estimate_by_elements(Model& model, EigenvalueSteps eigenvalues, SearchLeader& leader) {
   StableStep& stable = model.stable_step;
-  EigenvalueSteps eigenvalues = eigenvalue_steps(model, model.absorbing);
   auto heights = element_steps(model, model.absorbing, eigenvalues);
   model.own_steps.assign(eigenvalues.step.begin(), eigenvalues.step.end());
   std::tie(stable.element, stable.elements) = least_of(heights);
   std::tie(stable.eigenvalue_element, stable.eigenvalue) = least_of(eigenvalues.step);
+  const auto place = [&](int element) {
+    return element < 0 ? Vec3{} : model.assembly.nodes[model.assembly.elements[element][0]];
+  };
+  stable.element_place = place(stable.element);
+  stable.eigenvalue_place = place(stable.eigenvalue_element);
   stable.by_elements = stable.elements;
   stable.by_eigenvalues = stable.eigenvalue;
   // Multipliers are constraints: they add no frequency above the elements' own.
@@ -280,7 +306,7 @@ void estimate_by_elements(Model& model, SearchLeader& leader) {
     stable.by_elements = std::fmin(stable.by_elements, stable.contact);
     stable.by_eigenvalues = std::fmin(stable.by_eigenvalues, stable.eigenvalue_contact);
   }
-  eigenvalues = {};
+  eigenvalues = EigenvalueSteps(0);
   heights = std::vector<double>();
   stable.by_elements = stable_together(model, stable.by_elements, stable.by_eigenvalues, leader);
   const bool strikes = strikes_undamped(model.scene, model.contacts);
@@ -358,9 +384,11 @@ void renew_global_step(const scene::Scene& scene, const std::vector<ContactPair>
 }
 
 void help_with_stable_step(Model& model, Transport& transport) {
+  {
+    const EigenvalueSteps own = eigenvalue_steps_of_ranks(model, transport);
+    model.own_steps.assign(own.step.begin(), own.step.end());
+  }
   const ContactOnNodes springs = springs_of_contacts(model);
-  const std::vector<double> steps = safe_steps(model, model.absorbing);
-  model.own_steps.assign(steps.begin(), steps.end());
   // Rank 0 alone asks for them from here on.
   model.mass = std::vector<double>();
   model.element_length = std::vector<double>();
@@ -372,8 +400,10 @@ void help_with_stable_step(Model& model, Transport& transport) {
 void build_stable_step(Model& model, Transport* transport) {
   StableStep& stable = model.stable_step;
   {
+    EigenvalueSteps eigenvalues =
+        transport != nullptr ? eigenvalue_steps_of_ranks(model, *transport) : eigenvalue_steps(model, model.absorbing);
     SearchLeader leader(transport);
-    estimate_by_elements(model, leader);
+    estimate_by_elements(model, std::move(eigenvalues), leader);
   }
   const scene::StepEstimate choice = model.scene.solver.step_estimate;
   stable.limit = choice == scene::StepEstimate::eigenvalue ? stable.by_eigenvalues : stable.by_elements;

@@ -33,17 +33,19 @@ struct StepChoice {
 
 /// The stable step, s, by each estimate, and what sets it.
 struct StableStep {
-  double elements = 0;     ///< min V / (A_max C_d), thesis eq. 2.14
-  int element = -1;        ///< the element that sets it
-  double contact = 0;      ///< of the contact springs with the elements under them; 0: no contact
-  double connector = 0;    ///< of springs and dashpots on the masses of their ends; 0: none
-  double beam = 0;         ///< of the beams with the mass that is theirs; 0: none
-  double by_elements = 0;  ///< these together
+  double elements = 0;          ///< min V / (A_max C_d), thesis eq. 2.14
+  int element = -1;             ///< the element that sets it
+  scene::Vec3 element_place{};  ///< m, of its first node
+  double contact = 0;           ///< of the contact springs with the elements under them; 0: no contact
+  double connector = 0;         ///< of springs and dashpots on the masses of their ends; 0: none
+  double beam = 0;              ///< of the beams with the mass that is theirs; 0: none
+  double by_elements = 0;       ///< these together
 
   double eigenvalue = 0;  ///< of the element with the highest eigenvalue, hourglass control included
   int eigenvalue_element = -1;
-  double eigenvalue_contact = 0;  ///< of the contact springs with such elements under them; 0: no contact
-  double by_eigenvalues = 0;      ///< these and the connectors together
+  scene::Vec3 eigenvalue_place{};  ///< m
+  double eigenvalue_contact = 0;   ///< of the contact springs with such elements under them; 0: no contact
+  double by_eigenvalues = 0;       ///< these and the connectors together
 
   double global = 0;                    ///< of the whole scene at its last renewal; 0: not asked for
   long springs = 0;                     ///< contact springs counted in it
@@ -59,7 +61,8 @@ class GlobalEstimate;
 /// How large a run's steps are, how many, and at which of them it writes.
 struct StepSizes {
   StableStep stable_step;
-  std::vector<float> own_steps;  ///< s, by element as it was made: what it bears by its highest eigenvalue
+  std::vector<float> own_steps;  ///< s, by element as it was made: what it bears by its highest eigenvalue. On another
+                                 ///< rank than 0 of the elements of its blocks, ascending
   std::shared_ptr<GlobalEstimate> global_estimate;  ///< null unless the case asks for it
   double step_size = 0;  ///< s, of the present step: the scale factor's share of the stable one, in whole steps
   long step_count = 0;   ///< steps from 0 to the end, if the step stays

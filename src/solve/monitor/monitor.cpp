@@ -29,8 +29,6 @@ constexpr double steps_of_sums = 1000;
 /// The same of loads' work where nodes are in single precision: these hold what work has changed of the motion that a
 /// part began with.
 constexpr double rounding_of_single_step = 4 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
-/// Strain that elements in single precision see at most where bodies travel and there is none.
-constexpr double strain_of_rounding = 8 * 0.5 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// Of the part (w dt)^2 of its kinetic energy, what the first steps of a body that turns by w dt in each, unsettled,
 /// can lose or make: they carry its nodes along tangents, and it rings with what that stretches.
 constexpr double turning = 4;
@@ -56,44 +54,17 @@ Fault seen_at(const HistorySample& sample, FaultKind kind, bool fatal, double va
   return fault;
 }
 
-/// J, elastic, of what rounding strains elements in single precision by.
-double energy_of_rounding(const AssembledScene& assembled) {
-  double energy = 0;
-  if (assembled.scene.solver.elements_in_single())
-    for (const auto& part : assembled.assembly.parts)
-      for (int e = part.first_element; e < part.first_element + part.element_count; ++e)
-        energy += 0.5 * assembled.scene.materials[part.material].dilatational_modulus() * strain_of_rounding *
-                  strain_of_rounding *
-                  hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
-  return energy;
-}
-
-/// J, elastic, of what the rounding of places strains elements by: what a scene at rest has of energies, and takes in a
-/// step.
-double energy_of_rest(const AssembledScene& assembled) {
-  double largest = 0, energy = 0;
-  for (const Vec3& place : assembled.assembly.nodes)
-    for (double x : place) largest = std::max(largest, std::fabs(x));
-  for (const auto& part : assembled.assembly.parts)
-    for (int e = part.first_element; e < part.first_element + part.element_count; ++e) {
-      const double strain = 8 * 0.5 * std::numeric_limits<double>::epsilon() * largest / assembled.element_length[e];
-      energy += 0.5 * assembled.scene.materials[part.material].dilatational_modulus() * strain * strain *
-                hexahedron_volume(corners_of(assembled.assembly.nodes, assembled.assembly.elements[e]));
-    }
-  return energy;
-}
-
 }  // namespace
 
 Monitor::Monitor(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes,
-                 const LoadModel& loads, const std::vector<ContactPair>& contacts, const OwnItems* own,
-                 SampledRanks* others)
+                 const LoadModel& loads, const std::vector<ContactPair>& contacts, const SceneAsMade& made,
+                 const OwnItems* own, SampledRanks* others)
     : assembled_(assembled), nodal_(nodal), sizes_(sizes), loads_(loads), contacts_(contacts), others_(others) {
   if (!assembled.scene.monitor.active) return;
   arrays_ = std::make_unique<MonitorArrays>(assembled.assembly, contacts, own);
-  evidence_.worst_shape = arrays_->worst_shape();
-  energy_of_rounding_ = energy_of_rounding(assembled);
-  energy_of_rest_ = energy_of_rest(assembled);
+  evidence_.worst_shape = made.worst_shape;
+  energy_of_rounding_ = made.energy_of_rounding;
+  energy_of_rest_ = made.energy_of_rest;
   parts_.resize(assembled.assembly.parts.size());
   if (!contacts.empty()) ends_ = std::make_unique<EndMonitor>(assembled, nodal, contacts, others);
 }
@@ -340,6 +311,7 @@ void Monitor::note(FaultKind kind, bool fatal, double value, double limit, const
   // What has become fatal is reported anew.
   const auto known = std::find_if(found_.begin(), found_.end(), [&](const Fault& one) { return one.kind == kind; });
   if (known != found_.end() && (known->fatal || !fatal)) return;
+  if (others_ != nullptr) others_->gather_mesh();  // causes are looked for in all of it
   Fault fault = seen_at(sample, kind, fatal, value, limit);
   if (at_element)
     place_at_element(fault, where.place);

@@ -14,6 +14,21 @@
 
 namespace railwave {
 
+/// scene_as_made.cpp: what a run asks of the whole mesh, found before it begins: on several ranks none has the whole
+/// mesh then.
+struct SceneAsMade {
+  // Of the monitor, where it is active:
+  Extreme worst_shape;            ///< smallest Jacobian at a corner over the mean of its element; element
+  double energy_of_rounding = 0;  ///< J, elastic, of what rounding strains elements in single precision by
+  double energy_of_rest = 0;  ///< J, elastic, of what the rounding of places strains elements by: what a scene at rest
+                              ///< has of energies, and takes in a step
+
+  // Lines of the summary about sets that were asked for by position:
+  std::vector<std::string> node_set_warnings, element_set_warnings;
+
+  explicit SceneAsMade(const AssembledScene& assembled);
+};
+
 /// Monitors a run for what can't be right: scene.monitor has the limits, docs/monitor.md the table. All that it
 /// measures on the device it measures at checks, which are rare; an inactive monitor knows of values that are not
 /// finite only.
@@ -21,7 +36,8 @@ class Monitor {
  public:
   /// @param own of a run over several ranks: what this process measures; null: all
   Monitor(const AssembledScene& assembled, const NodalState& nodal, const StepSizes& sizes, const LoadModel& loads,
-          const std::vector<ContactPair>& contacts, const OwnItems* own = nullptr, SampledRanks* others = nullptr);
+          const std::vector<ContactPair>& contacts, const SceneAsMade& made, const OwnItems* own = nullptr,
+          SampledRanks* others = nullptr);
 
   /// Whether a check is due at this step: 64 times a run, but no oftener than every 512 steps and no rarer than every
   /// 4096; at the first powers of two; every 32 while something odd grows; after the ends of contacts were checked and
@@ -130,8 +146,8 @@ class Monitor {
       0;  ///< J, the most so far that deformation held and had dissipated, less what the balance says was made
   double impacts_ = 0;                    ///< J, the most so far that impacts on multipliers had taken
   double work_ = 0;                       ///< J, the most that loads have worked
-  double energy_of_rounding_ = 0;         ///< J, of elements in single precision
-  double energy_of_rest_ = 0;             ///< J, of rounded places, in a step
+  double energy_of_rounding_ = 0;         ///< J, see SceneAsMade
+  double energy_of_rest_ = 0;             ///< J, the same
   double rate_at_start_ = 0;              ///< 1/s, at which the fastest turning body begins to turn
   double share_ = 0, kinetic_share_ = 0;  ///< error of the balance, and kinetic energy beyond what was given, beyond
                                           ///< what they can't help, over `deformation_`

@@ -11,13 +11,6 @@
 namespace railwave {
 namespace {
 
-ElementShape shape_of(const Assembly& assembly, int element) {
-  ElementShape shape;
-  for (int N = 0; N < 8; ++N)
-    for (int i = 0; i < 3; ++i) shape.x[N][i] = assembly.nodes[assembly.elements[element][N]][i];
-  return shape;
-}
-
 /// Of equal values the lower place is kept, as Largest does.
 void keep_larger(Extreme& extreme, const Extreme& other, double sign) {
   if (other.place < 0) return;
@@ -27,6 +20,13 @@ void keep_larger(Extreme& extreme, const Extreme& other, double sign) {
 
 }  // namespace
 
+ElementShape undeformed_shape(const Assembly& assembly, int element) {
+  ElementShape shape;
+  for (int N = 0; N < 8; ++N)
+    for (int i = 0; i < 3; ++i) shape.x[N][i] = assembly.nodes[assembly.elements[element][N]][i];
+  return shape;
+}
+
 void join(MonitorMeasures& measures, const MonitorMeasures& of_others) {
   keep_larger(measures.jacobian, of_others.jacobian, -1);
   keep_larger(measures.distortion, of_others.distortion, 1);
@@ -35,31 +35,27 @@ void join(MonitorMeasures& measures, const MonitorMeasures& of_others) {
 }
 
 MonitorArrays::MonitorArrays(const Assembly& assembly, const std::vector<ContactPair>& contacts, const OwnItems* own) {
-  const int all = static_cast<int>(assembly.elements.size());
   if (own != nullptr) {
     elements_ = own->elements;
     own_nodes_ = true;
     node_numbers_ = own->nodes;
     nodes_ = to_device("monitored nodes", own->nodes);
   }
-  shapes_.count = own != nullptr ? static_cast<int>(elements_.size()) : all;
+  shapes_.count = own != nullptr ? static_cast<int>(elements_.size()) : static_cast<int>(assembly.elements.size());
   shapes_.corners = unset_array<int* [8]>("monitored corners", shapes_.count);
   shapes_.undeformed = unset_array<float * [ElementShapes::values]>("monitored shapes", shapes_.count);
   const auto corners = Kokkos::create_mirror_view(shapes_.corners);
   const auto undeformed = Kokkos::create_mirror_view(shapes_.undeformed);
-  for (int e = 0, i = 0; e < all; ++e) {
-    const ElementShape shape = shape_of(assembly, e);
+  for (int i = 0; i < shapes_.count; ++i) {
+    const int e = own != nullptr ? elements_[i] : i;
+    const ElementShape shape = undeformed_shape(assembly, e);
     const double volume = hexahedron_volume(corners_of(assembly.nodes, assembly.elements[e])), mean = volume / 8;
     const double jacobian = shape.smallest_jacobian();
-    if (e == 0 || jacobian / mean < worst_shape_.value) worst_shape_ = {jacobian / mean, e};
-    // The own ones ascend.
-    if (i == shapes_.count || (own != nullptr && elements_[i] != e)) continue;
     for (int N = 0; N < 8; ++N) corners(i, N) = assembly.elements[e][N];
     undeformed(i, ElementShapes::jacobian) = static_cast<float>(jacobian);
     undeformed(i, ElementShapes::scale) = static_cast<float>(std::fmax(jacobian, 0.1 * mean));
     for (int m = 0; m < 4; ++m) undeformed(i, ElementShapes::mode + m) = static_cast<float>(shape.hourglass_mode(m));
     undeformed(i, ElementShapes::size) = static_cast<float>(std::cbrt(volume));
-    ++i;
   }
   Kokkos::deep_copy(shapes_.corners, corners);
   Kokkos::deep_copy(shapes_.undeformed, undeformed);

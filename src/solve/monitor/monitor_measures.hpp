@@ -30,6 +30,9 @@ struct MonitorMeasures {
 /// Puts the worse of two sets of measures into the first: contacts are rank 0's.
 void join(MonitorMeasures& measures, const MonitorMeasures& of_others);
 
+/// An element of the mesh, undeformed.
+ElementShape undeformed_shape(const Assembly& assembly, int element);
+
 /// The device arrays of the monitor, and the reductions over them: a few launches a check, none in a step.
 class MonitorArrays {
  public:
@@ -39,9 +42,6 @@ class MonitorArrays {
 
   /// Largest difference of velocity over distance between neighbouring corners of an element, 1/s.
   double largest_rate(const NodalState& nodal) const;
-
-  /// Smallest Jacobian at a corner over the mean of its element, undeformed; element.
-  Extreme worst_shape() const { return worst_shape_; }
 
   /// What was seen of contact nodes up to now.
   void archive(StateSaver& state);
@@ -53,7 +53,6 @@ class MonitorArrays {
   bool own_nodes_ = false;     ///< the listed nodes alone are measured
   std::vector<int> node_numbers_;
   Array<int*> nodes_;
-  Extreme worst_shape_;
   std::vector<Array<int*>> changes_;  ///< by contact pair
 };
 

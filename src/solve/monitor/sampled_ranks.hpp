@@ -32,7 +32,9 @@ class SampledRanks {
   virtual void join_deformed(DeformedNow& own, double first_limit, double second_limit) = 0;
   virtual void join_deformed(DeformedAhead& own, double limit, double step, double least) = 0;
 
-  /// Makes the arrays of nodes and elements whole.
+  /// Makes the mesh whole.
+  virtual void gather_mesh() = 0;
+  /// Makes the arrays of nodes and elements whole, and the mesh.
   virtual void gather() = 0;
 };
 

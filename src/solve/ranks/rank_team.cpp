@@ -8,6 +8,7 @@
 
 #include "case/memory.hpp"
 #include "model/host_copy.hpp"
+#include "model/ranks/mesh_share.hpp"
 #include "model/time_step/deformed_elements.hpp"
 #include "solve/monitor/account.hpp"
 #include "solve/step_recording.hpp"
@@ -46,9 +47,9 @@ std::uint64_t fingerprint(const Model& model) {
     const auto* byte = static_cast<const unsigned char*>(data);
     for (std::size_t k = 0; k < bytes; ++k) hash = (hash ^ byte[k]) * 1099511628211ull;
   };
-  const std::vector<double> mass = to_vector(model.nodes.mass);
+  const auto mass = to_host(model.nodes.mass);
   const double end = model.scene.time.end;
-  add(mass.data(), sizeof(double) * mass.size());
+  add(mass.data(), sizeof(double) * mass.extent(0));
   add(&end, sizeof end);
   add(model.scene.static_text.data(), model.scene.static_text.size());
   return hash;
@@ -77,6 +78,7 @@ Instant instant_of(const RankOrder& order) {
 RankLeader::RankLeader(Model& model, Transport& transport)
     : model_(model), transport_(transport), state_transfer_(model, transport) {
   give_order(RankOrder::deal_out, {});
+  if (!rank_0_needs_all(model.scene)) keep_mesh_of_blocks(model, 0);
   const BlockPartition partition = partition_of(model, transport.ranks());
   const RankLayout layout = lay_out_ranks(model, partition);
   for (int r = 0; r < transport.ranks(); ++r) items_.push_back(items_of(model, partition, layout, r));
@@ -113,6 +115,7 @@ void RankLeader::give_order(RankOrder order) {
 }
 
 void RankLeader::begin(bool at_start) {
+  if (!model_.whole_mesh) forget_mesh_of_blocks(model_);
   // Models begin alike where nothing has moved them yet.
   if (at_start && !model_.filled) return;
   give_order(RankOrder::take_state, {});
@@ -140,9 +143,24 @@ void RankLeader::take(Transferred what) {
   ++counts_[static_cast<int>(what)];
 }
 
+void RankLeader::gather_mesh() {
+  if (model_.whole_mesh) return;
+  give_order(RankOrder::gather_mesh, {});
+  put_back(piece_of_arrays(model_, items_[0]), items_[0], model_);
+  for (int r = 1; r < transport_.ranks(); ++r) {
+    MeshPiece piece = empty_piece(model_, items_[r]);
+    transport_.start_receive(r, piece.elements.data(), sizeof(piece.elements[0]) * piece.elements.size());
+    transport_.start_receive(r, piece.nodes.data(), sizeof(Vec3) * piece.nodes.size());
+    transport_.finish();
+    put_back(piece, items_[r], model_);
+  }
+  model_.whole_mesh = true;
+}
+
 void RankLeader::gather() {
-  if (whole_) return;
+  gather_mesh();
   fill_rest(model_);
+  if (whole_) return;
   give_order(RankOrder::gather, {});
   take(Transferred::state);
   whole_ = true;
@@ -316,6 +334,13 @@ void follow_rank_0(Model& model, Transport& transport) {
       case RankOrder::gather:
         state_transfer.send(0, items, Transferred::state);
         break;
+      case RankOrder::gather_mesh: {
+        const MeshPiece piece = piece_of_arrays(model, items);
+        transport.start_send(0, piece.elements.data(), sizeof(piece.elements[0]) * piece.elements.size());
+        transport.start_send(0, piece.nodes.data(), sizeof(Vec3) * piece.nodes.size());
+        transport.finish();
+        break;
+      }
       case RankOrder::gather_places:
         state_transfer.send(0, items, Transferred::places);
         break;

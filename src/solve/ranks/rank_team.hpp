@@ -53,6 +53,7 @@ struct RankOrder {
     advance,     ///< so many steps
     sample,      ///< the forces of an instant, as for outputs
     gather,      ///< the state of the blocks
+    gather_mesh,
     gather_places,
     move,       ///< the nodes, after a sample
     energies,   ///< sums of energies, after a sample
@@ -97,6 +98,7 @@ class RankLeader : public SampledRanks {
   void sample(const Instant& instant);
   void move(const Instant& instant);
   /// Nothing where they are whole already.
+  void gather_mesh() override;
   void gather() override;
   /// What fields are written from: places alone where displacements are.
   void gather_fields();
